@@ -1,0 +1,40 @@
+# Options of the build, and the one place that fixes the floating-point environment.
+
+option(NEARMISS_TESTS "Build the tests" ON)
+option(NEARMISS_FCL "Build FCL as a subject, where it is installed" ON)
+option(NEARMISS_WERROR "Treat warnings as errors" OFF)
+set(NEARMISS_SANITIZE "" CACHE STRING "Sanitizers, separated by commas: address,undefined")
+option(NEARMISS_COVERAGE "Instrument for coverage" OFF)
+option(NEARMISS_LIBFUZZER "Link fuzz targets with libFuzzer (clang only); otherwise with a plain main" OFF)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(NEARMISS_CCACHE ccache)
+if(NEARMISS_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${NEARMISS_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${NEARMISS_CCACHE})
+endif()
+
+# Warnings, and floating point as IEEE 754 has it. A contraction (a * b + c in one rounding) or a
+# reassociation changes what a tier computes and breaks the intervals' bounds, so the result of a case
+# would depend on the compiler. oracles/environment.cpp asserts at build and at start that it holds.
+add_library(nearmiss_flags INTERFACE)
+target_compile_options(nearmiss_flags INTERFACE
+  -Wall -Wextra -Wshadow -Wno-unknown-pragmas
+  -ffp-contract=off -fno-fast-math
+  $<$<BOOL:${NEARMISS_WERROR}>:-Werror>
+  $<$<BOOL:${NEARMISS_COVERAGE}>:--coverage>)
+target_link_options(nearmiss_flags INTERFACE $<$<BOOL:${NEARMISS_COVERAGE}>:--coverage>)
+if(NEARMISS_SANITIZE)
+  target_compile_options(nearmiss_flags INTERFACE
+    -fsanitize=${NEARMISS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(nearmiss_flags INTERFACE -fsanitize=${NEARMISS_SANITIZE})
+endif()
+target_include_directories(nearmiss_flags INTERFACE ${PROJECT_SOURCE_DIR})

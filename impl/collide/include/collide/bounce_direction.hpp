@@ -1,0 +1,52 @@
+/// The direction in which a sphere leaves a contact.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The direction of `velocity`, reflected at the contact of a moving sphere.
+///
+/// With u the vector from `location` to the sphere's center at `time`, or `normal` where that is
+/// exactly zero, and d = velocity / |velocity|:
+///
+/// 1. direction == d - 2 (d . u) u / |u|^2
+/// 2. |direction| == 1, or 0 for zero velocity
+///
+/// The sphere's radius and the lengths of u, normal and velocity play no part.
+template <class Tier = Fast, class T>
+Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
+                              const Vec3<T>& location, const Vec3<T>& normal) noexcept {
+  const Vec3<T> to_center = (sphere.center - location) + velocity * time;
+  const bool apart = !(to_center == Vec3<T>{});
+  const Vec3<T> u = unit<Tier>(apart ? to_center : normal);
+  const Vec3<T> d = unit<Tier>(velocity);
+  return {d - u * (T(2) * Tier::dot(d, u))};
+}
+
+namespace inputs {
+template <class T>
+struct bounce_direction {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  T time{};
+  Vec3<T> location{};
+  Vec3<T> normal{T(0), T(0), T(1)};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &bounce_direction::sphere),
+                      member("velocity", &bounce_direction::velocity, Role::velocity),
+                      member("time", &bounce_direction::time, Role::time),
+                      member("location", &bounce_direction::location, Role::position),
+                      member("normal", &bounce_direction::normal, Role::direction));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::bounce_direction<Tier>(sphere, velocity, time, location, normal);
+  }
+};
+}  // namespace inputs
+}  // namespace collide

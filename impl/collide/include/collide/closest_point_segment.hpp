@@ -1,0 +1,49 @@
+/// The point of a segment nearest to a point.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The point of `segment` nearest to `point`.
+///
+/// 1. closest_point_segment(s, s.v0).point == s.v0, and the same for s.v1
+/// 2. the distance to the result is not larger than the distance to either end
+///
+/// Units: lengths. Never fails. Source: orthogonal projection, clamped to the segment.
+template <class Tier = Fast, class T>
+ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) noexcept {
+  const Vec3<T> along = segment.v1 - segment.v0;
+  const T projection = Tier::dot(point - segment.v0, along);
+  const T length2 = Tier::dot(along, along);
+  if (projection <= T(0)) return {segment.v0};
+  if (projection >= length2) return {segment.v1};
+  return {segment.v0 + along * (projection / length2)};
+}
+
+namespace inputs {
+template <class T>
+struct closest_point_segment {
+  Segment<T> segment{};
+  Vec3<T> point{};
+
+  static constexpr auto members() {
+    return std::tuple(member("segment", &closest_point_segment::segment),
+                      member("point", &closest_point_segment::point, Role::position));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::closest_point_segment<Tier>(segment, point);
+  }
+
+  /// Two subtractions (each 1 eps of the largest position G times 2), a dot product of three terms
+  /// (3 eps of |point - v0| |along|, so 3 * 4 eps G along the segment after the division), the
+  /// division, the product and the sum (1 eps each of at most 2 G): 2*2 + 12 + 3*2 eps G. Moving
+  /// `point` and both ends by that much reproduces the result.
+  static constexpr Contract contract(Fast) { return {.backward = 22, .lowest = -30, .highest = 30}; }
+};
+}  // namespace inputs
+}  // namespace collide

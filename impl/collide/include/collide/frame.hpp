@@ -1,0 +1,72 @@
+/// The frame of a box: its axes in world coordinates.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The three unit axes of a rotation; axis[i] is the image of the i-th coordinate axis.
+template <class T>
+using Axes = std::array<Vec3<T>, 3>;
+
+/// The axes of the rotation q / |q|, without a square root: the matrix is rational in q.
+template <class T>
+Axes<T> axes_of(const Quaternion<T>& q) noexcept {
+  const T s = T(2) / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  const T xs = q.x * s, ys = q.y * s, zs = q.z * s;
+  const T wx = q.w * xs, wy = q.w * ys, wz = q.w * zs;
+  const T xx = q.x * xs, xy = q.x * ys, xz = q.x * zs;
+  const T yy = q.y * ys, yz = q.y * zs, zz = q.z * zs;
+  return {Vec3<T>{T(1) - (yy + zz), xy + wz, xz - wy},  //
+          Vec3<T>{xy - wz, T(1) - (xx + zz), yz + wx},  //
+          Vec3<T>{xz + wy, yz - wx, T(1) - (xx + yy)}};
+}
+
+/// World to box coordinates, and back. Both are directions: no translation.
+template <class Tier, class T>
+std::array<T, 3> into_frame(const Axes<T>& axes, const Vec3<T>& world) noexcept {
+  return {Tier::dot(axes[0], world), Tier::dot(axes[1], world), Tier::dot(axes[2], world)};
+}
+template <class T>
+Vec3<T> out_of_frame(const Axes<T>& axes, const std::array<T, 3>& local) noexcept {
+  return axes[0] * local[0] + axes[1] * local[1] + axes[2] * local[2];
+}
+
+template <class T>
+std::array<T, 3> components(const Vec3<T>& v) noexcept {
+  return {v.x, v.y, v.z};
+}
+
+/// How far a coordinate lies beyond [-half, half]: signed, zero within.
+template <class T>
+T excess(T coordinate, T half) noexcept {
+  if (coordinate > half) return coordinate - half;
+  if (coordinate < -half) return coordinate + half;
+  return T(0);
+}
+
+/// The face of a box nearest to a point inside it.
+template <class T>
+struct NearestFace {
+  int axis = 0;   ///< of the face's outward normal
+  T side{1};      ///< +1 or -1
+  T distance{};   ///< from the point, not negative for a point inside
+};
+
+template <class T>
+NearestFace<T> nearest_face(const std::array<T, 3>& local, const std::array<T, 3>& half) noexcept {
+  using std::abs;
+  NearestFace<T> best;
+  for (int i = 0; i < 3; ++i) {
+    const T distance = half[i] - abs(local[i]);
+    if (i == 0 || distance < best.distance) best = {i, local[i] < T(0) ? T(-1) : T(1), distance};
+  }
+  return best;
+}
+
+}  // namespace collide

@@ -1,0 +1,214 @@
+/// When and where a moving sphere meets a box.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// A point that moves past a box, both in the box's frame. The squared distance to the box is convex
+/// along the motion and quadratic between the times at which a coordinate crosses a face plane.
+template <class Tier, class T>
+struct PointPastBox {
+  std::array<T, 3> at, step, half;  // position, velocity, half extents
+
+  /// Moves on by `time`; a coordinate that reaches the face plane `exact` lands on it exactly.
+  void advance(T time, int exact, T plane) noexcept {
+    for (int i = 0; i < 3; ++i) at[i] += step[i] * time;
+    if (exact >= 0) at[exact] = plane;
+  }
+  /// Beyond the box along axis i, seen from the moving point: a coordinate on a face plane counts as
+  /// beyond when it is about to leave.
+  T beyond(int i) const noexcept {
+    if (at[i] > half[i] || (at[i] == half[i] && step[i] > T(0))) return at[i] - half[i];
+    if (at[i] < -half[i] || (at[i] == -half[i] && step[i] < T(0))) return at[i] + half[i];
+    return T(0);
+  }
+  bool is_beyond(int i) const noexcept {
+    return at[i] > half[i] || at[i] < -half[i] || (at[i] == half[i] && step[i] > T(0)) ||
+           (at[i] == -half[i] && step[i] < T(0));
+  }
+  /// The next face plane that the motion crosses: axis (-1: none), plane, time from now.
+  struct Crossing {
+    int axis = -1;
+    T plane{};
+    T time = std::numeric_limits<T>::infinity();
+  };
+  Crossing next_crossing() const noexcept {
+    Crossing next;
+    for (int i = 0; i < 3; ++i) {
+      if (step[i] == T(0)) continue;
+      const T toward = step[i] > T(0) ? T(1) : T(-1);
+      for (const T plane : {-toward * half[i], toward * half[i]}) {
+        const T distance = (plane - at[i]) * toward;
+        if (!(distance > T(0))) continue;
+        const T time = distance / (step[i] * toward);
+        if (time < next.time) next = {i, plane, time};
+        break;
+      }
+    }
+    return next;
+  }
+  /// The first time at which the distance to the box, on the present piece, is `radius`; negative
+  /// when the piece never comes that near.
+  T time_at_distance(T radius) const noexcept {
+    using std::sqrt, std::abs;
+    T speed2(0), closing(0), distance2(0);
+    int axes = 0, last = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (!is_beyond(i)) continue;
+      const T e = beyond(i);
+      speed2 += step[i] * step[i];
+      closing -= step[i] * e;
+      distance2 += e * e;
+      ++axes, last = i;
+    }
+    if (!(closing > T(0))) return T(-1);
+    if (axes == 1) return (abs(beyond(last)) - radius) / abs(step[last]);
+    const T nearest = closing / speed2;
+    T offset2(0);
+    for (int i = 0; i < 3; ++i) {
+      if (!is_beyond(i)) continue;
+      const T offset = beyond(i) + step[i] * nearest;
+      offset2 += offset * offset;
+    }
+    const T chord2 = Tier::difference_of_products(radius, radius, T(1), offset2);
+    if (!(chord2 >= T(0))) return T(-1);
+    const T outside = Tier::difference_of_products(T(1), distance2, radius, radius);
+    return (outside / speed2) / (nearest + sqrt(chord2 / speed2));
+  }
+  /// True while the point comes no nearer: the distance is convex, so it never will.
+  bool receding() const noexcept {
+    T closing(0);
+    bool any = false;
+    for (int i = 0; i < 3; ++i) {
+      if (!is_beyond(i)) continue;
+      any = true;
+      closing -= step[i] * beyond(i);
+    }
+    return any && !(closing > T(0)) && !grazes();
+  }
+  /// A coordinate exactly on a face plane has no excess yet, though the piece ahead has one.
+  bool grazes() const noexcept {
+    for (int i = 0; i < 3; ++i) {
+      if (is_beyond(i) && beyond(i) == T(0)) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace detail
+
+/// The first contact of `sphere`, moving by `velocity` per unit of time, with the solid `box`.
+///
+/// An overlap at the start is a contact at time 0; so is a touch at the start unless the sphere
+/// leaves. A sphere of radius 0 whose center starts strictly inside never comes from outside: a miss.
+/// Location is the point of the box nearest to the center at that time or, for a center inside the
+/// box, the nearest point of its surface.
+///
+/// 1. |center + velocity * time - location| == radius, but for an overlap at the start
+/// 2. normal points from location to the center, or outward for a center inside
+///
+/// Source: in the box's frame the squared distance of the center is a convex piecewise quadratic of
+/// time; its first root is found piece by piece (at most seven).
+template <class Tier = Fast, class T>
+Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) noexcept {
+  using std::sqrt, std::abs;
+  const Axes<T> axes = axes_of(box.orientation);
+  const std::array<T, 3> half = components(box.half);
+  detail::PointPastBox<Tier, T> path{into_frame<Tier>(axes, sphere.center - box.center),
+                                     into_frame<Tier>(axes, velocity), half};
+  const auto contact = [&](T time, int face) -> Impact<T> {
+    if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
+    std::array<T, 3> nearest, away{};
+    T length2(0);
+    for (int i = 0; i < 3; ++i) {
+      nearest[i] = std::clamp(path.at[i], -half[i], half[i]);
+      away[i] = path.at[i] - nearest[i];
+      length2 += away[i] * away[i];
+    }
+    if (!(length2 > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
+      const NearestFace<T> at_face = nearest_face(path.at, half);
+      const int axis = face >= 0 ? face : at_face.axis;
+      const T side = face >= 0 ? (path.step[axis] > T(0) ? T(-1) : T(1)) : at_face.side;
+      away = {};
+      away[axis] = side;
+      nearest[axis] = side * half[axis];
+      length2 = T(1);
+    }
+    const T length = sqrt(length2);
+    for (T& component : away) component /= length;
+    return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, away)};
+  };
+
+  T distance2(0), closing(0);
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) {
+    const T e = excess(path.at[i], half[i]);
+    distance2 += e * e;
+    closing -= e * path.step[i];
+    inside = inside && abs(path.at[i]) < half[i];
+  }
+  const T outside = Tier::difference_of_products(T(1), distance2, sphere.radius, sphere.radius);
+  if (outside < T(0)) return contact(T(0), -1);
+  if (outside == T(0) && distance2 == T(0)) {  // a point on the surface or inside
+    if (inside) return Impact<T>::miss();
+    for (int i = 0; i < 3; ++i) {
+      for (const T side : {T(-1), T(1)}) {
+        if (path.at[i] == side * half[i] && side * path.step[i] <= T(0)) {
+          const int axis = i;
+          path.at[axis] = side * half[axis];
+          std::array<T, 3> normal{};
+          normal[axis] = side;
+          return {T(0), box.center + out_of_frame(axes, path.at), out_of_frame(axes, normal)};
+        }
+      }
+    }
+    return Impact<T>::miss();
+  }
+  if (outside == T(0)) return closing >= T(0) ? contact(T(0), -1) : Impact<T>::miss();
+  if (!(outside > T(0)) || !(closing > T(0))) return Impact<T>::miss();
+
+  T elapsed(0);
+  for (int piece = 0; piece < 7; ++piece) {
+    const auto crossing = path.next_crossing();
+    const T time = path.time_at_distance(sphere.radius);
+    if (time >= T(0) && time <= crossing.time) {
+      int beyond = 0, face = -1;
+      for (int i = 0; i < 3; ++i) {
+        if (path.is_beyond(i)) ++beyond, face = i;
+      }
+      path.advance(time, -1, T(0));
+      return contact(elapsed + time, beyond == 1 ? face : -1);
+    }
+    if (crossing.axis < 0 || path.receding()) return Impact<T>::miss();
+    path.advance(crossing.time, crossing.axis, crossing.plane);
+    elapsed += crossing.time;
+  }
+  return Impact<T>::miss();
+}
+
+namespace inputs {
+template <class T>
+struct moving_sphere_box {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Box<T> box{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_box::sphere),
+                      member("velocity", &moving_sphere_box::velocity, Role::velocity),
+                      member("box", &moving_sphere_box::box));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::moving_sphere_box<Tier>(sphere, velocity, box);
+  }
+};
+}  // namespace inputs
+}  // namespace collide

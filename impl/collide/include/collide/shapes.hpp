@@ -1,0 +1,91 @@
+/// Shapes: plain structs of numbers, each with the set it denotes. All solids are closed.
+#pragma once
+
+#include <optional>
+
+#include <collide/vec3.hpp>
+
+namespace collide {
+
+/// A rule of a shape that its numbers break.
+struct Broken {
+  std::string_view member;  ///< which member
+  std::string_view rule;    ///< what it must be
+  double value;             ///< what it is
+};
+
+/// The segment from v0 to v1; v0 == v1 is a point.
+template <class T>
+struct Segment {
+  Vec3<T> v0{}, v1{};
+
+  static constexpr auto members() {
+    return std::tuple(member("v0", &Segment::v0, Role::position),
+                      member("v1", &Segment::v1, Role::position));
+  }
+};
+
+/// The convex hull of three points, seen from the side to which (v1 - v0) x (v2 - v0) points.
+template <class T>
+struct Triangle {
+  Vec3<T> v0{}, v1{}, v2{};
+
+  static constexpr auto members() {
+    return std::tuple(member("v0", &Triangle::v0, Role::position),
+                      member("v1", &Triangle::v1, Role::position),
+                      member("v2", &Triangle::v2, Role::position));
+  }
+};
+
+/// The closed ball around center.
+template <class T>
+struct Sphere {
+  Vec3<T> center{};
+  T radius{};
+
+  static constexpr auto members() {
+    return std::tuple(member("center", &Sphere::center, Role::position),
+                      member("radius", &Sphere::radius, Role::size));
+  }
+  std::optional<Broken> broken() const {
+    if (radius < T(0)) return Broken{"radius", "not negative", double(radius)};
+    return std::nullopt;
+  }
+};
+
+/// A quaternion w + xi + yj + zk of any length but zero; the rotation is that of q / |q|.
+template <class T>
+struct Quaternion {
+  T x{}, y{}, z{}, w{1};
+
+  static constexpr auto members() {
+    return std::tuple(member("x", &Quaternion::x), member("y", &Quaternion::y),
+                      member("z", &Quaternion::z), member("w", &Quaternion::w));
+  }
+  std::optional<Broken> broken() const {
+    if (x == T(0) && y == T(0) && z == T(0) && w == T(0)) return Broken{"w", "not all of x, y, z, w zero", 0.0};
+    return std::nullopt;
+  }
+};
+
+/// { center + R c : |c.x| <= half.x, |c.y| <= half.y, |c.z| <= half.z }, R the rotation of orientation.
+template <class T>
+struct Box {
+  Vec3<T> center{};
+  Vec3<T> half{};  ///< half of each side's length
+  Quaternion<T> orientation{};
+
+  static constexpr auto members() {
+    return std::tuple(member("center", &Box::center, Role::position),
+                      member("half", &Box::half, Role::size),
+                      member("orientation", &Box::orientation, Role::rotation));
+  }
+  std::optional<Broken> broken() const {
+    if (half.x < T(0)) return Broken{"half.x", "not negative", double(half.x)};
+    if (half.y < T(0)) return Broken{"half.y", "not negative", double(half.y)};
+    if (half.z < T(0)) return Broken{"half.z", "not negative", double(half.z)};
+    return std::nullopt;
+  }
+};
+
+}  // namespace collide

@@ -1,0 +1,63 @@
+/// How deep a sphere overlaps a box.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The penetration depth of `sphere` and the solid `box`, with one contact.
+///
+/// Center outside: depth = radius - distance, the contact is the point of the box nearest to the
+/// center, the normal points from the center to it. Center inside or on the surface: depth = radius +
+/// distance to the nearest face, the contact is the sphere's deepest point, the normal points into
+/// the box. Apart: only the depth, negative, is given.
+///
+/// 1. depth >= 0 exactly when the closed sets meet
+/// 2. moving the sphere by -depth * normal makes them touch
+template <class Tier = Fast, class T>
+Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) noexcept {
+  using std::sqrt;
+  const Axes<T> axes = axes_of(box.orientation);
+  const std::array<T, 3> half = components(box.half);
+  const std::array<T, 3> local = into_frame<Tier>(axes, sphere.center - box.center);
+  std::array<T, 3> away;
+  T distance2(0);
+  for (int i = 0; i < 3; ++i) {
+    away[i] = excess(local[i], half[i]);
+    distance2 += away[i] * away[i];
+  }
+  if (distance2 > T(0)) {
+    const T distance = sqrt(distance2);
+    const T depth = sphere.radius - distance;
+    if (!(depth >= T(0))) return {depth};
+    std::array<T, 3> nearest;
+    for (int i = 0; i < 3; ++i) nearest[i] = std::clamp(local[i], -half[i], half[i]);
+    const Vec3<T> normal = -out_of_frame(axes, away) / distance;
+    return {depth, normal, box.center + out_of_frame(axes, nearest)};
+  }
+  const NearestFace<T> face = nearest_face(local, half);
+  const Vec3<T> normal = axes[face.axis] * -face.side;
+  return {sphere.radius + face.distance, normal, sphere.center + normal * sphere.radius};
+}
+
+namespace inputs {
+template <class T>
+struct sphere_box_penetration {
+  Sphere<T> sphere{};
+  Box<T> box{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &sphere_box_penetration::sphere),
+                      member("box", &sphere_box_penetration::box));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::sphere_box_penetration<Tier>(sphere, box);
+  }
+};
+}  // namespace inputs
+}  // namespace collide

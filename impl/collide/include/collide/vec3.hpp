@@ -1,0 +1,33 @@
+/// Three numbers: a point, a displacement or a direction.
+#pragma once
+
+#include <collide/members.hpp>
+
+namespace collide {
+
+template <class T>
+struct Vec3 {
+  T x{}, y{}, z{};
+
+  static constexpr auto members() {
+    return std::tuple(member("x", &Vec3::x), member("y", &Vec3::y), member("z", &Vec3::z));
+  }
+
+  friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend constexpr Vec3 operator-(const Vec3& a) noexcept { return {-a.x, -a.y, -a.z}; }
+  friend constexpr Vec3 operator*(const Vec3& a, const T& s) noexcept {
+    return {a.x * s, a.y * s, a.z * s};
+  }
+  friend constexpr Vec3 operator*(const T& s, const Vec3& a) noexcept { return a * s; }
+  friend constexpr Vec3 operator/(const Vec3& a, const T& s) noexcept {
+    return {a.x / s, a.y / s, a.z / s};
+  }
+  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+}  // namespace collide

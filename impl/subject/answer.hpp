@@ -1,0 +1,78 @@
+/// An answer with its type erased: what crosses from a subject to the judge, and between processes.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include <collide/answers.hpp>
+
+namespace nearmiss {
+
+/// The scalar in which a subject computes.
+enum class Scalar { float32, float64 };
+
+inline std::string_view name_of(Scalar s) { return s == Scalar::float32 ? "float" : "double"; }
+/// Half the distance from 1 to the next number: 2^-24 or 2^-53.
+inline double unit_roundoff(Scalar s) { return s == Scalar::float32 ? 0x1p-24 : 0x1p-53; }
+inline double largest_finite(Scalar s) { return s == Scalar::float32 ? double(0x1.fffffep127f) : 0x1.fffffffffffffp1023; }
+/// Distance from |x| to the next larger number of the scalar.
+inline double ulp(double x, Scalar s) {
+  if (!std::isfinite(x)) return x;
+  const int digits = s == Scalar::float32 ? 24 : 53;
+  const int smallest = s == Scalar::float32 ? -149 : -1074;
+  const int exponent = x == 0 ? smallest : std::max(smallest, std::ilogb(x) - (digits - 1));
+  return std::ldexp(1.0, exponent);
+}
+inline bool representable(double x, Scalar s) { return s == Scalar::float64 || double(float(x)) == x; }
+
+/// Plain bytes, so that it can live in memory shared with a worker process.
+struct Answer {
+  enum class Status : std::uint8_t {
+    answered,
+    cannot_answer,  ///< the subject has no answer to this case; never a miss
+    broke,          ///< exception, abort, crash, time or memory limit
+  };
+  static constexpr std::size_t capacity = 40;
+
+  Status status = Status::answered;
+  bool yes = false;                       ///< hit, overlap, inside
+  std::uint64_t given = ~std::uint64_t{0};  ///< bit i: values[i] is part of the answer
+  std::array<double, capacity> values{};  ///< in the order of the query's outputs
+  std::array<char, 200> why{};            ///< of cannot_answer and broke, cut to fit
+
+  bool gives(std::size_t i) const { return (given >> i & 1u) != 0; }
+  std::string_view reason() const { return {why.data(), strnlen(why.data(), why.size())}; }
+
+  static Answer without(Status status, std::string_view reason) {
+    Answer a;
+    a.status = status;
+    a.given = 0;
+    reason.copy(a.why.data(), a.why.size() - 1);
+    return a;
+  }
+};
+
+/// Types a query's inputs and fills them from numbers; the numbers are exact in T (see representable).
+template <class Inputs>
+Inputs inputs_from(const double* values) {
+  Inputs q;
+  collide::for_each_leaf(q, [&](auto& leaf, collide::Role) {
+    using Leaf = std::remove_reference_t<decltype(leaf)>;
+    leaf = static_cast<Leaf>(*values++);
+  });
+  return q;
+}
+
+template <class A>
+Answer erase(const A& typed) {
+  Answer a;
+  a.yes = typed.yes();
+  std::size_t i = 0;
+  collide::for_each_leaf(typed, [&](const auto& leaf, collide::Role) { a.values[i++] = static_cast<double>(leaf); });
+  return a;
+}
+
+}  // namespace nearmiss

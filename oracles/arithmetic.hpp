@@ -1,0 +1,135 @@
+/// The two arithmetics of the oracle, and what its algorithms may ask of a number.
+///
+/// An oracle is written once, over a number N. With N = Interval every comparison has three outcomes
+/// and the algorithm follows each branch that is possible; with N = Exact exactly one is. Included by
+/// the oracles' .cpp files only: this is where CGAL lives.
+#pragma once
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Sqrt_extension.h>
+
+#include <array>
+#include <stdexcept>
+
+#include <collide/vec3.hpp>
+
+namespace nearmiss::oracle {
+
+/// Bounds rounded outward; the rounding mode must be upward (CGAL's protector).
+using Interval = CGAL::Interval_nt<false>;
+using Rational = CGAL::Gmpq;
+/// a + b sqrt(c) with rational a, b, c. Numbers over different roots can be compared, not added.
+using Exact = CGAL::Sqrt_extension<Rational, Rational, CGAL::Tag_true, CGAL::Tag_true>;
+
+// Signs. "may be" is the only question an algorithm can ask. Written so that NaN means "anything".
+
+inline bool may_be_negative(const Interval& x) { return !(x.inf() >= 0); }
+inline bool may_be_positive(const Interval& x) { return !(x.sup() <= 0); }
+inline bool may_be_zero(const Interval& x) { return !(x.inf() > 0) && !(x.sup() < 0); }
+inline bool may_be_negative(const Exact& x) { return CGAL::sign(x) == CGAL::NEGATIVE; }
+inline bool may_be_positive(const Exact& x) { return CGAL::sign(x) == CGAL::POSITIVE; }
+inline bool may_be_zero(const Exact& x) { return CGAL::sign(x) == CGAL::ZERO; }
+template <class N>
+bool may_be_at_most_zero(const N& x) { return may_be_negative(x) || may_be_zero(x); }
+template <class N>
+bool may_be_at_least_zero(const N& x) { return may_be_positive(x) || may_be_zero(x); }
+template <class N>
+bool surely_zero(const N& x) { return !may_be_negative(x) && !may_be_positive(x); }
+
+inline bool may_be_less(const Interval& a, const Interval& b) { return !(a.inf() >= b.sup()); }
+inline bool may_be_at_most(const Interval& a, const Interval& b) { return !(a.inf() > b.sup()); }
+inline bool may_be_less(const Exact& a, const Exact& b) { return a.compare(b, false) == CGAL::SMALLER; }
+inline bool may_be_at_most(const Exact& a, const Exact& b) { return a.compare(b, false) != CGAL::LARGER; }
+
+// Within a branch that assumes a sign, the interval loses the part that contradicts it.
+
+inline Interval assume_at_least_zero(const Interval& x) { return {std::max(0.0, x.inf()), std::max(0.0, x.sup())}; }
+inline Interval assume_at_most_zero(const Interval& x) { return {std::min(0.0, x.inf()), std::min(0.0, x.sup())}; }
+inline const Exact& assume_at_least_zero(const Exact& x) { return x; }
+inline const Exact& assume_at_most_zero(const Exact& x) { return x; }
+
+/// Loses the part outside [low, high], which the caller knows the number cannot reach.
+inline Interval assume_within(const Interval& x, double low, double high) {
+  return {std::clamp(x.inf(), low, high), std::clamp(x.sup(), low, high)};
+}
+inline const Exact& assume_within(const Exact& x, double, double) { return x; }
+
+/// True for a number whose found roots may be roots of only some of the inputs that it encloses.
+template <class N>
+inline constexpr bool is_enclosure = false;
+template <>
+inline constexpr bool is_enclosure<Interval> = true;
+
+/// Encloses both numbers. Exact numbers cannot: an algorithm that joins has not decided.
+inline Interval join(const Interval& a, const Interval& b) {
+  return {std::min(a.inf(), b.inf()), std::max(a.sup(), b.sup())};
+}
+inline Exact join(const Exact& a, const Exact&) { return a; }
+/// Encloses a number that both enclose.
+inline Interval meet(const Interval& a, const Interval& b) {
+  const double low = std::max(a.inf(), b.inf()), high = std::min(a.sup(), b.sup());
+  return low <= high ? Interval(low, high) : a;
+}
+inline const Exact& meet(const Exact& a, const Exact&) { return a; }
+
+inline Interval square(const Interval& x) { return CGAL::square(x); }
+inline Exact square(const Exact& x) { return x * x; }
+inline Interval magnitude(const Interval& x) { return CGAL::abs(x); }
+inline Exact magnitude(const Exact& x) { return CGAL::sign(x) == CGAL::NEGATIVE ? Exact(-x) : x; }
+
+/// The square root of a number that is not negative in the branch at hand.
+inline Interval root(const Interval& x) { return CGAL::sqrt(assume_at_least_zero(x)); }
+inline Exact root(const Exact& x) {
+  if (x.is_extended() && x.a1() != 0) throw std::logic_error("oracle: a square root of a square root");
+  if (x.a0() == 0) return Exact(0);
+  return Exact(Rational(0), Rational(1), x.a0());
+}
+
+// Vectors of the oracle: its own, so that it shares no arithmetic with the library it examines.
+
+template <class N>
+using Vector = std::array<N, 3>;
+
+template <class N>
+Vector<N> vector(const collide::Vec3<N>& v) { return {v.x, v.y, v.z}; }
+template <class N>
+collide::Vec3<N> answer_vector(const Vector<N>& v) { return {v[0], v[1], v[2]}; }
+template <class N>
+Vector<N> plus(const Vector<N>& a, const Vector<N>& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+template <class N>
+Vector<N> minus(const Vector<N>& a, const Vector<N>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+template <class N>
+Vector<N> times(const Vector<N>& a, const N& s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+template <class N>
+Vector<N> negated(const Vector<N>& a) { return {-a[0], -a[1], -a[2]}; }
+template <class N>
+N inner(const Vector<N>& a, const Vector<N>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class N>
+N norm2(const Vector<N>& a) { return square(a[0]) + square(a[1]) + square(a[2]); }
+template <class N>
+Vector<N> outer(const Vector<N>& a, const Vector<N>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The axes of the rotation q / |q| as rows: rational in q, each entry within [-1, 1].
+template <class N, class Q>
+std::array<Vector<N>, 3> rotation_axes(const Q& q) {
+  const N xx = square(q.x), yy = square(q.y), zz = square(q.z), ww = square(q.w);
+  const N scale = N(1) / (xx + yy + zz + ww);
+  const auto entry = [&](const N& numerator) { return N(assume_within(numerator * scale, -1.0, 1.0)); };
+  const auto twice = [&](const N& sum) { return entry(N(2) * sum); };
+  return {{{entry(ww + xx - yy - zz), twice(q.x * q.y + q.w * q.z), twice(q.x * q.z - q.w * q.y)},
+           {twice(q.x * q.y - q.w * q.z), entry(ww - xx + yy - zz), twice(q.y * q.z + q.w * q.x)},
+           {twice(q.x * q.z + q.w * q.y), twice(q.y * q.z - q.w * q.x), entry(ww - xx - yy + zz)}}};
+}
+template <class N>
+Vector<N> into(const std::array<Vector<N>, 3>& axes, const Vector<N>& world) {
+  return {inner(axes[0], world), inner(axes[1], world), inner(axes[2], world)};
+}
+template <class N>
+Vector<N> out_of(const std::array<Vector<N>, 3>& axes, const Vector<N>& local) {
+  return plus(plus(times(axes[0], local[0]), times(axes[1], local[1])), times(axes[2], local[2]));
+}
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,112 @@
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from oracles/catalogue.def
+
+#include <fmt/format.h>
+
+#include "oracles/query.hpp"
+
+namespace nearmiss {
+
+namespace oracle {
+#define NEARMISS_QUERY(query) Oracle query##_oracle();
+#include "oracles/catalogue.def"
+#undef NEARMISS_QUERY
+}  // namespace oracle
+
+namespace {
+
+template <class S>
+std::vector<Field> fields_of() {
+  std::vector<Field> fields;
+  S s{};
+  collide::for_each_named_leaf(s, [&](const std::string& path, auto&, Role role) { fields.push_back({path, role}); });
+  return fields;
+}
+
+/// Rules of every shape within s, and of vectors that must not be zero.
+template <class S>
+std::optional<Invalid> broken_within(const S& s, const std::string& path, Role role) {
+  std::optional<Invalid> found;
+  const auto below = [&](std::string_view name) { return path.empty() ? std::string(name) : path + "." + std::string(name); };
+  if constexpr (std::is_same_v<S, collide::Vec3<double>>) {
+    if (role == Role::direction && s == S{}) return Invalid{path, 0.0, "not all of x, y, z zero"};
+  } else if constexpr (collide::Listed<S>) {
+    if constexpr (requires { s.broken(); }) {
+      if (const auto b = s.broken()) return Invalid{below(b->member), b->value, std::string(b->rule)};
+    }
+    collide::for_each_member(s, [&](std::string_view name, const auto& value, Role own) {
+      if (!found) found = broken_within(value, below(name), own == Role::inherited ? role : own);
+    });
+  }
+  return found;
+}
+
+template <class Inputs>
+std::optional<Invalid> broken_inputs(std::span<const double> values) {
+  static const std::vector<Field> fields = fields_of<Inputs>();
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double x = values[i];
+    if (!std::isfinite(x)) return Invalid{fields[i].name, x, "finite"};
+    if (fields[i].role == Role::flag && x != 0 && x != 1) return Invalid{fields[i].name, x, "true or false"};
+    if (fields[i].role == Role::index && (x != std::floor(x) || std::abs(x) > 1e6)) {
+      return Invalid{fields[i].name, x, "a small integer"};
+    }
+  }
+  return broken_within(inputs_from<Inputs>(values.data()), "", Role::inherited);
+}
+
+template <class Inputs>
+Query make_query(std::string_view name, Oracle oracle) {
+  using A = decltype(std::declval<Inputs>().template ask<collide::Fast>());
+  return {name, A::kind, fields_of<Inputs>(), fields_of<A>(), broken_inputs<Inputs>, oracle};
+}
+
+}  // namespace
+
+std::string Invalid::text() const { return fmt::format("{} is {}: it must be {}", field, value, rule); }
+
+std::string_view name_of(Kind kind) {
+  switch (kind) {
+    case Kind::decision: return "decision";
+    case Kind::impact: return "impact";
+    case Kind::points: return "points";
+    case Kind::depth: return "depth";
+    case Kind::direction: return "direction";
+  }
+  return "?";
+}
+
+std::string_view name_of(Role role) {
+  switch (role) {
+    case Role::inherited: return "number";
+    case Role::position: return "position";
+    case Role::velocity: return "velocity";
+    case Role::size: return "size";
+    case Role::direction: return "direction";
+    case Role::rotation: return "rotation";
+    case Role::time: return "time";
+    case Role::normal: return "normal";
+    case Role::depth: return "depth";
+    case Role::weight: return "weight";
+    case Role::flag: return "flag";
+    case Role::index: return "index";
+  }
+  return "?";
+}
+
+std::span<const Query> catalogue() {
+  static const std::vector<Query> queries = {
+#define NEARMISS_QUERY(query) make_query<collide::inputs::query<double>>(#query, oracle::query##_oracle()),
+#include "oracles/catalogue.def"
+#undef NEARMISS_QUERY
+  };
+  return queries;
+}
+
+const Query* find_query(std::string_view name) {
+  for (const Query& q : catalogue()) {
+    if (q.name == name) return &q;
+  }
+  return nullptr;
+}
+
+}  // namespace nearmiss

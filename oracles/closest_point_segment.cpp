@@ -1,0 +1,36 @@
+/// Truth: the minimum of a quadratic over [0, 1], by the sign of its derivative at both ends.
+#include <collide/closest_point_segment.hpp>
+
+#include "oracles/outcomes.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void closest_point_segment(const collide::inputs::closest_point_segment<N>& q, Out& out) {
+  const Vector<N> v0 = vector(q.segment.v0), v1 = vector(q.segment.v1), p = vector(q.point);
+  const Vector<N> along = minus(v1, v0);
+  const N from_v0 = inner(minus(p, v0), along);  // half of minus the derivative at v0
+  const N from_v1 = inner(minus(v1, p), along);  // half of the derivative at v1
+  if (may_be_at_most_zero(from_v0)) out.yes({answer_vector(v0)});
+  if (may_be_at_most_zero(from_v1)) out.yes({answer_vector(v1)});
+  if (!may_be_positive(from_v0) || !may_be_positive(from_v1)) return;
+  const N a = assume_at_least_zero(from_v0), b = assume_at_least_zero(from_v1);
+  const N length2 = norm2(along);
+  if (may_be_zero(length2)) {
+    // Anywhere on the segment: between its ends in each coordinate.
+    Vector<N> between;
+    for (int i = 0; i < 3; ++i) between[i] = join(v0[i], v1[i]);
+    return out.yes({answer_vector(between)});
+  }
+  // The share of v1 is a / (a + b); it is written so that its interval stays within [0, 1].
+  const N share = assume_within(N(a / length2), 0.0, 1.0), rest = assume_within(N(b / length2), 0.0, 1.0);
+  Vector<N> nearest;
+  for (int i = 0; i < 3; ++i) {
+    nearest[i] = meet(N(v0[i] + along[i] * share), N(v1[i] - along[i] * rest));
+  }
+  out.yes({answer_vector(nearest)});
+}
+
+NEARMISS_ORACLE(closest_point_segment, ClosestPoint)
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,81 @@
+/// What the oracle says of a case: an enclosure of every exact answer.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "impl/subject/answer.hpp"
+
+namespace nearmiss {
+
+/// A closed interval of doubles.
+struct Bounds {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  bool empty() const { return low > high; }
+  void include(const Bounds& b) {
+    if (b.low < low) low = b.low;
+    if (b.high > high) high = b.high;
+  }
+  /// The least absolute value within.
+  double nearest_to_zero() const { return low > 0 ? low : high < 0 ? -high : 0.0; }
+  double furthest_from_zero() const { return std::max(-low, high); }
+};
+
+/// How far each number of the input may move: absolute, one value per input number, not negative.
+using Widening = std::span<const double>;
+
+/// Encloses the exact answers of every input within a widening of the given one, seen from a given
+/// answer: `error` holds (exact - given). With the zero answer it holds the exact values themselves.
+struct Enclosure {
+  bool may_be_yes = false;
+  bool may_be_no = false;
+  /// Some exact answer may agree with the given one: the same yes or no, and every given number within
+  /// one ulp of its scalar. False is a proof that none does.
+  bool may_match = false;
+  /// Over the exact answers with the given yes or no. Empty where there is none.
+  std::array<Bounds, Answer::capacity> error{};
+  /// Of the exact answer nearest to the given one: numbers further than one ulp away.
+  std::uint64_t mismatched = 0;
+  /// Of the same: the largest proved distance, in ulps of the given number; and to which number.
+  double ulps = 0;
+  int worst = -1;
+  /// Upper bound of that distance: equal to `ulps` but for the width of the enclosure.
+  double ulps_at_most = 0;
+
+  bool decided() const { return may_be_yes != may_be_no; }
+};
+
+/// One right answer, written down for people.
+struct Alternative {
+  bool yes = false;
+  std::size_t count = 0;  ///< how many of the values it gives
+  std::array<Bounds, Answer::capacity> values{};
+  /// One `direction . normal` and the range in which it lies.
+  struct Face {
+    std::array<Bounds, 3> direction;
+    Bounds range;
+  };
+  bool many_normals = false;  ///< the normal is any unit vector that faces as listed
+  std::vector<Face> facing;
+};
+
+/// Who answers: intervals of doubles first, exact rational and algebraic numbers where they cannot tell.
+enum class Stage { interval, exact };
+
+/// The entry points of one query's oracle. `values` are the inputs, `about` the answer in question.
+struct Oracle {
+  /// Fast; may be wide. `scalar` is that of the answer.
+  Enclosure (*interval)(std::span<const double> values, Widening widening, const Answer& about, Scalar scalar);
+  /// Exact decision; errors enclosed to a few units in the last place of the error itself.
+  /// `list`, where given, receives every right answer.
+  Enclosure (*exact)(std::span<const double> values, const Answer& about, Scalar scalar,
+                     std::vector<Alternative>* list);
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,244 @@
+#include "oracles/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace nearmiss {
+
+namespace {
+
+bool moves(Role role) {
+  switch (role) {
+    case Role::position:
+    case Role::velocity:
+    case Role::size:
+    case Role::direction:
+    case Role::rotation:
+    case Role::time: return true;
+    default: return false;
+  }
+}
+
+using Magnitudes = std::array<double, 16>;  // by role
+
+Magnitudes magnitudes(const Query& query, std::span<const double> values) {
+  Magnitudes largest{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    double& m = largest[std::size_t(query.inputs[i].role)];
+    m = std::max(m, std::abs(values[i]));
+  }
+  return largest;
+}
+
+/// The oracle and the question, so that each step below is one line.
+class Examination {
+ public:
+  Examination(const Case& question, const Answer& answer)
+      : question_(question), answer_(answer), largest_(magnitudes(*question.query, question.values)) {}
+
+  Enclosure within(double k) const {
+    widening_.resize(question_.values.size());
+    // One part in 2^50 more covers the rounding of the products themselves.
+    const double relative = k * unit_roundoff(question_.scalar) * (1 + 0x1p-50);
+    for (std::size_t i = 0; i < widening_.size(); ++i) {
+      const Role role = question_.query->inputs[i].role;
+      widening_[i] = moves(role) ? relative * largest_[std::size_t(role)] : 0.0;
+      if (k > 0 && moves(role) && widening_[i] < 0x1p-1000) widening_[i] = std::nextafter(widening_[i], 1.0);
+    }
+    return question_.query->oracle.interval(question_.values, widening_, answer_, question_.scalar);
+  }
+  Enclosure exactly(std::vector<Alternative>* list = nullptr) const {
+    return question_.query->oracle.exact(question_.values, answer_, question_.scalar, list);
+  }
+  /// The highest rung at which no exact answer matches; empty when the lowest cannot exclude it.
+  std::optional<Backward> backward() const {
+    return highest_rung([](const Enclosure& e) { return !e.may_match; });
+  }
+  /// The highest rung up to which the decision is the same for every input.
+  std::optional<Backward> margin() const {
+    return highest_rung([](const Enclosure& e) { return e.decided(); });
+  }
+  bool in_domain(const collide::Contract& contract) const {
+    for (std::size_t role = 0; role < largest_.size(); ++role) {
+      if (!moves(Role(role)) || largest_[role] == 0) continue;
+      const double m = largest_[role];
+      if (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest)) return false;
+    }
+    return true;
+  }
+  const std::vector<double>& last_widening() const { return widening_; }
+
+ private:
+  /// Widening an input never shrinks its enclosure, so the rungs that pass come first.
+  template <class Passes>
+  std::optional<Backward> highest_rung(Passes passes) const {
+    int low = -1, high = rungs;  // passes at low, fails at high
+    while (high - low > 1) {
+      const int middle = low < 0 ? 0 : high == rungs && low < 8 ? std::min(2 * low + 1, rungs - 1) : (low + high) / 2;
+      (passes(within(rung(middle))) ? low : high) = middle;
+    }
+    if (low < 0) return std::nullopt;
+    return Backward{rung(low)};
+  }
+
+  const Case& question_;
+  const Answer& answer_;
+  Magnitudes largest_;
+  mutable std::vector<double> widening_;
+};
+
+Disagreement disagreement_of(const Query& query, const Answer& answer, bool decision_differs, int worst) {
+  if (decision_differs) return answer.yes ? Disagreement::false_hit : Disagreement::false_miss;
+  if (worst < 0) return Disagreement::none;
+  switch (query.outputs[std::size_t(worst)].role) {
+    case Role::time: return Disagreement::wrong_time;
+    case Role::depth: return Disagreement::wrong_depth;
+    case Role::normal: return Disagreement::wrong_normal;
+    case Role::position: return Disagreement::wrong_place;
+    default: return Disagreement::wrong_direction;
+  }
+}
+
+/// The first given number that is not finite, if any; a miss has an infinite time by definition.
+int not_finite(const Query& query, const Answer& answer) {
+  if (query.kind == Kind::impact && !answer.yes) {
+    return std::isnan(answer.values[0]) || answer.values[0] < 0 ? 0 : -1;
+  }
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (answer.gives(i) && !std::isfinite(answer.values[i])) return int(i);
+  }
+  return -1;
+}
+
+/// |normal| - 1 in units of epsilon; 0 where the answer has no normal.
+double unit_error(const Query& query, const Answer& answer, Scalar scalar) {
+  long double length2 = 0;
+  bool any = false;
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (query.outputs[i].role != Role::normal || !answer.gives(i)) continue;
+    length2 += static_cast<long double>(answer.values[i]) * answer.values[i];
+    any = true;
+  }
+  if (!any || !answer.yes) return 0;
+  return double((std::sqrt(length2) - 1) / unit_roundoff(scalar));
+}
+
+void take_forward(const Enclosure& e, Finding& f) {
+  f.forward_ulps = e.ulps;
+  f.worst = e.worst;
+  f.forward_absolute = e.worst < 0 ? 0.0 : e.error[std::size_t(e.worst)].nearest_to_zero();
+}
+
+Finding violation(Finding f, Disagreement d, std::string clause) {
+  f.verdict = Verdict::violates_contract;
+  if (f.disagreement == Disagreement::none) f.disagreement = d;
+  f.clause = std::move(clause);
+  return f;
+}
+
+}  // namespace
+
+double rung(int k) { return k == 0 ? 0.0 : std::ldexp(1.0, k - 1); }
+
+std::vector<double> widening(const Query& query, std::span<const double> values, Scalar scalar, double k) {
+  const Case question{&query, scalar, {values.begin(), values.end()}, {}, 0, 0, {}};
+  const Answer none{};
+  const Examination x(question, none);
+  (void)x.within(k);
+  return x.last_widening();
+}
+
+Finding judge(const Case& question, const Answer& answer, const collide::Contract& contract, Detail detail) {
+  const Query& query = *question.query;
+  Finding f;
+  if (answer.status != Answer::Status::answered) {
+    f.verdict = answer.status == Answer::Status::broke ? Verdict::broke : Verdict::cannot_answer;
+    f.clause = answer.reason();
+    return f;
+  }
+  const Examination x(question, answer);
+  if (!x.in_domain(contract)) {
+    f.verdict = Verdict::out_of_domain;
+    return f;
+  }
+  if (const int bad = not_finite(query, answer); bad >= 0) {
+    f.worst = bad;
+    return violation(f, Disagreement::not_finite,
+                     fmt::format("{} is {}", query.outputs[std::size_t(bad)].name, answer.values[std::size_t(bad)]));
+  }
+
+  // The decision: interval first, exact where it cannot tell.
+  Enclosure here = x.within(0);
+  if (!here.decided() || (detail == Detail::full)) {
+    if (!here.decided()) f.decided_by = Stage::exact;
+    here = x.exactly();
+  }
+  f.truth_yes = here.may_be_yes;
+  const bool decision_differs = f.truth_yes != answer.yes;
+  if (!decision_differs) take_forward(here, f);
+  f.unit_error = unit_error(query, answer, question.scalar);
+  if (here.may_match) {
+    f.verdict = Verdict::agrees;
+  } else {
+    f.verdict = Verdict::within_contract;
+    f.disagreement = disagreement_of(query, answer, decision_differs, here.worst);
+    f.backward = x.backward();
+    if (!f.backward) f.backward = Backward{0};  // the exact stage excludes a match at the input itself
+  }
+
+  if (f.backward && f.backward->above >= contract.backward) {
+    return violation(f, f.disagreement,
+                     fmt::format("backward error at most {} epsilon", contract.backward));
+  }
+  if (contract.exact_decisions && decision_differs) return violation(f, f.disagreement, "exact decisions");
+  if (!decision_differs && f.forward_ulps > contract.forward) {
+    return violation(f, f.disagreement, fmt::format("forward error at most {} ulp", contract.forward));
+  }
+  if (std::abs(f.unit_error) > contract.unit) {
+    return violation(f, Disagreement::not_unit, fmt::format("normals of length 1 within {} epsilon", contract.unit));
+  }
+  return f;
+}
+
+Truth truth_of(const Case& question) {
+  const Answer none{};
+  const Examination x(question, none);
+  Truth t;
+  const Enclosure exact = x.exactly(&t.alternatives);
+  t.yes = exact.may_be_yes;
+  t.decided_by = x.within(0).decided() ? Stage::interval : Stage::exact;
+  if (const auto margin = x.margin()) t.margin_at_least = margin->above;
+  return t;
+}
+
+std::string_view name_of(Verdict v) {
+  switch (v) {
+    case Verdict::agrees: return "agrees";
+    case Verdict::within_contract: return "within contract";
+    case Verdict::violates_contract: return "violates contract";
+    case Verdict::out_of_domain: return "out of domain";
+    case Verdict::cannot_answer: return "cannot answer";
+    case Verdict::broke: return "broke";
+  }
+  return "?";
+}
+
+std::string_view name_of(Disagreement d) {
+  switch (d) {
+    case Disagreement::none: return "none";
+    case Disagreement::false_hit: return "false hit";
+    case Disagreement::false_miss: return "false miss";
+    case Disagreement::wrong_time: return "wrong time";
+    case Disagreement::wrong_place: return "wrong place";
+    case Disagreement::wrong_normal: return "wrong normal";
+    case Disagreement::wrong_depth: return "wrong depth";
+    case Disagreement::wrong_direction: return "wrong direction";
+    case Disagreement::not_finite: return "not finite";
+    case Disagreement::not_unit: return "not unit";
+  }
+  return "?";
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,221 @@
+/// Truth: in the box's frame, one quadratic for each of the 26 regions around the box; its earlier
+/// root counts where the center is then in that region. The distance from a convex set is convex along
+/// a line, so such a root is the first contact and there is only one.
+#include <collide/moving_sphere_box.hpp>
+
+#include "oracles/point_and_box.hpp"
+
+namespace nearmiss::oracle {
+
+namespace {
+
+template <class N>
+struct Motion {
+  std::array<Vector<N>, 3> axes;
+  Vector<N> origin;             // the box's center, in the world
+  Vector<N> start, step, half;  // of the sphere's center, in the box's frame
+  N radius;
+
+  Vector<N> at(const N& time) const { return plus(start, times(step, time)); }
+  Vector<N> to_world(const Vector<N>& local) const { return plus(origin, out_of(axes, local)); }
+};
+
+/// A range of times, as doubles that enclose it; for culling only.
+struct Window {
+  double from = 0, to = std::numeric_limits<double>::infinity();
+
+  bool empty() const { return !(from <= to); }
+  void clip(const Window& w) {
+    from = std::max(from, w.from);
+    to = std::min(to, w.to);
+  }
+};
+
+/// Encloses the times t >= 0 with a + b t <= 0.
+template <class N>
+Window times_not_positive(const N& a, const N& b) {
+  const bool up = may_be_positive(b), down = may_be_negative(b);
+  if (up && !down && !may_be_zero(b)) return {0, bounds(N(-a / b)).high};
+  if (down && !up && !may_be_zero(b)) return {std::max(0.0, bounds(N(-a / b)).low), Window{}.to};
+  if (!up && !down && !may_be_at_most_zero(a)) return {1, 0};
+  return {};
+}
+
+/// When a coordinate is on `side` of [-half, half].
+template <class N>
+Window times_on_side(const N& start, const N& step, const N& half, int side) {
+  if (side > 0) return times_not_positive(N(half - start), N(-step));
+  if (side < 0) return times_not_positive(N(half + start), step);
+  Window w = times_not_positive(N(start - half), step);
+  w.clip(times_not_positive(N(-start - half), N(-step)));
+  return w;
+}
+
+/// The earlier root of the region's quadratic, as possible answers.
+template <class N, class Out>
+void first_root(const Motion<N>& m, const Sides& sides, Out& out) {
+  Vector<N> e{N(0), N(0), N(0)}, w{N(0), N(0), N(0)};
+  int axis = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (sides[i] == 0) continue;
+    axis = i;
+    e[i] = sides[i] > 0 ? N(m.start[i] - m.half[i]) : N(m.start[i] + m.half[i]);
+    w[i] = m.step[i];
+  }
+  const N closing = -inner(e, w);
+  if (!may_be_positive(closing)) return;
+  N time(0);
+  if (beyond(sides) == 1) {
+    const N speed = sides[axis] > 0 ? N(-w[axis]) : w[axis];
+    const N gap = sides[axis] > 0 ? e[axis] : N(-e[axis]);
+    if (!may_be_positive(speed)) return;
+    if (may_be_zero(speed)) return out.everything();
+    time = (gap - m.radius) / speed;
+  } else {
+    const N discriminant = norm2(w) * square(m.radius) - norm2(outer(e, w));
+    if (!may_be_at_least_zero(discriminant)) return;
+    const N far = assume_at_least_zero(closing) + root(discriminant);
+    if (may_be_zero(far)) return out.everything();
+    time = (norm2(e) - square(m.radius)) / far;
+  }
+  if (!may_be_at_least_zero(time)) return;
+  time = assume_at_least_zero(time);
+  Vector<N> contact = m.at(time), normal{N(0), N(0), N(0)};
+  for (int i = 0; i < 3; ++i) {
+    if (!may_be_on_side(contact[i], m.half[i], sides[i])) return;
+    if (sides[i] == 0) continue;
+    const N away = e[i] + w[i] * time;
+    normal[i] = sides[i] > 0 ? N(assume_at_least_zero(away)) : N(assume_at_most_zero(away));
+    contact[i] = sides[i] > 0 ? m.half[i] : N(-m.half[i]);
+  }
+  collide::Impact<N> impact{time, answer_vector(m.to_world(contact)), {}};
+  if (beyond(sides) == 1) {
+    impact.normal = answer_vector(sides[axis] > 0 ? m.axes[axis] : negated(m.axes[axis]));
+    return out.yes(impact);
+  }
+  if (may_be_zero(m.radius)) return out.yes(impact, normal_cone(m.axes, sides));
+  for (N& component : normal) component = assume_within(N(component / m.radius), -1.0, 1.0);
+  impact.normal = answer_vector(out_of(m.axes, normal));
+  out.yes(impact);
+}
+
+/// A point on the surface (distance 0): may the motion not leave along some normal of that region?
+template <class N>
+bool may_stay(const Motion<N>& m, const Sides& sides) {
+  bool stay = may_be_positive(m.radius);
+  for (int i = 0; i < 3; ++i) {
+    const N outward = sides[i] > 0 ? m.step[i] : N(-m.step[i]);
+    stay = stay || (sides[i] != 0 && may_be_at_most_zero(outward));
+  }
+  return stay;
+}
+
+/// A start outside the box or on its surface, in that region: a contact at time 0 if the sphere
+/// overlaps, or touches and does not leave. Tells whether the sphere may start apart.
+template <class N, class Out>
+bool start_in_region(const Motion<N>& m, const Sides& sides, Out& out) {
+  const FromFeature<N> from = from_feature(m.start, m.half, sides);
+  const N outside = from.distance2 - square(m.radius);
+  if (!may_be_at_most_zero(outside)) return true;
+  collide::Impact<N> impact{N(0), answer_vector(m.to_world(from.nearest)), {}};
+  if (may_be_zero(from.distance2)) {
+    if (may_stay(m, sides)) out.yes(impact, normal_cone(m.axes, sides));
+    return may_be_positive(outside);
+  }
+  const N leaving = inner(from.away, m.step);
+  if (may_be_zero(outside) && may_be_positive(leaving)) out.no();
+  if (may_be_negative(outside) || may_be_at_most_zero(leaving)) {
+    Vector<N> unit = times(from.away, N(N(1) / from.distance(sides)));
+    for (N& component : unit) component = assume_within(component, -1.0, 1.0);
+    impact.normal = answer_vector(out_of(m.axes, unit));
+    out.yes(impact);
+  }
+  return may_be_positive(outside);
+}
+
+/// Contacts at time 0. Tells whether the sphere may start apart.
+template <class N, class Out>
+bool start(const Motion<N>& m, Out& out) {
+  bool may_start_apart = false, may_start_in = true;
+  for_each_possible_region(m.start, m.half, [&](const Sides& sides) {
+    if (start_in_region(m, sides, out)) may_start_apart = true;
+  });
+  for (int i = 0; i < 3; ++i) may_start_in = may_start_in && may_be_on_side(m.start[i], m.half[i], 0);
+  if (!may_start_in) return may_start_apart;
+  // A point inside never comes from outside; one on the surface may leave it.
+  if (may_be_zero(m.radius) && (is_enclosure<N> || !out.result().may_be_yes)) out.no();
+  if (!may_be_positive(m.radius)) return may_start_apart;
+  for_each_nearest_face(m.start, m.half, [&](const Face& face, const N&) {
+    Vector<N> nearest = m.start;
+    nearest[face.axis] = face.side > 0 ? m.half[face.axis] : N(-m.half[face.axis]);
+    const Vector<N>& axis = m.axes[face.axis];
+    out.yes({N(0), answer_vector(m.to_world(nearest)), answer_vector(face.side > 0 ? axis : negated(axis))});
+  });
+  return may_start_apart;
+}
+
+/// Does the sphere surely overlap the box at that time?
+template <class N>
+bool surely_overlaps(const Motion<N>& m, double time) {
+  const Vector<N> c = m.at(N(time));
+  N distance2(0);
+  for (int i = 0; i < 3; ++i) {
+    const N e = magnitude(c[i]) - m.half[i];
+    if (may_be_positive(e)) distance2 = distance2 + square(assume_at_least_zero(e));
+  }
+  return !may_be_positive(N(distance2 - square(m.radius)));
+}
+
+/// A time near that of the least distance: found in plain doubles, so it proves nothing by itself.
+template <class N>
+double time_of_least_distance(const Motion<N>& m, Window w) {
+  double c[3], v[3], h[3];
+  const auto middle = [](const N& x) { const Bounds b = bounds(x); return 0.5 * b.low + 0.5 * b.high; };
+  for (int i = 0; i < 3; ++i) c[i] = middle(m.start[i]), v[i] = middle(m.step[i]), h[i] = middle(m.half[i]);
+  const auto slope = [&](double t) {
+    double s = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double x = c[i] + v[i] * t;
+      s += v[i] * (x - std::clamp(x, -h[i], h[i]));
+    }
+    return s;
+  };
+  for (int step = 0; step < 40 && w.from < w.to; ++step) {
+    const double t = 0.5 * w.from + 0.5 * w.to, s = slope(t);
+    if (s == 0) return t;
+    (s < 0 ? w.from : w.to) = t;
+  }
+  return w.from;
+}
+
+}  // namespace
+
+template <class N, class Out>
+void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out) {
+  const auto axes = rotation_axes<N>(q.box.orientation);
+  const Vector<N> origin = vector(q.box.center);
+  const Motion<N> m{axes, origin, into(axes, minus(vector(q.sphere.center), origin)),
+                    into(axes, vector(q.velocity)), vector(q.box.half), q.sphere.radius};
+  if (!start(m, out)) return;
+
+  Window near;  // the sphere's shadow on each axis reaches the box's
+  Window on_side[3][3];
+  for (int i = 0; i < 3; ++i) {
+    near.clip(times_on_side(m.start[i], m.step[i], N(m.half[i] + m.radius), 0));
+    for (int side = -1; side <= 1; ++side) {
+      on_side[i][side + 1] = times_on_side(m.start[i], m.step[i], m.half[i], side);
+    }
+  }
+  if (near.empty()) return out.no();
+  for_each_region([&](const Sides& sides) {
+    Window w = near;
+    for (int i = 0; i < 3; ++i) w.clip(on_side[i][sides[i] + 1]);
+    if (!w.empty()) first_root(m, sides, out);
+  });
+  const bool none = !out.result().may_be_yes;
+  if (none || (is_enclosure<N> && !surely_overlaps(m, time_of_least_distance(m, near)))) out.no();
+}
+
+NEARMISS_ORACLE(moving_sphere_box, Impact)
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,259 @@
+/// Where an oracle's algorithm puts every answer that is possible; compares each with the given one.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "oracles/arithmetic.hpp"
+#include "oracles/query.hpp"
+
+namespace nearmiss::oracle {
+
+inline Bounds bounds(const Interval& x) { return {x.inf(), x.sup()}; }
+/// Tight also where the two parts of a + b sqrt(c) nearly cancel.
+Bounds bounds(const Exact& x);
+
+/// `direction . normal` lies within [low, high].
+template <class N>
+struct Facing {
+  Vector<N> direction;
+  N low, high;
+};
+
+/// The right normals where they are more than one: the unit vectors that face as listed.
+template <class N>
+struct Normals {
+  bool many = false;
+  std::vector<Facing<N>> facing;
+
+  static Normals as_given() { return {}; }
+  static Normals any() { return {true, {}}; }
+  static Normals cone(std::vector<Facing<N>> f) { return {true, std::move(f)}; }
+};
+
+/// The leaves of an answer type in its order: which member each belongs to.
+struct Layout {
+  struct Part {
+    std::size_t begin, end;
+    Role role;
+  };
+  std::vector<Part> parts;
+
+  template <class A>
+  static Layout of() {
+    Layout layout;
+    A a{};
+    std::size_t at = 0;
+    collide::for_each_member(a, [&](std::string_view, auto& value, Role role) {
+      std::size_t n = 0;
+      collide::for_each_leaf(value, [&](auto&, Role) { ++n; });
+      layout.parts.push_back({at, at + n, role});
+      at += n;
+    });
+    return layout;
+  }
+};
+
+/// The part of Outcomes that does not depend on the answer's type.
+class Tally {
+ public:
+  Tally(const Answer& about, Scalar scalar, const Layout& layout)
+      : about_(about), scalar_(scalar), layout_(layout) {}
+
+  const Enclosure& result() const { return result_; }
+  void list_in(std::vector<Alternative>* list) { list_ = list; }
+
+ protected:
+  /// One possible answer: `errors[i]` encloses exact - given.
+  void count(bool yes, std::span<const Bounds> errors);
+  void count_everything();
+
+  const Answer& about_;
+  Scalar scalar_;
+  const Layout& layout_;
+  std::vector<Alternative>* list_ = nullptr;
+
+ private:
+  Enclosure result_;
+  bool any_ = false;
+};
+
+/// A is the answer type over N.
+template <class N, class A>
+class Outcomes : public Tally {
+ public:
+  using Tally::Tally;
+
+  /// A right answer is "no", with nothing else to it.
+  void no() { add(false, A{}, {}, 0); }
+  /// A right answer is `a`; of its leaves only the first `leaves` mean anything.
+  void no(const A& a, std::size_t leaves) { add(false, a, {}, leaves); }
+  void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) {
+    add(true, a, normals, Answer::capacity);
+  }
+  /// Nothing is known: a division by what may be zero.
+  void everything() { count_everything(); }
+
+ private:
+  void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves);
+  std::array<Bounds, Answer::capacity> errors_of(const A& a, const Normals<N>& normals, std::size_t leaves,
+                                                 bool from_zero, std::size_t& count) const;
+};
+
+template <class N, class A>
+std::array<Bounds, Answer::capacity> Outcomes<N, A>::errors_of(const A& a, const Normals<N>& normals,
+                                                               std::size_t leaves, bool from_zero,
+                                                               std::size_t& count) const {
+  std::array<Bounds, Answer::capacity> errors;
+  std::size_t i = 0;
+  collide::for_each_leaf(a, [&](const auto& leaf, Role) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(leaf)>, N>) {
+      if (i < leaves) {
+        errors[i] = from_zero || about_.values[i] == 0 ? bounds(leaf) : bounds(N(leaf - N(about_.values[i])));
+      }
+    } else {
+      const double e = double(leaf) - (from_zero ? 0.0 : about_.values[i]);
+      errors[i] = {e, e};
+    }
+    ++i;
+  });
+  count = std::min(i, leaves);
+  if (!normals.many) return errors;
+  for (const Layout::Part& part : layout_.parts) {
+    if (part.role != Role::normal) continue;
+    for (std::size_t k = part.begin; k < part.end; ++k) errors[k] = from_zero ? Bounds{-1, 1} : Bounds{0, 0};
+    if (from_zero) continue;
+    const Vector<N> given{N(about_.values[part.begin]), N(about_.values[part.begin + 1]),
+                          N(about_.values[part.begin + 2])};
+    for (const Facing<N>& f : normals.facing) {
+      const N component = inner(f.direction, given);
+      const Bounds below = bounds(N(f.low - component)), above = bounds(N(f.high - component));
+      // The least change that the component needs: into [low, high].
+      Bounds change{0, 0};
+      if (below.high > 0) change = {std::max(0.0, below.low), below.high};
+      if (above.low < 0) change = {above.low, std::min(0.0, above.high)};
+      if (change.furthest_from_zero() > errors[part.begin].furthest_from_zero()) errors[part.begin] = change;
+    }
+  }
+  return errors;
+}
+
+template <class N, class A>
+void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves) {
+  if constexpr (A::kind == Kind::impact) {
+    if (yes) {  // a time beyond the largest finite number is a miss
+      const Bounds time = bounds(a.time);
+      if (!(time.high <= largest_finite(scalar_))) no();
+      if (time.low > largest_finite(scalar_)) return;
+    }
+  }
+  std::size_t count_given = 0;
+  if (list_ != nullptr) {
+    Alternative alternative{yes, 0, {}, normals.many, {}};
+    alternative.values = errors_of(a, normals, leaves, true, alternative.count);
+    for (const Facing<N>& f : normals.facing) {
+      alternative.facing.push_back({{bounds(f.direction[0]), bounds(f.direction[1]), bounds(f.direction[2])},
+                                    {bounds(f.low).low, bounds(f.high).high}});
+    }
+    list_->push_back(std::move(alternative));
+  }
+  if (yes != about_.yes) return count(yes, {});
+  const auto errors = errors_of(a, normals, leaves, false, count_given);
+  count(yes, {errors.data(), count_given});
+}
+
+// The two stages, and the line with which an oracle's .cpp file ends.
+
+/// Sets the rounding of the intervals for its lifetime and tells afterwards whether any operation was
+/// invalid (infinity - infinity, 0 * infinity): then the bounds mean nothing.
+class IntervalScope {
+ public:
+  IntervalScope();
+  /// Call behind a compiler barrier, when the arithmetic is done.
+  bool any_invalid() const;
+
+ private:
+  CGAL::Protect_FPU_rounding<true> upward_{CGAL_FE_UPWARD};
+};
+
+/// Keeps arithmetic from moving across a change of the floating-point environment.
+inline void arithmetic_barrier() { asm volatile("" ::: "memory"); }
+
+/// The input, each number widened; a size stays at least zero.
+template <class Q>
+Q widened(std::span<const double> values, Widening widening) {
+  Q q;
+  std::size_t i = 0;
+  collide::for_each_leaf(q, [&](auto& leaf, Role role) {
+    using Leaf = std::decay_t<decltype(leaf)>;
+    if constexpr (std::is_same_v<Leaf, Interval>) {
+      const Interval wide = Interval(values[i]) + Interval(-widening[i], widening[i]);
+      leaf = role == Role::size ? assume_at_least_zero(wide) : wide;
+    } else {
+      leaf = static_cast<Leaf>(values[i]);
+    }
+    ++i;
+  });
+  return q;
+}
+
+template <class Q>
+Q exact_inputs(std::span<const double> values) {
+  Q q;
+  std::size_t i = 0;
+  collide::for_each_leaf(q, [&](auto& leaf, Role) {
+    using Leaf = std::decay_t<decltype(leaf)>;
+    if constexpr (std::is_same_v<Leaf, Exact>) {
+      leaf = Exact(Rational(values[i]));
+    } else {
+      leaf = static_cast<Leaf>(values[i]);
+    }
+    ++i;
+  });
+  return q;
+}
+
+/// Algorithm::run(inputs over N, Outcomes<N, A<N>>&), for any N.
+template <template <class> class Inputs, template <class> class A, class Algorithm>
+struct Stages {
+  [[gnu::noinline]] static void run(const Inputs<Interval>& q, Outcomes<Interval, A<Interval>>& out) {
+    Algorithm::run(q, out);
+  }
+  static const Layout& layout() {
+    static const Layout l = Layout::of<A<double>>();
+    return l;
+  }
+  static Enclosure interval(std::span<const double> values, Widening widening, const Answer& about, Scalar scalar) {
+    const IntervalScope scope;
+    arithmetic_barrier();
+    Outcomes<Interval, A<Interval>> out(about, scalar, layout());
+    run(widened<Inputs<Interval>>(values, widening), out);
+    arithmetic_barrier();
+    if (scope.any_invalid()) out.everything();
+    return out.result();
+  }
+  static Enclosure exact(std::span<const double> values, const Answer& about, Scalar scalar,
+                         std::vector<Alternative>* list) {
+    Outcomes<Exact, A<Exact>> out(about, scalar, layout());
+    out.list_in(list);
+    Algorithm::run(exact_inputs<Inputs<Exact>>(values), out);
+    return out.result();
+  }
+  static Oracle oracle() { return {interval, exact}; }
+};
+
+/// Ends an oracle's file: binds the function template `query` to its line of the catalogue.
+#define NEARMISS_ORACLE(query, answer_type)                                                       \
+  namespace {                                                                                     \
+  struct query##_algorithm {                                                                      \
+    template <class Q, class Out>                                                                 \
+    static void run(const Q& q, Out& out) {                                                       \
+      query(q, out);                                                                              \
+    }                                                                                             \
+  };                                                                                              \
+  }                                                                                               \
+  Oracle query##_oracle() {                                                                       \
+    return Stages<collide::inputs::query, collide::answer_type, query##_algorithm>::oracle();     \
+  }
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,53 @@
+/// A query with its types erased: names and roles of its numbers, its rules, its oracle.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <collide/answers.hpp>
+#include <collide/members.hpp>
+
+#include "impl/subject/answer.hpp"
+#include "oracles/enclosure.hpp"
+
+namespace nearmiss {
+
+using collide::Kind;
+using collide::Role;
+
+std::string_view name_of(Kind kind);
+std::string_view name_of(Role role);
+
+/// One number of an input or an answer.
+struct Field {
+  std::string name;  ///< "box.center.x"
+  Role role;
+};
+
+/// A rule that an input breaks: which field, its value, what it must be.
+struct Invalid {
+  std::string field;
+  double value;
+  std::string rule;
+  std::string text() const;
+};
+
+struct Query {
+  std::string_view name;
+  Kind kind;
+  std::vector<Field> inputs;
+  std::vector<Field> outputs;
+  /// The first rule that the inputs break, if any. Expects inputs.size() values.
+  std::optional<Invalid> (*broken)(std::span<const double> values);
+  Oracle oracle;
+};
+
+/// All queries, in the catalogue's order.
+std::span<const Query> catalogue();
+/// nullptr when the catalogue has no such line.
+const Query* find_query(std::string_view name);
+
+}  // namespace nearmiss
