@@ -40,7 +40,7 @@ function(nearmiss_finish_subjects)
   string(APPEND text "  };\n  return all;\n}\n}\n")
   file(GENERATE OUTPUT ${NEARMISS_GENERATED}/subjects/all.cpp CONTENT "${text}")
   add_library(nearmiss_subjects STATIC ${sources} ${NEARMISS_GENERATED}/subjects/all.cpp
-    ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp)
+    ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp ${PROJECT_SOURCE_DIR}/impl/subject/worker.cpp)
   target_link_libraries(nearmiss_subjects PUBLIC nearmiss_flags collide PRIVATE ${libraries})
   target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
 endfunction()

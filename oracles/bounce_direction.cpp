@@ -19,9 +19,7 @@ void bounce_direction(const collide::inputs::bounce_direction<N>& q, Out& out) {
     const N length2 = norm2(u);
     if (may_be_zero(length2)) return out.everything();
     const N twice = N(2) * inner(v, u) / length2;
-    Vector<N> d = minus(v, times(u, twice));
-    for (N& component : d) component = assume_within(N(component / speed), -1.0, 1.0);
-    out.yes({answer_vector(d)});
+    out.yes({answer_vector(times(minus(v, times(u, twice)), N(N(1) / speed)))});
   };
   const bool may_coincide = may_be_zero(to_center[0]) && may_be_zero(to_center[1]) && may_be_zero(to_center[2]);
   if (may_coincide) reflected(vector(q.normal));

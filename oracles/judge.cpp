@@ -113,7 +113,7 @@ int not_finite(const Query& query, const Answer& answer) {
 }
 
 /// |normal| - 1 in units of epsilon; 0 where the answer has no normal.
-double unit_error(const Query& query, const Answer& answer, Scalar scalar) {
+double length_error(const Query& query, const Answer& answer, Scalar scalar) {
   long double length2 = 0;
   bool any = false;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
@@ -123,6 +123,17 @@ double unit_error(const Query& query, const Answer& answer, Scalar scalar) {
   }
   if (!any || !answer.yes) return 0;
   return double((std::sqrt(length2) - 1) / unit_roundoff(scalar));
+}
+
+/// The answer with its normals divided by their length: normals are compared as directions, and their
+/// length on its own. Normals that are nowhere near unit stay as they are.
+Answer with_unit_normals(const Query& query, Answer answer, double error, Scalar scalar) {
+  if (!(std::abs(error) * unit_roundoff(scalar) < 0.5)) return answer;
+  const long double length = 1 + static_cast<long double>(error) * unit_roundoff(scalar);
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (query.outputs[i].role == Role::normal) answer.values[i] = double(answer.values[i] / length);
+  }
+  return answer;
 }
 
 void take_forward(const Enclosure& e, Finding& f) {
@@ -158,7 +169,9 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
     f.clause = answer.reason();
     return f;
   }
-  const Examination x(question, answer);
+  f.unit_error = length_error(query, answer, question.scalar);
+  const Answer compared = with_unit_normals(query, answer, f.unit_error, question.scalar);
+  const Examination x(question, compared);
   if (!x.in_domain(contract)) {
     f.verdict = Verdict::out_of_domain;
     return f;
@@ -178,7 +191,6 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
   f.truth_yes = here.may_be_yes;
   const bool decision_differs = f.truth_yes != answer.yes;
   if (!decision_differs) take_forward(here, f);
-  f.unit_error = unit_error(query, answer, question.scalar);
   if (here.may_match) {
     f.verdict = Verdict::agrees;
   } else {

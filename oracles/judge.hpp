@@ -56,7 +56,7 @@ struct Finding {
   double forward_ulps = 0;                ///< of the worst number: at least this many ulps from an exact answer
   double forward_absolute = 0;            ///< the same distance in the number's own unit
   int worst = -1;                         ///< index of that number among the query's outputs
-  double unit_error = 0;            ///< |normal| - 1, in units of epsilon
+  double unit_error = 0;            ///< |normal| - 1, in units of epsilon; 0 where none is given
 };
 
 /// How much to find out beyond the verdict.

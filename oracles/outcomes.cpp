@@ -18,11 +18,12 @@ Safe enclose(const Rational& q) {
   return {low, high};
 }
 
-/// Distance from |x| to the next number: the unit in which a vector's numbers are compared.
+/// The unit in which a member's numbers are compared: one ulp of the largest of them. A normal's is
+/// twice that, because the judge rounds it once more when it divides by its length.
 double unit_of(const Answer& about, const Layout::Part& part, Scalar scalar) {
   double largest = 0;
   for (std::size_t i = part.begin; i < part.end; ++i) largest = std::max(largest, std::abs(about.values[i]));
-  return ulp(largest, scalar);
+  return ulp(largest, scalar) * (part.role == Role::normal ? 2 : 1);
 }
 
 }  // namespace

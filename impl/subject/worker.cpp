@@ -1,0 +1,212 @@
+#include "impl/subject/worker.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <exception>
+#include <fstream>
+#include <system_error>
+
+namespace nearmiss {
+
+/// Lives in memory that both processes see. The parent writes it before it wakes the child; while the
+/// child works it alone writes `done` and `answers`.
+struct Worker::Shared {
+  std::atomic<std::size_t> done;  ///< cases answered
+  std::size_t count, inputs;
+  Answer (*answer)(std::span<const double>);
+  std::array<double, max_values> values;
+  std::array<Answer, capacity> answers;
+};
+
+struct Worker::Child {
+  pid_t pid = -1;
+  int to_child = -1, from_child = -1, standard_error = -1;
+};
+
+namespace {
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool address_sanitizer = true;
+#elif defined(__has_feature)
+constexpr bool address_sanitizer = __has_feature(address_sanitizer);
+#else
+constexpr bool address_sanitizer = false;
+#endif
+
+std::size_t address_space_in_use() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * std::size_t(sysconf(_SC_PAGESIZE));
+}
+
+void limit(int resource, std::size_t value) {
+  const rlimit r{value, value};
+  setrlimit(resource, &r);
+}
+
+/// The child's own limits and signals. AddressSanitizer reserves terabytes, so it cannot be limited so.
+void confine(std::size_t bytes, int standard_error) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const int s : {SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS, SIGTERM}) signal(s, SIG_DFL);
+  for (const int s : {SIGINT, SIGXFSZ}) signal(s, SIG_IGN);  // a terminal's interrupt is the parent's to handle
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, std::size_t{16} << 20);
+  if (!address_sanitizer) limit(RLIMIT_AS, address_space_in_use() + bytes);
+  dup2(standard_error, STDERR_FILENO);
+}
+
+Answer answer_or_broke(Answer (*answer)(std::span<const double>), std::span<const double> inputs) {
+  try {
+    return answer(inputs);
+  } catch (const std::bad_alloc&) {
+    return Answer::without(Answer::Status::broke, "memory limit reached");
+  } catch (const std::exception& e) {
+    return Answer::without(Answer::Status::broke, std::string("exception: ") + e.what());
+  } catch (...) {
+    return Answer::without(Answer::Status::broke, "exception that is no std::exception");
+  }
+}
+
+std::string last_line_of(int file) {
+  const off_t size = lseek(file, 0, SEEK_END);
+  std::string text(std::size_t(std::clamp<off_t>(size, 0, 4096)), '\0');
+  const ssize_t got = pread(file, text.data(), text.size(), std::max<off_t>(0, size - off_t(text.size())));
+  text.resize(std::size_t(std::max<ssize_t>(0, got)));
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.find_last_of('\n') + 1);
+}
+
+}  // namespace
+
+Worker::Worker(WorkerLimits limits) : limits_(limits) {
+  void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) fail("shared memory for a worker process");
+  shared_ = new (memory) Shared;
+}
+
+Worker::~Worker() {
+  end();
+  munmap(shared_, sizeof(Shared));
+}
+
+void Worker::start() {
+  child_ = std::make_unique<Child>();
+  int down[2], up[2];
+  if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0) fail("pipes to a worker process");
+  child_->standard_error = memfd_create("worker-stderr", MFD_CLOEXEC);
+  if (child_->standard_error < 0) fail("memory for a worker's messages");
+  child_->pid = fork();
+  if (child_->pid < 0) fail("a worker process");
+  if (child_->pid == 0) {
+    close(down[1]);
+    close(up[0]);
+    confine(limits_.bytes, child_->standard_error);
+    char byte = 0;
+    while (read(down[0], &byte, 1) == 1) {
+      for (std::size_t i = shared_->done; i < shared_->count; ++i) {
+        const std::span<const double> inputs{shared_->values.data() + i * shared_->inputs, shared_->inputs};
+        shared_->answers[i] = answer_or_broke(shared_->answer, inputs);
+        shared_->done.store(i + 1, std::memory_order_release);
+      }
+      if (write(up[1], &byte, 1) != 1) break;
+    }
+    _exit(0);
+  }
+  close(down[0]);
+  close(up[1]);
+  child_->to_child = down[1];
+  child_->from_child = up[0];
+}
+
+void Worker::release() {
+  for (const int file : {child_->to_child, child_->from_child, child_->standard_error}) close(file);
+  child_.reset();
+}
+
+void Worker::end() {
+  if (!child_) return;
+  kill(child_->pid, SIGKILL);
+  waitpid(child_->pid, nullptr, 0);
+  release();
+}
+
+/// Reaps the child and says in one line what became of it.
+std::string Worker::how_it_ended(bool timed_out) {
+  if (timed_out) kill(child_->pid, SIGKILL);
+  int status = 0;
+  waitpid(child_->pid, &status, 0);
+  const std::string last_words = last_line_of(child_->standard_error);
+  release();
+  if (timed_out) return "no answer within " + std::to_string(limits_.seconds_per_case).substr(0, 5) + " s";
+  std::string how = WIFSIGNALED(status) ? "killed by signal " + std::to_string(WTERMSIG(status)) + " (" +
+                                              strsignal(WTERMSIG(status)) + ")"
+                                        : "left with exit code " + std::to_string(WEXITSTATUS(status));
+  return last_words.empty() ? how : how + ": " + last_words;
+}
+
+void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+  shared_->count = values.size() / inputs_per_case;
+  shared_->inputs = inputs_per_case;
+  shared_->answer = offering.answer;
+  shared_->done = 0;
+  std::copy(values.begin(), values.end(), shared_->values.begin());
+  if (!child_) start();
+  [[maybe_unused]] const ssize_t woken = write(child_->to_child, "g", 1);  // a dead child is seen in receive
+}
+
+std::span<const Answer> Worker::receive() {
+  using Clock = std::chrono::steady_clock;
+  std::size_t seen = 0;
+  auto since = Clock::now();
+  while (true) {
+    pollfd p{child_->from_child, POLLIN, 0};
+    const int ready = poll(&p, 1, 50);
+    char byte = 0;
+    if (ready > 0 && read(child_->from_child, &byte, 1) == 1) break;
+    if (const std::size_t done = shared_->done.load(std::memory_order_acquire); done != seen) {
+      seen = done;
+      since = Clock::now();
+    }
+    const bool timed_out = std::chrono::duration<double>(Clock::now() - since).count() > limits_.seconds_per_case;
+    if (ready <= 0 && !timed_out) continue;
+    const std::string how = how_it_ended(timed_out);
+    const std::size_t broken = shared_->done;
+    if (broken < shared_->count) {
+      shared_->answers[broken] = Answer::without(Answer::Status::broke, how);
+      shared_->done = broken + 1;
+    }
+    if (shared_->done >= shared_->count) break;
+    start();
+    [[maybe_unused]] const ssize_t woken = write(child_->to_child, "g", 1);
+    seen = shared_->done;
+    since = Clock::now();
+  }
+  return {shared_->answers.data(), shared_->count};
+}
+
+std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+  std::vector<Answer> answers;
+  const std::size_t most = std::min(capacity, max_values / inputs_per_case) * inputs_per_case;
+  for (std::size_t at = 0; at < values.size(); at += most) {
+    send(offering, values.subspan(at, std::min(most, values.size() - at)), inputs_per_case);
+    const auto batch = receive();
+    answers.insert(answers.end(), batch.begin(), batch.end());
+  }
+  return answers;
+}
+
+}  // namespace nearmiss
