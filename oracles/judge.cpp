@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cfenv>
 #include <cmath>
 
 namespace nearmiss {
@@ -31,6 +32,22 @@ Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   }
   return largest;
 }
+
+/// Rounds to nearest for its lifetime, whatever the caller's mode.
+class RoundToNearest {
+ public:
+  RoundToNearest() : before_(std::fegetround()) {
+    if (before_ != FE_TONEAREST) std::fesetround(FE_TONEAREST);
+  }
+  ~RoundToNearest() {
+    if (before_ != FE_TONEAREST) std::fesetround(before_);
+  }
+  RoundToNearest(const RoundToNearest&) = delete;
+  RoundToNearest& operator=(const RoundToNearest&) = delete;
+
+ private:
+  int before_;
+};
 
 /// The oracle and the question, so that each step below is one line.
 class Examination {
@@ -162,6 +179,7 @@ std::vector<double> widening(const Query& query, std::span<const double> values,
 }
 
 Finding judge(const Case& question, const Answer& answer, const collide::Contract& contract, Detail detail) {
+  const RoundToNearest to_nearest;
   const Query& query = *question.query;
   Finding f;
   if (answer.status != Answer::Status::answered) {
@@ -215,6 +233,7 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
 }
 
 Truth truth_of(const Case& question) {
+  const RoundToNearest to_nearest;
   const Answer none{};
   const Examination x(question, none);
   Truth t;

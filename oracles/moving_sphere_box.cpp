@@ -1,6 +1,6 @@
 /// Truth: in the box's frame, one quadratic for each of the 26 regions around the box; its earlier
 /// root counts where the center is then in that region. The distance from a convex set is convex along
-/// a line, so such a root is the first contact and there is only one.
+/// a line, so the least of these roots is the first contact; others end a graze of constant distance.
 #include <collide/moving_sphere_box.hpp>
 
 #include "oracles/point_and_box.hpp"
@@ -51,9 +51,17 @@ Window times_on_side(const N& start, const N& step, const N& half, int side) {
   return w;
 }
 
-/// The earlier root of the region's quadratic, as possible answers.
-template <class N, class Out>
-void first_root(const Motion<N>& m, const Sides& sides, Out& out) {
+/// A root of some region's quadratic.
+template <class N>
+struct Contact {
+  collide::Impact<N> impact;
+  Normals<N> normals;
+};
+
+/// Appends the earlier root of the region's quadratic, where the center is then in that region. False
+/// when a divisor may be zero, so that nothing can be said.
+template <class N>
+bool first_root(const Motion<N>& m, const Sides& sides, std::vector<Contact<N>>& roots) {
   Vector<N> e{N(0), N(0), N(0)}, w{N(0), N(0), N(0)};
   int axis = 0;
   for (int i = 0; i < 3; ++i) {
@@ -63,26 +71,26 @@ void first_root(const Motion<N>& m, const Sides& sides, Out& out) {
     w[i] = m.step[i];
   }
   const N closing = -inner(e, w);
-  if (!may_be_positive(closing)) return;
+  if (!may_be_positive(closing)) return true;
   N time(0);
   if (beyond(sides) == 1) {
     const N speed = sides[axis] > 0 ? N(-w[axis]) : w[axis];
     const N gap = sides[axis] > 0 ? e[axis] : N(-e[axis]);
-    if (!may_be_positive(speed)) return;
-    if (may_be_zero(speed)) return out.everything();
+    if (!may_be_positive(speed)) return true;
+    if (may_be_zero(speed)) return false;
     time = (gap - m.radius) / speed;
   } else {
     const N discriminant = norm2(w) * square(m.radius) - norm2(outer(e, w));
-    if (!may_be_at_least_zero(discriminant)) return;
+    if (!may_be_at_least_zero(discriminant)) return true;
     const N far = assume_at_least_zero(closing) + root(discriminant);
-    if (may_be_zero(far)) return out.everything();
+    if (may_be_zero(far)) return false;
     time = (norm2(e) - square(m.radius)) / far;
   }
-  if (!may_be_at_least_zero(time)) return;
+  if (!may_be_at_least_zero(time)) return true;
   time = assume_at_least_zero(time);
   Vector<N> contact = m.at(time), normal{N(0), N(0), N(0)};
   for (int i = 0; i < 3; ++i) {
-    if (!may_be_on_side(contact[i], m.half[i], sides[i])) return;
+    if (!may_be_on_side(contact[i], m.half[i], sides[i])) return true;
     if (sides[i] == 0) continue;
     const N away = e[i] + w[i] * time;
     normal[i] = sides[i] > 0 ? N(assume_at_least_zero(away)) : N(assume_at_most_zero(away));
@@ -91,13 +99,31 @@ void first_root(const Motion<N>& m, const Sides& sides, Out& out) {
   collide::Impact<N> impact{time, answer_vector(m.to_world(contact)), {}};
   if (beyond(sides) == 1) {
     impact.normal = answer_vector(sides[axis] > 0 ? m.axes[axis] : negated(m.axes[axis]));
-    return out.yes(impact);
+    roots.push_back({impact, {}});
+    return true;
   }
-  if (may_be_zero(m.radius)) return out.yes(impact, normal_cone(m.axes, sides));
+  if (may_be_zero(m.radius)) {
+    roots.push_back({impact, normal_cone(m.axes, sides)});
+    return true;
+  }
   for (N& component : normal) component = assume_within(N(component / m.radius), -1.0, 1.0);
   impact.normal = answer_vector(out_of(m.axes, normal));
-  out.yes(impact);
+  roots.push_back({impact, {}});
+  return true;
 }
+
+/// Among exact roots the least; among enclosures each may be the least.
+template <class N, class Out>
+void report_first(const std::vector<Contact<N>>& roots, Out& out) {
+  const auto later_than_another = [&](const Contact<N>& c) {
+    return std::any_of(roots.begin(), roots.end(),
+                       [&](const Contact<N>& other) { return may_be_less(other.impact.time, c.impact.time); });
+  };
+  for (const Contact<N>& c : roots) {
+    if (is_enclosure<N> || !later_than_another(c)) out.yes(c.impact, c.normals);
+  }
+}
+
 
 /// A point on the surface (distance 0): may the motion not leave along some normal of that region?
 template <class N>
@@ -207,11 +233,15 @@ void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out)
     }
   }
   if (near.empty()) return out.no();
+  std::vector<Contact<N>> roots;
+  bool known = true;
   for_each_region([&](const Sides& sides) {
     Window w = near;
     for (int i = 0; i < 3; ++i) w.clip(on_side[i][sides[i] + 1]);
-    if (!w.empty()) first_root(m, sides, out);
+    if (!w.empty()) known = first_root(m, sides, roots) && known;
   });
+  if (!known) return out.everything();
+  report_first(roots, out);
   const bool none = !out.result().may_be_yes;
   if (none || (is_enclosure<N> && !surely_overlaps(m, time_of_least_distance(m, near)))) out.no();
 }

@@ -1,0 +1,13 @@
+/// The floating-point environment on which every result here rests.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace nearmiss {
+
+/// What is wrong with the arithmetic of this build on this machine, in one line; empty when nothing
+/// is. Asked once at the start of every program. Works with any rounding mode on entry and leaves it.
+std::optional<std::string> broken_environment();
+
+}  // namespace nearmiss
