@@ -3,6 +3,8 @@
 /// a line, so the least of these roots is the first contact; others end a graze of constant distance.
 #include <collide/moving_sphere_box.hpp>
 
+#include <cmath>
+
 #include "oracles/point_and_box.hpp"
 
 namespace nearmiss::oracle {
@@ -31,14 +33,16 @@ struct Window {
   }
 };
 
-/// Encloses the times t >= 0 with a + b t <= 0.
+/// Encloses the times t >= 0 at which a + b t <= 0 for some a and b of the enclosures: since t is not
+/// negative, that depends on their lower bounds alone.
 template <class N>
 Window times_not_positive(const N& a, const N& b) {
-  const bool up = may_be_positive(b), down = may_be_negative(b);
-  if (up && !down && !may_be_zero(b)) return {0, bounds(N(-a / b)).high};
-  if (down && !up && !may_be_zero(b)) return {std::max(0.0, bounds(N(-a / b)).low), Window{}.to};
-  if (!up && !down && !may_be_at_most_zero(a)) return {1, 0};
-  return {};
+  const double a_low = bounds(a).low, b_low = bounds(b).low;
+  if (a_low <= 0 && b_low <= 0) return {};
+  if (a_low > 0 && b_low >= 0) return {1, 0};
+  const double crossing = -a_low / b_low;
+  if (a_low <= 0) return {0, std::nextafter(crossing, Window{}.to)};
+  return {std::max(0.0, std::nextafter(crossing, 0.0)), Window{}.to};
 }
 
 /// When a coordinate is on `side` of [-half, half].
@@ -58,58 +62,60 @@ struct Contact {
   Normals<N> normals;
 };
 
-/// Appends the earlier root of the region's quadratic, where the center is then in that region. False
-/// when a divisor may be zero, so that nothing can be said.
+/// The quotient, known to lie in the window: so it is bounded even where the divisor may be zero.
+inline Interval time_within(const Window& w, const Interval& numerator, const Interval& divisor) {
+  const Interval window(w.from, w.to);
+  return may_be_zero(divisor) ? window : meet(numerator / divisor, window);
+}
+inline Exact time_within(const Window&, const Exact& numerator, const Exact& divisor) { return numerator / divisor; }
+
+/// Appends the earlier root of the region's quadratic, where the center is then in that region; `w`
+/// encloses the times at which it is.
 template <class N>
-bool first_root(const Motion<N>& m, const Sides& sides, std::vector<Contact<N>>& roots) {
-  Vector<N> e{N(0), N(0), N(0)}, w{N(0), N(0), N(0)};
+void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::vector<Contact<N>>& roots) {
+  Vector<N> e{N(0), N(0), N(0)}, v{N(0), N(0), N(0)};
   int axis = 0;
   for (int i = 0; i < 3; ++i) {
     if (sides[i] == 0) continue;
     axis = i;
     e[i] = sides[i] > 0 ? N(m.start[i] - m.half[i]) : N(m.start[i] + m.half[i]);
-    w[i] = m.step[i];
+    v[i] = m.step[i];
   }
-  const N closing = -inner(e, w);
-  if (!may_be_positive(closing)) return true;
+  const N closing = -inner(e, v);
+  if (!may_be_positive(closing)) return;
   N time(0);
   if (beyond(sides) == 1) {
-    const N speed = sides[axis] > 0 ? N(-w[axis]) : w[axis];
+    const N speed = sides[axis] > 0 ? N(-v[axis]) : v[axis];
     const N gap = sides[axis] > 0 ? e[axis] : N(-e[axis]);
-    if (!may_be_positive(speed)) return true;
-    if (may_be_zero(speed)) return false;
-    time = (gap - m.radius) / speed;
+    if (!may_be_positive(speed)) return;
+    time = time_within(w, N(gap - m.radius), speed);
   } else {
-    const N discriminant = norm2(w) * square(m.radius) - norm2(outer(e, w));
-    if (!may_be_at_least_zero(discriminant)) return true;
+    const N discriminant = norm2(v) * square(m.radius) - norm2(outer(e, v));
+    if (!may_be_at_least_zero(discriminant)) return;
     const N far = assume_at_least_zero(closing) + root(discriminant);
-    if (may_be_zero(far)) return false;
-    time = (norm2(e) - square(m.radius)) / far;
+    time = time_within(w, N(norm2(e) - square(m.radius)), far);
   }
-  if (!may_be_at_least_zero(time)) return true;
+  if (!may_be_at_least_zero(time)) return;
   time = assume_at_least_zero(time);
   Vector<N> contact = m.at(time), normal{N(0), N(0), N(0)};
   for (int i = 0; i < 3; ++i) {
-    if (!may_be_on_side(contact[i], m.half[i], sides[i])) return true;
+    if (!may_be_on_side(contact[i], m.half[i], sides[i])) return;
     if (sides[i] == 0) continue;
-    const N away = e[i] + w[i] * time;
+    const N away = e[i] + v[i] * time;
     normal[i] = sides[i] > 0 ? N(assume_at_least_zero(away)) : N(assume_at_most_zero(away));
     contact[i] = sides[i] > 0 ? m.half[i] : N(-m.half[i]);
   }
   collide::Impact<N> impact{time, answer_vector(m.to_world(contact)), {}};
   if (beyond(sides) == 1) {
     impact.normal = answer_vector(sides[axis] > 0 ? m.axes[axis] : negated(m.axes[axis]));
-    roots.push_back({impact, {}});
-    return true;
+    return roots.push_back({impact, {}});
   }
   if (may_be_zero(m.radius)) {
-    roots.push_back({impact, normal_cone(m.axes, sides)});
-    return true;
+    return roots.push_back({impact, normal_cone(m.axes, sides)});
   }
   for (N& component : normal) component = assume_within(N(component / m.radius), -1.0, 1.0);
   impact.normal = answer_vector(out_of(m.axes, normal));
   roots.push_back({impact, {}});
-  return true;
 }
 
 /// Among exact roots the least; among enclosures each may be the least.
@@ -234,13 +240,11 @@ void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out)
   }
   if (near.empty()) return out.no();
   std::vector<Contact<N>> roots;
-  bool known = true;
   for_each_region([&](const Sides& sides) {
     Window w = near;
     for (int i = 0; i < 3; ++i) w.clip(on_side[i][sides[i] + 1]);
-    if (!w.empty()) known = first_root(m, sides, roots) && known;
+    if (!w.empty()) first_root(m, sides, w, roots);
   });
-  if (!known) return out.everything();
   report_first(roots, out);
   const bool none = !out.result().may_be_yes;
   if (none || (is_enclosure<N> && !surely_overlaps(m, time_of_least_distance(m, near)))) out.no();

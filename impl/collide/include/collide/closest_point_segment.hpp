@@ -39,11 +39,12 @@ struct closest_point_segment {
     return collide::closest_point_segment<Tier>(segment, point);
   }
 
-  /// Two subtractions (each 1 eps of the largest position G times 2), a dot product of three terms
-  /// (3 eps of |point - v0| |along|, so 3 * 4 eps G along the segment after the division), the
-  /// division, the product and the sum (1 eps each of at most 2 G): 2*2 + 12 + 3*2 eps G. Moving
-  /// `point` and both ends by that much reproduces the result.
-  static constexpr Contract contract(Fast) { return {.backward = 22, .lowest = -30, .highest = 30}; }
+  /// First order, G the largest position: two differences (1 eps of 2 G each), a dot product (3 eps of
+  /// |point - v0| |along|: 12 eps G along the segment after the division), division, product and sum
+  /// (1 eps of at most 2 G each). Moving the point and the ends by 2 * 2 + 12 + 3 * 2 eps G explains all.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 22, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
 };
 }  // namespace inputs
 }  // namespace collide

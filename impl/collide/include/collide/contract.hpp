@@ -19,9 +19,24 @@ struct Contract {
   bool exact_decisions = false;
   /// Returned unit vectors have a length within `unit * epsilon` of 1.
   double unit = none;
-  /// The promise covers inputs whose nonzero numbers lie in [2^lowest, 2^highest].
+  /// The promise covers inputs where the largest magnitude of each group (positions, velocities, sizes,
+  /// directions, rotations, times) is zero or lies in [2^lowest, 2^highest].
   int lowest = -1100;
   int highest = 1100;
 };
+
+/// The largest power of two whose `degree`-fold product is finite in T, with room for a few sums.
+template <class T>
+constexpr int highest_for(int degree) {
+  return (std::numeric_limits<T>::max_exponent - 5) / degree;
+}
+/// The least power of two whose `degree`-fold product, and its rounding error, and the error's own
+/// rounding, are normal numbers of T.
+template <class T>
+constexpr int lowest_for(int degree) {
+  return (std::numeric_limits<T>::min_exponent + 2 * std::numeric_limits<T>::digits) / degree;
+}
+static_assert(highest_for<float>(2) == 61 && lowest_for<float>(2) == -38);
+static_assert(highest_for<double>(2) == 509 && lowest_for<double>(2) == -457);
 
 }  // namespace collide

@@ -69,6 +69,13 @@ struct moving_point_sphere {
   auto ask() const noexcept {
     return collide::moving_point_sphere<Tier>(point, velocity, sphere, solid);
   }
+
+  /// First order, G the largest position: center to point is known to 2 eps G per axis; the closest
+  /// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
+  /// location 2 eps of 4 G.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
 };
 }  // namespace inputs
 }  // namespace collide
