@@ -40,7 +40,9 @@ BoxPair<N> pair_of(const Box<T>& box1, const Box<T>& box2) noexcept {
   const auto wide = [](const Quaternion<T>& q) {
     const T largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
     // A power of two, so that nothing is rounded; most quaternions are of moderate length already.
-    const T scale = largest >= T(0.0625) && largest <= T(16) ? T(1) : std::ldexp(T(1), -std::ilogb(largest));
+    const bool moderate = largest >= T(0.0625) && largest <= T(16);
+    const bool usable = largest > T(0) && largest <= std::numeric_limits<T>::max();
+    const T scale = moderate || !usable ? T(1) : std::ldexp(T(1), -std::ilogb(largest));
     return std::array<N, 4>{N(q.x * scale), N(q.y * scale), N(q.z * scale), N(q.w * scale)};
   };
   const std::array<N, 4> a = wide(box1.orientation), b = wide(box2.orientation);
@@ -120,9 +122,9 @@ Decision<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint = -
   std::uint32_t unsure = 0;
   const auto separates = [&](int axis) {
     const detail::Separation<T> s = detail::separation(pair, axis);
-    if (axis < 6) return s.gap > T(0);
+    if (axis < 6) return !(s.gap <= T(0));  // NaN separates: it must not look like an overlap
     const T bound = error * across * pair.norm1;
-    if (s.gap > bound) return true;
+    if (!(s.gap <= bound)) return true;
     if (!(s.gap < -bound) && s.terms > T(0)) unsure |= 1u << axis;
     return false;
   };

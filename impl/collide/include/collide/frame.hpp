@@ -42,11 +42,11 @@ std::array<T, 3> components(const Vec3<T>& v) noexcept {
   return {v.x, v.y, v.z};
 }
 
-/// How far a coordinate lies beyond [-half, half]: signed, zero within.
+/// How far a coordinate lies beyond [-half, half]: signed, zero within, NaN where either is.
 template <class T>
 T excess(T coordinate, T half) noexcept {
-  if (coordinate > half) return coordinate - half;
-  if (coordinate < -half) return coordinate + half;
+  if (!(coordinate <= half)) return coordinate - half;
+  if (!(coordinate >= -half)) return coordinate + half;
   return T(0);
 }
 

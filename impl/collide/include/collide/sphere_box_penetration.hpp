@@ -30,7 +30,7 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
     away[i] = excess(local[i], half[i]);
     distance2 += away[i] * away[i];
   }
-  if (distance2 > T(0)) {
+  if (!(distance2 <= T(0))) {
     const T distance = sqrt(distance2);
     const T depth = sphere.radius - distance;
     if (!(depth >= T(0))) return {depth};
