@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Adds an eighth query to a copy of the sources, in the places that the README names and no other, and
+# checks that the command line, the oracle, the generator and the fuzz target have it.
+# Usage: add_a_query.sh SOURCE_FOLDER
+set -euo pipefail
+
+query=sphere_contains_point
+source_folder=$(cd "$1" && pwd)
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+
+fail() {
+  echo "add_a_query: $1" >&2
+  exit 1
+}
+
+tar -C "$source_folder" --exclude=./build --exclude='./build*' --exclude=./.git --exclude=./reports/runs -cf - . |
+  tar -C "$copy" -xf -
+here=$source_folder/properties/eighth_query
+
+# The recipe.
+cp "$here/$query.hpp" "$copy/impl/collide/include/collide/"
+cp "$here/$query.cpp" "$copy/oracles/"
+echo "NEARMISS_QUERY($query)" >>"$copy/oracles/catalogue.def"
+mkdir -p "$copy/corpus/seeds/$query"
+cp "$here"/seeds/*.json "$copy/corpus/seeds/$query/"
+
+# Unchanged sources come from the compiler cache although the folder is another one.
+export CCACHE_BASEDIR=$copy CCACHE_NOHASHDIR=1
+cmake -S "$copy" -B "$copy/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF >"$copy/log" 2>&1 ||
+  { cat "$copy/log"; fail "cmake refuses the eighth query"; }
+cmake --build "$copy/build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||
+  { tail -n 40 "$copy/log"; fail "the eighth query does not build"; }
+
+nearmiss=$copy/build/reports/nearmiss
+export NEARMISS_CORPUS=$copy/corpus
+"$nearmiss" list --json >"$copy/list.json"
+grep -q "\"query\": *\"$query\"" "$copy/list.json" || fail "list --json does not know $query"
+grep -q "\"fuzz_target\": *\"fuzz_$query\"" "$copy/list.json" || fail "list --json has no fuzz target for $query"
+"$nearmiss" run --query "$query" --cases 20000 --seed 1 --out "$copy/run" >"$copy/log" 2>&1 ||
+  { cat "$copy/log"; fail "run finds violations or cannot run"; }
+"$nearmiss" replay "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 || { cat "$copy/log"; fail "replay fails"; }
+"$copy/build/fuzz/fuzz_$query" "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 ||
+  { cat "$copy/log"; fail "the fuzz target does not replay the seed"; }
+
+# Teeth: a wrong comparison in the new query must be found.
+sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/$query.hpp"
+cmake --build "$copy/build" --target nearmiss_cli >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
+status=0
+"$nearmiss" run --query "$query" --cases 20000 --seed 1 --out "$copy/mutant" >"$copy/log" 2>&1 || status=$?
+[ "$status" = 1 ] || { cat "$copy/log"; fail "the mutant ends with exit code $status, not 1"; }
+echo "add_a_query: $query answers, is judged, fuzzed and replayed; a mutant of it is found"
