@@ -1,0 +1,329 @@
+/// The oracle against slow, obvious derivations on small integer lattices, where touches, ties and
+/// degenerate shapes are common. The derivations share no code with the oracle: rationals of gmpxx,
+/// pieces of the motion instead of regions, roots in 512 bits.
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+namespace {
+
+using Q = mpq_class;
+using V = std::array<Q, 3>;
+
+Q dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+V sub(const V& a, const V& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+V cross(const V& a, const V& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Reads the inputs of a case one after the other.
+class Reader {
+ public:
+  explicit Reader(std::span<const double> values) : at_(values.data()) {}
+  Q number() { return Q(*at_++); }
+  V vector() { const Q x = number(), y = number(), z = number(); return {x, y, z}; }
+
+ private:
+  const double* at_;
+};
+
+struct RefBox {
+  V center, half;
+  std::array<V, 3> axes;
+
+  explicit RefBox(Reader& r) : center(r.vector()), half(r.vector()) {
+    // Columns of the rotation as images of the unit vectors: v + 2 w (u x v) + 2 u x (u x v), over |q|^2.
+    const V u = r.vector();
+    const Q w = r.number(), n = dot(u, u) + w * w;
+    for (int i = 0; i < 3; ++i) {
+      V e{0, 0, 0};
+      e[i] = 1;
+      const V uv = cross(u, e), uuv = cross(u, uv);
+      for (int k = 0; k < 3; ++k) axes[i][k] = e[k] + 2 * (w * uv[k] + uuv[k]) / n;
+    }
+  }
+  V local(const V& world) const { return {dot(axes[0], world), dot(axes[1], world), dot(axes[2], world)}; }
+};
+
+/// The first numbers of the answer, correctly rounded or nearly so; they may be fewer than it has.
+struct Reference {
+  bool yes;
+  std::vector<double> values;
+};
+Reference no() { return {false, {}}; }
+template <class... Values>
+Reference yes(Values... values) { return {true, {values...}}; }
+
+/// (-b - sqrt(d)) / a, or with the other sign.
+double root_of(const Q& a, const Q& b, const Q& d, int sign = -1) {
+  const mpf_class root = sqrt(mpf_class(d, 512));
+  return mpf_class((-mpf_class(b, 512) + sign * root) / mpf_class(a, 512)).get_d();
+}
+
+Q excess(const Q& c, const Q& h) { return c > h ? Q(c - h) : c < -h ? Q(c + h) : Q(0); }
+
+/// Time of impact, piece by piece between the crossings of the face planes.
+Reference reference_moving_sphere_box(Reader r) {
+  const V p = r.vector();
+  const Q radius = r.number();
+  const V v = r.vector();
+  const RefBox box(r);
+  const V s = box.local(sub(p, box.center)), w = box.local(v);
+  Q outside = -radius * radius, slope = 0;
+  bool strictly_inside = true;
+  for (int i = 0; i < 3; ++i) {
+    const Q e = excess(s[i], box.half[i]);
+    outside += e * e;
+    slope += e * w[i];
+    strictly_inside = strictly_inside && abs(s[i]) < box.half[i];
+  }
+  if (outside < 0) return yes(0.0);
+  if (outside == 0 && radius > 0) return slope <= 0 ? yes(0.0) : no();
+  if (outside == 0) {
+    if (strictly_inside) return no();
+    for (int i = 0; i < 3; ++i) {
+      if (s[i] == box.half[i] && w[i] <= 0) return yes(0.0);
+      if (s[i] == -box.half[i] && w[i] >= 0) return yes(0.0);
+    }
+    return no();
+  }
+  std::vector<Q> crossings{0};
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] == 0) continue;
+    for (const int side : {-1, 1}) {
+      if (const Q t = (side * box.half[i] - s[i]) / w[i]; t > 0) crossings.push_back(t);
+    }
+  }
+  std::sort(crossings.begin(), crossings.end());
+  for (std::size_t k = 0; k < crossings.size(); ++k) {
+    const bool last = k + 1 == crossings.size();
+    const Q from = crossings[k], middle = last ? Q(from + 1) : Q((from + crossings[k + 1]) / 2);
+    Q a = 0, b = 0, c = -radius * radius;
+    for (int i = 0; i < 3; ++i) {
+      const Q x = s[i] + w[i] * middle;
+      if (abs(x) <= box.half[i]) continue;
+      const Q e = x > 0 ? Q(s[i] - box.half[i]) : Q(s[i] + box.half[i]);
+      a += w[i] * w[i], b += w[i] * e, c += e * e;
+    }
+    if (a == 0) {
+      if (c <= 0) return yes(from.get_d());
+      continue;
+    }
+    const Q d = b * b - a * c;
+    if (d < 0) continue;
+    // Is the root within [from, to]? (-b - a t)^2 against d, on the falling branch.
+    const auto root_beyond = [&](const Q& t) { const Q x = -b - a * t; return x >= 0 ? cmp(Q(x * x), d) : -1; };
+    if (root_beyond(from) >= 0 && (last || root_beyond(crossings[k + 1]) <= 0)) return yes(root_of(a, b, d));
+  }
+  return no();
+}
+
+Reference reference_moving_point_sphere(Reader r) {
+  const V p = r.vector(), v = r.vector(), center = r.vector();
+  const Q radius = r.number();
+  const bool solid = r.number() != 0;
+  const V m = sub(p, center);
+  const Q a = dot(v, v), b = dot(m, v), c = dot(m, m) - radius * radius, d = b * b - a * c;
+  if (c <= 0 && solid) return yes(0.0);
+  if (a == 0) return no();
+  if (c <= 0) return yes(root_of(a, b, d, +1));
+  if (b >= 0 || d < 0) return no();
+  return yes(root_of(a, b, d));
+}
+
+/// The hit point against the planes through the edges.
+Reference reference_moving_point_triangle(Reader r) {
+  const V p = r.vector(), v = r.vector();
+  const std::array<V, 3> corner{r.vector(), r.vector(), r.vector()};
+  const V n = cross(sub(corner[1], corner[0]), sub(corner[2], corner[0]));
+  const Q toward = dot(n, v), height = dot(n, sub(p, corner[0]));
+  if (toward >= 0 || height < 0) return no();
+  const Q t = height / -toward;
+  const V x{p[0] + v[0] * t, p[1] + v[1] * t, p[2] + v[2] * t};
+  for (int i = 0; i < 3; ++i) {
+    if (dot(n, cross(sub(corner[(i + 1) % 3], corner[i]), sub(x, corner[i]))) < 0) return no();
+  }
+  return yes(t.get_d());
+}
+
+/// Depth, negative when apart.
+Reference reference_sphere_box_penetration(Reader r) {
+  const V p = r.vector();
+  const Q radius = r.number();
+  const RefBox box(r);
+  const V s = box.local(sub(p, box.center));
+  Q distance2 = 0, inside = box.half[0] - abs(s[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Q e = excess(s[i], box.half[i]);
+    distance2 += e * e;
+    inside = std::min(inside, Q(box.half[i] - abs(s[i])));
+  }
+  if (distance2 == 0) return yes(Q(radius + inside).get_d());
+  return {radius * radius >= distance2, {mpf_class(mpf_class(radius, 512) - sqrt(mpf_class(distance2, 512))).get_d()}};
+}
+
+/// The foot of the perpendicular, or the nearer end; ends compared by their distances.
+Reference reference_closest_point_segment(Reader r) {
+  const V a = r.vector(), b = r.vector(), p = r.vector();
+  const V d = sub(b, a);
+  const Q length2 = dot(d, d);
+  const auto distance2 = [&](const V& x) { return dot(sub(x, p), sub(x, p)); };
+  V best = distance2(a) <= distance2(b) ? a : b;
+  if (length2 != 0) {
+    const Q t = dot(sub(p, a), d) / length2;
+    const V foot{a[0] + d[0] * t, a[1] + d[1] * t, a[2] + d[2] * t};
+    if (t > 0 && t < 1 && distance2(foot) < distance2(best)) best = foot;
+  }
+  return yes(best[0].get_d(), best[1].get_d(), best[2].get_d());
+}
+
+/// Points with half-space n . x <= d kept; a polygon may be a segment or a point.
+std::vector<V> clipped(const std::vector<V>& polygon, const V& n, const Q& d) {
+  std::vector<V> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const V &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Q ha = dot(n, a) - d, hb = dot(n, b) - d;
+    if (ha <= 0) kept.push_back(a);
+    if ((ha < 0 && hb > 0) || (ha > 0 && hb < 0)) {
+      const Q t = ha / (ha - hb);
+      kept.push_back({a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t});
+    }
+  }
+  return kept;
+}
+
+V corner_of(const RefBox& b, int sx, int sy, int sz) {
+  V x = b.center;
+  const Q s[3] = {b.half[0] * sx, b.half[1] * sy, b.half[2] * sz};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) x[k] += b.axes[i][k] * s[i];
+  }
+  return x;
+}
+
+/// Boxes meet where a face of the first, clipped to the second, leaves something, or where the second
+/// lies within the first.
+Reference reference_box_box_overlap(Reader r) {
+  const RefBox a(r), b(r);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      std::vector<V> face;
+      for (const auto& [u, v] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}) {
+        int s[3];
+        s[axis] = side, s[(axis + 1) % 3] = u, s[(axis + 2) % 3] = v;
+        face.push_back(corner_of(a, s[0], s[1], s[2]));
+      }
+      for (int i = 0; i < 3; ++i) {
+        const V back{-b.axes[i][0], -b.axes[i][1], -b.axes[i][2]};
+        const Q at = dot(b.axes[i], b.center);
+        face = clipped(clipped(face, b.axes[i], at + b.half[i]), back, b.half[i] - at);
+      }
+      if (!face.empty()) return yes();
+    }
+  }
+  const V c = a.local(sub(b.center, a.center));
+  return {abs(c[0]) <= a.half[0] && abs(c[1]) <= a.half[1] && abs(c[2]) <= a.half[2], {}};
+}
+
+/// The velocity's part along u turned round: v - 2 (v . u) u / |u|^2, over |v|.
+Reference reference_bounce_direction(Reader r) {
+  const V center = r.vector();
+  r.number();  // the radius plays no part
+  const V v = r.vector();
+  const Q time = r.number();
+  const V location = r.vector(), normal = r.vector();
+  V u;
+  for (int i = 0; i < 3; ++i) u[i] = center[i] + v[i] * time - location[i];
+  if (u == V{0, 0, 0}) u = normal;
+  const Q speed2 = dot(v, v);
+  if (speed2 == 0) return yes(0.0, 0.0, 0.0);
+  const Q along = 2 * dot(v, u) / dot(u, u);
+  const mpf_class speed = sqrt(mpf_class(speed2, 512));
+  Reference reference{true, {}};
+  for (int i = 0; i < 3; ++i) reference.values.push_back(mpf_class(mpf_class(Q(v[i] - along * u[i]), 512) / speed).get_d());
+  return reference;
+}
+
+using Derivation = Reference (*)(Reader);
+
+/// A lattice case: small integers, half of the quaternions axis-aligned.
+Case lattice_case(const Query& query, int range, std::mt19937_64& random) {
+  const auto below = [&](int n) { return int(random() % std::uint64_t(n)); };
+  Case c{&query, Scalar::float64, {}, "lattice", 0, 0, {}};
+  do {
+    c.values.clear();
+    const bool aligned = below(2) == 0;
+    for (const Field& f : query.inputs) {
+      int x = below(2 * range + 1) - range;
+      if (f.role == Role::size) x = below(3);
+      if (f.role == Role::flag) x = below(2);
+      if (f.role == Role::index) x = -1;
+      if (f.role == Role::rotation && aligned) x = f.name.ends_with("w") ? 1 : 0;
+      c.values.push_back(x);
+    }
+  } while (query.broken(c.values));
+  return c;
+}
+
+/// Compares decisions, and the reference's numbers to one unit in the last place; the share of yes, or
+/// -1 after a failure.
+double compare(const char* name, Derivation derivation, int range, int cases) {
+  const Query& query = *find_query(name);
+  std::mt19937_64 random(20240601 + unsigned(range));
+  const std::vector<double> still(query.inputs.size(), 0.0);
+  int hits = 0;
+  for (int i = 0; i < cases; ++i) {
+    const Case c = lattice_case(query, range, random);
+    const Reference reference = derivation(Reader(c.values));
+    Answer about;
+    about.yes = reference.yes;
+    about.given = (std::uint64_t{1} << reference.values.size()) - 1;
+    std::copy(reference.values.begin(), reference.values.end(), about.values.begin());
+    hits += about.yes;
+    const Enclosure exact = query.oracle.exact(c.values, about, c.scalar, nullptr);
+    const Enclosure interval = query.oracle.interval(c.values, still, about, c.scalar);
+    const bool same = exact.may_be_yes == about.yes && exact.may_be_no != about.yes && exact.may_match;
+    const bool enclosed = (about.yes ? interval.may_be_yes : interval.may_be_no) && interval.may_match;
+    if (same && enclosed) continue;
+    std::string inputs;
+    for (const double x : c.values) inputs += std::to_string(int(x)) + " ";
+    ADD_FAILURE() << name << (same ? ": the interval stage excludes the truth: " : ": the exact stage differs: ")
+                  << inputs << "reference " << testing::PrintToString(reference.values) << " " << reference.yes;
+    return -1;
+  }
+  return double(hits) / cases;
+}
+
+class OracleOnLattice : public testing::TestWithParam<std::tuple<const char*, Derivation>> {};
+
+TEST_P(OracleOnLattice, AgreesWithAnIndependentDerivation) {
+  const auto [name, derivation] = GetParam();
+  for (const int range : {1, 2, 3}) {
+    const double share = compare(name, derivation, range, 15000);
+    ASSERT_GE(share, 0) << "range " << range;
+    if (find_query(name)->kind == Kind::points || find_query(name)->kind == Kind::direction) continue;
+    EXPECT_GT(share, 0.01) << "the lattice has hardly any contacts at range " << range;
+    EXPECT_LT(share, 0.99) << "the lattice has hardly any misses at range " << range;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Queries, OracleOnLattice,
+    testing::Values(std::tuple{"closest_point_segment", &reference_closest_point_segment},
+                    std::tuple{"box_box_overlap", &reference_box_box_overlap},
+                    std::tuple{"bounce_direction", &reference_bounce_direction},
+                    std::tuple{"moving_sphere_box", &reference_moving_sphere_box},
+                    std::tuple{"moving_point_sphere", &reference_moving_point_sphere},
+                    std::tuple{"moving_point_triangle", &reference_moving_point_triangle},
+                    std::tuple{"sphere_box_penetration", &reference_sphere_box_penetration}),
+    [](const auto& test) { return std::string(std::get<0>(test.param)); });
+
+}  // namespace
+}  // namespace nearmiss
