@@ -69,7 +69,7 @@ struct PointPastBox {
       ++axes, last = i;
     }
     if (!(closing > T(0))) return T(-1);
-    if (axes == 1) return std::max(T(0), (abs(beyond(last)) - radius) / abs(step[last]));
+    if (axes == 1) return not_negative((abs(beyond(last)) - radius) / abs(step[last]));
     const T nearest = closing / speed2;
     T offset2(0);
     for (int i = 0; i < 3; ++i) {
@@ -81,7 +81,7 @@ struct PointPastBox {
     if (!(chord2 >= T(0))) return T(-1);
     const T outside = Tier::difference_of_products(T(1), distance2, radius, radius);
     if (outside <= T(0)) return T(0);  // rounding put the contact just before this piece
-    return (outside / speed2) / (nearest + sqrt(chord2 / speed2));
+    return not_negative(nearest - sqrt(chord2 / speed2));
   }
   bool inside() const noexcept { return !is_beyond(0) && !is_beyond(1) && !is_beyond(2); }
   /// True while the point comes no nearer: the distance is convex, so it never will.

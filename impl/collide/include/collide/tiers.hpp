@@ -2,7 +2,9 @@
 /// text of a query is the same in every tier.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <collide/vec3.hpp>
 
@@ -25,12 +27,24 @@ struct Fast {
   }
 };
 
-/// a / |a|, or a where |a| is zero. The length is not rescued from overflow or underflow.
+/// x, or 0 where it is negative; NaN stays NaN.
+template <class T>
+constexpr T not_negative(T x) noexcept {
+  return x < T(0) ? T(0) : x;
+}
+
+/// a / |a|; a itself where it is zero; NaN where a number of it is not finite.
 template <class Tier, class T>
 Vec3<T> unit(const Vec3<T>& a) noexcept {
-  using std::sqrt;
-  const T length = sqrt(Tier::dot(a, a));
-  return length > T(0) ? a / length : a;
+  using std::sqrt, std::abs;
+  constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+  constexpr T most = std::numeric_limits<T>::max() / T(16);
+  const T length2 = Tier::dot(a, a);
+  if (length2 >= least && length2 <= most) return a / sqrt(length2);
+  const T largest = std::max({abs(a.x), abs(a.y), abs(a.z)});
+  if (largest == T(0)) return a;
+  const Vec3<T> scaled = a / largest;
+  return scaled / sqrt(Tier::dot(scaled, scaled));
 }
 
 }  // namespace collide

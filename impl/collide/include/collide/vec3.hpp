@@ -27,7 +27,7 @@ struct Vec3 {
   friend constexpr Vec3 operator/(const Vec3& a, const T& s) noexcept {
     return {a.x / s, a.y / s, a.z / s};
   }
-  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+  friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
 }  // namespace collide
