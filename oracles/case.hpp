@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oracles/query.hpp"
@@ -16,7 +17,7 @@ struct Case {
   std::string origin;               ///< "generator", "seeds/touch.json", "fuzz", a file and row …
   std::uint64_t seed = 0;           ///< of the generator
   std::uint64_t index = 0;          ///< of the case within its origin
-  std::vector<std::string> moves;   ///< named degeneracy moves that built it
+  std::vector<std::string_view> moves;  ///< names from the generator's table of those that built it
 };
 
 }  // namespace nearmiss

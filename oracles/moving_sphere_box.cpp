@@ -201,6 +201,7 @@ bool surely_overlaps(const Motion<N>& m, double time) {
 /// A time near that of the least distance: found in plain doubles, so it proves nothing by itself.
 template <class N>
 double time_of_least_distance(const Motion<N>& m, Window w) {
+  if (!(w.to < Window{}.to)) return w.from;
   double c[3], v[3], h[3];
   const auto middle = [](const N& x) { const Bounds b = bounds(x); return 0.5 * b.low + 0.5 * b.high; };
   for (int i = 0; i < 3; ++i) c[i] = middle(m.start[i]), v[i] = middle(m.step[i]), h[i] = middle(m.half[i]);

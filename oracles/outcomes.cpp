@@ -1,5 +1,7 @@
 #include "oracles/outcomes.hpp"
 
+#include <mpfr.h>
+
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -11,12 +13,31 @@ namespace nearmiss::oracle {
 
 namespace {
 
-using Safe = CGAL::Interval_nt<true>;  // sets the rounding mode for each operation itself
+/// A number of 128 bits; every operation below rounds to nearest, with a relative error of 2^-128.
+class Wide {
+ public:
+  Wide() { mpfr_init2(value_, 128); }
+  explicit Wide(const Rational& q) : Wide() { mpfr_set_q(value_, q.mpq(), MPFR_RNDN); }
+  ~Wide() { mpfr_clear(value_); }
+  Wide(const Wide&) = delete;
+  Wide& operator=(const Wide&) = delete;
 
-Safe enclose(const Rational& q) {
-  const auto [low, high] = CGAL::to_interval(q);
-  return {low, high};
-}
+  mpfr_t& get() { return value_; }
+  /// Doubles around the number, for at most ten operations since its exact inputs.
+  Bounds around() const {
+    Wide slack;
+    mpfr_div_2ui(slack.value_, value_, 120, MPFR_RNDN);
+    mpfr_abs(slack.value_, slack.value_, MPFR_RNDN);
+    Wide end;
+    mpfr_sub(end.value_, value_, slack.value_, MPFR_RNDD);
+    const double low = mpfr_get_d(end.value_, MPFR_RNDD);
+    mpfr_add(end.value_, value_, slack.value_, MPFR_RNDU);
+    return {low, mpfr_get_d(end.value_, MPFR_RNDU)};
+  }
+
+ private:
+  mpfr_t value_;
+};
 
 /// The unit in which a member's numbers are compared: one ulp of the largest of them. A normal's is
 /// twice that, because the judge rounds it once more when it divides by its length.
@@ -29,13 +50,22 @@ double unit_of(const Answer& about, const Layout::Part& part, Scalar scalar) {
 }  // namespace
 
 Bounds bounds(const Exact& x) {
-  const auto plain = [](const Safe& i) { return Bounds{i.inf(), i.sup()}; };
-  if (!x.is_extended() || x.a1() == 0) return plain(enclose(x.a0()));
-  const Safe a = enclose(x.a0()), b_root = enclose(x.a1()) * CGAL::sqrt(enclose(x.root()));
-  if (CGAL::sign(x.a0()) * CGAL::sign(x.a1()) != CGAL::NEGATIVE) return plain(a + b_root);
+  if (!x.is_extended() || x.a1() == 0) {
+    const auto [low, high] = CGAL::to_interval(x.a0());
+    return {low, high};
+  }
+  Wide a(x.a0()), b(x.a1()), value(x.root());
+  mpfr_sqrt(value.get(), value.get(), MPFR_RNDN);
+  mpfr_mul(value.get(), value.get(), b.get(), MPFR_RNDN);
+  if (CGAL::sign(x.a0()) * CGAL::sign(x.a1()) != CGAL::NEGATIVE) {
+    mpfr_add(value.get(), a.get(), value.get(), MPFR_RNDN);
+    return value.around();
+  }
   // Opposite signs cancel: divide the exact norm by the conjugate, whose terms add up.
-  const Rational norm = x.a0() * x.a0() - x.a1() * x.a1() * x.root();
-  return norm == 0 ? Bounds{0, 0} : plain(enclose(norm) / (a - b_root));
+  Wide norm(Rational(x.a0() * x.a0() - x.a1() * x.a1() * x.root()));
+  mpfr_sub(value.get(), a.get(), value.get(), MPFR_RNDN);
+  mpfr_div(value.get(), norm.get(), value.get(), MPFR_RNDN);
+  return value.around();
 }
 
 void Tally::count_everything() {

@@ -1,0 +1,113 @@
+/// No false alarms: whatever input lies within the widening, its exact answer lies within the enclosure.
+/// And no excuses without end: widening never shrinks an enclosure, and narrowing to nothing leaves the
+/// exact answer alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "corpus/generator.hpp"
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+namespace {
+
+constexpr int cases_per_query = 4000;
+
+/// A number from -1 to 1 that depends on nothing but its arguments; often one of the ends.
+double wobble(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t z = a * 0x9e3779b97f4a7c15u + b * 0xd1342543de82ef95u + 0x2545f4914f6cdd1du;
+  z = (z ^ (z >> 31)) * 0xbf58476d1ce4e5b9u;
+  z ^= z >> 29;
+  if (z % 3 == 0) return z & 8 ? 1 : -1;
+  return double(std::int64_t(z)) * 0x1p-63;
+}
+
+/// An input within the widening of the given one; empty when it breaks a rule.
+std::optional<Case> perturbed(const Case& c, std::span<const double> widening, std::uint64_t salt) {
+  Case p = c;
+  for (std::size_t i = 0; i < p.values.size(); ++i) {
+    double x = c.values[i] + widening[i] * wobble(salt, i);
+    while (std::abs(x - c.values[i]) > widening[i]) x = std::nextafter(x, c.values[i]);
+    p.values[i] = c.query->inputs[i].role == Role::size ? std::max(0.0, x) : x;
+  }
+  if (p.query->broken(p.values)) return std::nullopt;
+  return p;
+}
+
+/// One of the exact answers, each number rounded to the nearest double; normals of a cone left out.
+Answer rounded(const Query& query, const Alternative& a) {
+  Answer answer;
+  answer.yes = a.yes;
+  answer.given = 0;
+  for (std::size_t i = 0; i < a.count; ++i) {
+    if (a.many_normals && query.outputs[i].role == Role::normal) continue;
+    answer.values[i] = 0.5 * a.values[i].low + 0.5 * a.values[i].high;
+    answer.given |= std::uint64_t{1} << i;
+  }
+  return answer;
+}
+
+class Enclosures : public testing::TestWithParam<std::string> {
+ protected:
+  const Query& query() const { return *find_query(GetParam()); }
+};
+
+TEST_P(Enclosures, ContainTheExactAnswerOfEveryInputWithinTheWidening) {
+  int checked = 0;
+  for (int i = 0; i < cases_per_query; ++i) {
+    const Case c = generate(query(), Scalar::float64, 11, std::uint64_t(i));
+    const double k = std::ldexp(1.0, i % 50);
+    const std::vector<double> wide = widening(query(), c.values, c.scalar, k);
+    const std::optional<Case> p = perturbed(c, wide, std::uint64_t(i));
+    if (!p) continue;
+    for (const Alternative& a : truth_of(*p).alternatives) {
+      const Answer answer = rounded(query(), a);
+      const Enclosure e = query().oracle.interval(c.values, wide, answer, c.scalar);
+      ASSERT_TRUE(answer.yes ? e.may_be_yes : e.may_be_no) << "case " << i << ", k = " << k << ": the decision";
+      ASSERT_TRUE(e.may_match) << "case " << i << ", k = " << k << ": numbers " << std::hex << e.mismatched;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, cases_per_query / 2);
+}
+
+TEST_P(Enclosures, GrowWithTheWidening) {
+  for (int i = 0; i < cases_per_query / 4; ++i) {
+    const Case c = generate(query(), Scalar::float64, 12, std::uint64_t(i));
+    const Answer none{};
+    Enclosure before = query().oracle.interval(c.values, widening(query(), c.values, c.scalar, 0), none, c.scalar);
+    for (const double k : {1.0, 0x1p4, 0x1p12, 0x1p30, 0x1p44}) {
+      const Enclosure e = query().oracle.interval(c.values, widening(query(), c.values, c.scalar, k), none, c.scalar);
+      ASSERT_TRUE(e.may_be_yes >= before.may_be_yes && e.may_be_no >= before.may_be_no) << "case " << i << ", k = " << k;
+      for (std::size_t n = 0; n < query().outputs.size(); ++n) {
+        if (before.error[n].empty()) continue;
+        ASSERT_LE(e.error[n].low, before.error[n].low) << query().outputs[n].name << ", case " << i << ", k = " << k;
+        ASSERT_GE(e.error[n].high, before.error[n].high) << query().outputs[n].name << ", case " << i << ", k = " << k;
+      }
+      before = e;
+    }
+  }
+}
+
+TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
+  for (int i = 0; i < cases_per_query; ++i) {
+    const Case c = generate(query(), i % 2 ? Scalar::float32 : Scalar::float64, 13, std::uint64_t(i));
+    const std::vector<double> still(c.values.size(), 0.0);
+    for (const Alternative& a : truth_of(c).alternatives) {
+      const Answer answer = rounded(query(), a);
+      ASSERT_TRUE(query().oracle.exact(c.values, answer, Scalar::float64, nullptr).may_match) << "case " << i;
+      ASSERT_TRUE(query().oracle.interval(c.values, still, answer, Scalar::float64).may_match) << "case " << i;
+    }
+  }
+}
+
+std::vector<std::string> all_queries() {
+  std::vector<std::string> names;
+  for (const Query& q : catalogue()) names.emplace_back(q.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Enclosures, testing::ValuesIn(all_queries()), [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace nearmiss
