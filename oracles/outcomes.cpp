@@ -39,11 +39,14 @@ class Wide {
   mpfr_t value_;
 };
 
-/// The unit in which a member's numbers are compared: one ulp of the largest of them. A normal's is
-/// twice that, because the judge rounds it once more when it divides by its length.
-double unit_of(const Answer& about, const Layout::Part& part, Scalar scalar) {
+/// The unit in which a member's numbers are compared: one ulp of the largest of them, given or exact. A
+/// normal's is twice that, because the judge rounds it once more when it divides by its length.
+double unit_of(const Answer& about, const Layout::Part& part, std::span<const Bounds> errors, Scalar scalar) {
   double largest = 0;
-  for (std::size_t i = part.begin; i < part.end; ++i) largest = std::max(largest, std::abs(about.values[i]));
+  for (std::size_t i = part.begin; i < part.end && i < errors.size(); ++i) {
+    largest = std::max(largest, std::abs(about.values[i]));
+    largest = std::max({largest, about.values[i] + errors[i].high, -(about.values[i] + errors[i].low)});
+  }
   return ulp(largest, scalar) * (part.role == Role::normal ? 2 : 1);
 }
 
@@ -84,7 +87,7 @@ void Tally::count(bool yes, std::span<const Bounds> errors) {
   double ulps = 0, ulps_at_most = 0;
   int worst = -1;
   for (const Layout::Part& part : layout_.parts) {
-    const double unit = unit_of(about_, part, scalar_);
+    const double unit = unit_of(about_, part, errors, scalar_);
     for (std::size_t i = part.begin; i < part.end && i < errors.size(); ++i) {
       result_.error[i].include(errors[i]);
       if (!about_.gives(i)) continue;

@@ -1,0 +1,442 @@
+#include "corpus/codec.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "corpus/generator.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// Fields in a row that share the next component of their names.
+struct Child {
+  std::string_view component;
+  std::size_t begin, end;
+  bool leaf;  ///< the component ends the name
+};
+
+/// Splits fields, whose names share their first `prefix` characters.
+std::vector<Child> children(std::span<const Field> fields, std::size_t prefix) {
+  std::vector<Child> found;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string_view rest = std::string_view(fields[i].name).substr(prefix);
+    const std::string_view component = rest.substr(0, rest.find('.'));
+    if (!found.empty() && found.back().component == component) {
+      found.back().end = i + 1;
+    } else {
+      found.push_back({component, i, i + 1, component.size() == rest.size()});
+    }
+  }
+  return found;
+}
+
+std::size_t below(std::size_t prefix, const Child& c) { return prefix + c.component.size() + 1; }
+
+/// Vectors (x, y, z and nothing else) and numbered members are arrays; all else has names.
+bool is_array(std::span<const Child> of) {
+  const auto numbered = [](const Child& c) {
+    return c.component.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (!of.empty() && std::all_of(of.begin(), of.end(), numbered)) return true;
+  const auto is = [&](std::size_t i, std::string_view name) { return of[i].leaf && of[i].component == name; };
+  return of.size() == 3 && is(0, "x") && is(1, "y") && is(2, "z");
+}
+
+ordered_json number_to_json(Role role, double value) {
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+  if (role == Role::flag) return value != 0;
+  if (role == Role::index) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+ordered_json nested(std::span<const Field> fields, std::span<const double> values, std::size_t prefix) {
+  const std::vector<Child> parts = children(fields, prefix);
+  const bool array = is_array(parts);
+  ordered_json j = array ? ordered_json::array() : ordered_json::object();
+  for (const Child& c : parts) {
+    ordered_json value = c.leaf ? number_to_json(fields[c.begin].role, values[c.begin])
+                                : nested(fields.subspan(c.begin, c.end - c.begin),
+                                         values.subspan(c.begin, c.end - c.begin), below(prefix, c));
+    if (array) {
+      j.push_back(std::move(value));
+    } else {
+      j[std::string(c.component)] = std::move(value);
+    }
+  }
+  return j;
+}
+
+/// As JSON has it, cut to what fits into one line.
+std::string shown(const json& j) {
+  std::string text = j.dump(-1, ' ', true, json::error_handler_t::replace);
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  return text;
+}
+
+/// Takes a case apart; every error names the file, the field with its path, the value and the rule.
+class Reader {
+ public:
+  explicit Reader(const std::string& where) : where_(where) {}
+
+  [[noreturn]] void fail(std::string_view path, std::string_view what) const {
+    throw BadInput(fmt::format("{}: {} {}", where_, path, what));
+  }
+  [[noreturn]] void fail(std::string_view path, const json& value, std::string_view rule) const {
+    fail(path, fmt::format("is {}: it must be {}", shown(value), rule));
+  }
+  const json& member(const json& object, std::string_view path, std::string_view name) const {
+    const auto found = object.find(name);
+    if (found == object.end()) fail(joined(path, name), "is missing");
+    return *found;
+  }
+  void expect_object(const json& j, std::string_view path) const {
+    if (!j.is_object()) fail(path.empty() ? "the case" : path, j, "an object");
+  }
+  template <class Names>
+  void expect_only(const json& object, std::string_view path, const Names& names) const {
+    for (const auto& item : object.items()) {
+      if (std::find(std::begin(names), std::end(names), item.key()) == std::end(names)) {
+        fail(joined(path, item.key()), "is unknown");
+      }
+    }
+  }
+  static std::string joined(std::string_view path, std::string_view name) {
+    return path.empty() ? std::string(name) : fmt::format("{}.{}", path, name);
+  }
+  std::string text(const json& j, std::string_view path) const {
+    if (!j.is_string()) fail(path, j, "a string");
+    return j.get<std::string>();
+  }
+  std::uint64_t count(const json& j, std::string_view path) const {
+    if (!j.is_number_unsigned()) fail(path, j, "an integer that is not negative");
+    return j.get<std::uint64_t>();
+  }
+  double number(const json& j, const std::string& path, Role role, Scalar scalar) const;
+  void inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix,
+              Scalar scalar, std::vector<double>& values) const;
+  const Query* query(const json& j) const;
+  Scalar scalar(const json& j) const;
+  void origin(const json& j, Case& c) const;
+
+ private:
+  const std::string& where_;
+};
+
+double Reader::number(const json& j, const std::string& path, Role role, Scalar scalar) const {
+  if (role == Role::flag) {
+    if (!j.is_boolean()) fail(path, j, "true or false");
+    return j.get<bool>() ? 1 : 0;
+  }
+  if (role == Role::index) {
+    if (!j.is_number_integer()) fail(path, j, "an integer");
+    return j.get<double>();
+  }
+  if (!j.is_number()) fail(path, j, "a number");
+  const double x = j.get<double>();
+  if (!representable(x, scalar)) {
+    fail(path, fmt::format("is {}: it must be exactly a float, of which {} is near", x, double(float(x))));
+  }
+  return x;
+}
+
+void Reader::inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix,
+                    Scalar scalar, std::vector<double>& values) const {
+  const std::vector<Child> parts = children(fields, prefix);
+  const bool array = is_array(parts);
+  if (array && (!j.is_array() || j.size() != parts.size())) {
+    fail(path, j, fmt::format("an array of {}", parts.size()));
+  }
+  if (!array) {
+    expect_object(j, path);
+    std::vector<std::string_view> names;
+    for (const Child& c : parts) names.push_back(c.component);
+    expect_only(j, path, names);
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Child& c = parts[i];
+    const json& value = array ? j[i] : member(j, path, c.component);
+    const std::string own = joined(path, c.component);
+    if (c.leaf) {
+      values.push_back(number(value, own, fields[c.begin].role, scalar));
+    } else {
+      inputs(value, own, fields.subspan(c.begin, c.end - c.begin), below(prefix, c), scalar, values);
+    }
+  }
+}
+
+const Query* Reader::query(const json& j) const {
+  const Query* q = find_query(text(j, "query"));
+  if (q == nullptr) fail("query", j, "a name that `list` shows");
+  return q;
+}
+
+Scalar Reader::scalar(const json& j) const {
+  for (Scalar s : {Scalar::float32, Scalar::float64}) {
+    if (text(j, "scalar") == name_of(s)) return s;
+  }
+  fail("scalar", j, "\"float\" or \"double\"");
+}
+
+void Reader::origin(const json& j, Case& c) const {
+  expect_object(j, "origin");
+  expect_only(j, "origin", std::array{"from", "seed", "index", "moves"});
+  if (j.contains("from")) c.origin = text(j["from"], "origin.from");
+  if (j.contains("seed")) c.seed = count(j["seed"], "origin.seed");
+  if (j.contains("index")) c.index = count(j["index"], "origin.index");
+  if (!j.contains("moves")) return;
+  if (!j["moves"].is_array()) fail("origin.moves", j["moves"], "an array");
+  for (const json& name : j["moves"]) {
+    c.moves.push_back(known_move(text(name, "origin.moves")));
+    if (c.moves.back().empty()) fail("origin.moves", name, "the name of a move");
+  }
+}
+
+/// Follows the parser to know where it is, and refuses what the library would let pass.
+class StrictSax : public json::json_sax_t {
+ public:
+  explicit StrictSax(const std::string& where) : where_(where) {}
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t x, const string_t& text) override {
+    const std::string_view digits = std::string_view(text).substr(0, text.find_first_of("eE"));
+    if (x == 0 && digits.find_first_of("123456789") != std::string_view::npos) {
+      fail(fmt::format("is {}: it must be a number that double can tell from zero", cut(text)));
+    }
+    return value();
+  }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return open(true); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(false); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    level.key = name;
+    if (!level.seen.insert(name).second) fail("is given twice");
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& e) override {
+    constexpr int number_overflow = 406;
+    if (e.id == number_overflow) fail(fmt::format("is {}: it must be within the range of double", cut(token)));
+    std::string_view what = e.what();
+    what.remove_prefix(std::min(what.size(), what.find("] ") + 2));
+    const std::string at = path();
+    throw BadInput(fmt::format("{}: {}{}", where_, at.empty() ? "" : "at " + at + ": ", what));
+  }
+
+ private:
+  struct Level {
+    bool object;
+    std::string key;
+    std::set<std::string> seen;
+    std::size_t index = 0;
+  };
+  static std::string cut(const std::string& s) { return s.size() > 40 ? s.substr(0, 37) + "..." : s; }
+  std::string path() const {
+    std::string p;
+    for (const Level& l : levels_) p += l.object ? (p.empty() || l.key.empty() ? "" : ".") + l.key : fmt::format("[{}]", l.index);
+    return p;
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw BadInput(fmt::format("{}: {} {}", where_, path(), what)); }
+  bool value() {
+    if (!levels_.empty()) ++levels_.back().index;
+    return true;
+  }
+  bool open(bool object) {
+    constexpr std::size_t deepest = 64;
+    if (levels_.size() == deepest) throw BadInput(fmt::format("{}: nested more than {} deep", where_, deepest));
+    levels_.push_back({object, {}, {}});
+    return true;
+  }
+  bool close() {
+    levels_.pop_back();
+    return value();
+  }
+
+  const std::string& where_;
+  std::vector<Level> levels_;
+};
+
+bool is_small(Role role) { return role == Role::flag || role == Role::index; }
+
+template <class Bits>
+void append_bits(std::vector<std::uint8_t>& bytes, Bits bits) {
+  for (std::size_t i = 0; i < sizeof(Bits); ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
+}
+template <class Bits>
+Bits take_bits(std::span<const std::uint8_t>& bytes) {
+  Bits bits = 0;
+  for (std::size_t i = 0; i < sizeof(Bits); ++i) bits |= Bits{bytes[i]} << (8 * i);
+  bytes = bytes.subspan(sizeof(Bits));
+  return bits;
+}
+double take_number(std::span<const std::uint8_t>& bytes, Role role, Scalar scalar) {
+  if (is_small(role)) {
+    const auto b = static_cast<std::int8_t>(take_bits<std::uint8_t>(bytes));
+    return role == Role::flag ? b & 1 : b;
+  }
+  if (scalar == Scalar::float32) return std::bit_cast<float>(take_bits<std::uint32_t>(bytes));
+  return std::bit_cast<double>(take_bits<std::uint64_t>(bytes));
+}
+std::size_t bytes_of(const Query& query, Scalar scalar) {
+  std::size_t n = 0;
+  for (const Field& f : query.inputs) n += is_small(f.role) ? 1 : scalar == Scalar::float32 ? 4 : 8;
+  return n;
+}
+
+std::string literal(double value, Role role, Scalar scalar) {
+  if (role == Role::flag) return value != 0 ? "true" : "false";
+  if (role == Role::index) return fmt::format("{:.0f}", value);
+  std::string text = scalar == Scalar::float32 ? fmt::format("{}", float(value)) : fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return scalar == Scalar::float32 ? text + "f" : text;
+}
+
+std::string cpp_nested(const Case& c, std::size_t begin, std::size_t end, std::size_t prefix) {
+  const std::span<const Field> fields = std::span(c.query->inputs).subspan(begin, end - begin);
+  const std::vector<Child> parts = children(fields, prefix);
+  const bool array = is_array(parts);
+  std::string text;
+  for (const Child& p : parts) {
+    if (!text.empty()) text += ", ";
+    if (!array) text += fmt::format(".{} = ", p.component);
+    const std::size_t at = begin + p.begin;
+    text += p.leaf ? literal(c.values[at], c.query->inputs[at].role, c.scalar)
+                   : cpp_nested(c, at, begin + p.end, below(prefix, p));
+  }
+  return "{" + text + "}";
+}
+
+}  // namespace
+
+ordered_json fields_to_json(std::span<const Field> fields, std::span<const double> values) {
+  return nested(fields, values, 0);
+}
+
+ordered_json case_to_json(const Case& c) {
+  ordered_json origin;
+  origin["from"] = c.origin;
+  origin["seed"] = c.seed;
+  origin["index"] = c.index;
+  origin["moves"] = c.moves;
+  ordered_json j;
+  j["query"] = c.query->name;
+  j["scalar"] = name_of(c.scalar);
+  j["inputs"] = fields_to_json(c.query->inputs, c.values);
+  j["origin"] = std::move(origin);
+  return j;
+}
+
+Case case_from_json(const json& j, const std::string& where) {
+  const Reader reader(where);
+  reader.expect_object(j, "");
+  reader.expect_only(j, "", std::array{"query", "scalar", "inputs", "origin", "note", "expected"});
+  Case c;
+  c.query = reader.query(reader.member(j, "", "query"));
+  c.scalar = reader.scalar(reader.member(j, "", "scalar"));
+  reader.inputs(reader.member(j, "", "inputs"), "inputs", c.query->inputs, 0, c.scalar, c.values);
+  if (j.contains("origin")) reader.origin(j["origin"], c);
+  if (const auto invalid = c.query->broken(c.values)) {
+    throw BadInput(fmt::format("{}: inputs.{}", where, invalid->text()));
+  }
+  return c;
+}
+
+json parse_json(std::string_view text, const std::string& where) {
+  StrictSax sax(where);
+  json::sax_parse(text, &sax);
+  return json::parse(text);
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw BadInput(fmt::format("{}: cannot be read: it is a folder", file.string()));
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw BadInput(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+  return text;
+}
+
+Case read_case(const std::filesystem::path& file) {
+  Case c = case_from_json(parse_json(read_file(file), file.string()), file.string());
+  if (c.origin.empty()) c.origin = file.filename().string();
+  return c;
+}
+
+void write_file(const std::filesystem::path& file, std::string_view text) {
+  std::filesystem::path temporary = file;
+  temporary += fmt::format(".{}.part", ::getpid());
+  const auto fail = [&](const std::string& why) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw BadInput(fmt::format("{}: cannot be written: {}", file.string(), why));
+  };
+  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  if (!out) fail(std::strerror(errno));
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) fail(std::strerror(errno));
+  std::error_code error;
+  std::filesystem::rename(temporary, file, error);
+  if (error) fail(error.message());
+}
+
+std::string case_to_cpp(const Case& c) {
+  return fmt::format(
+      "const collide::inputs::{}<{}> question{};\n"
+      "const auto answer = question.ask<collide::Fast>();\n",
+      c.query->name, name_of(c.scalar), cpp_nested(c, 0, c.query->inputs.size(), 0));
+}
+
+std::vector<std::uint8_t> case_to_bytes(const Case& c) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(1 + bytes_of(*c.query, c.scalar));
+  bytes.push_back(c.scalar == Scalar::float32 ? 0 : 1);
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (is_small(c.query->inputs[i].role)) {
+      bytes.push_back(static_cast<std::uint8_t>(static_cast<std::int8_t>(c.values[i])));
+    } else if (c.scalar == Scalar::float32) {
+      append_bits(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(c.values[i])));
+    } else {
+      append_bits(bytes, std::bit_cast<std::uint64_t>(c.values[i]));
+    }
+  }
+  return bytes;
+}
+
+std::optional<Case> case_from_bytes(const Query& query, std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return std::nullopt;
+  Case c;
+  c.query = &query;
+  c.scalar = (bytes[0] & 1) == 0 ? Scalar::float32 : Scalar::float64;
+  c.origin = "bytes";
+  bytes = bytes.subspan(1);
+  if (bytes.size() < bytes_of(query, c.scalar)) return std::nullopt;
+  c.values.reserve(query.inputs.size());
+  for (const Field& f : query.inputs) c.values.push_back(take_number(bytes, f.role, c.scalar));
+  if (query.broken(c.values)) return std::nullopt;
+  return c;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,130 @@
+/// A case under construction: its numbers seen as vectors, sizes and rotations of things. For the
+/// generator's own sources.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oracles/case.hpp"
+
+namespace nearmiss {
+
+/// The same numbers on every machine: SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom
+/// Number Generators, 2014) and exact arithmetic on its bits.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t bits() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+  /// 0 ... n - 1, n at most 2^32.
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(((bits() >> 32) * n) >> 32); }
+  int between(int low, int high) { return low + int(below(std::size_t(high - low + 1))); }
+  bool one_in(std::size_t n) { return below(n) == 0; }
+  double sign() { return one_in(2) ? -1.0 : 1.0; }
+  double uniform(double low, double high) { return low + (high - low) * (double(bits() >> 11) * 0x1p-53); }
+  double power_of_two(int low, int high) { return std::ldexp(1.0, between(low, high)); }
+  template <class T>
+  const T& pick(const std::vector<T>& from) {
+    return from[below(from.size())];
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Three numbers x, y, z in a row.
+struct VectorField {
+  std::size_t begin;
+  Role role;
+};
+
+/// A top-level member of the inputs: a shape, a point, a velocity. Indices into the values, and of
+/// vectors their index in Plan::vectors.
+struct Thing {
+  std::string name;
+  std::vector<std::size_t> positions;
+  std::vector<std::size_t> sizes;
+};
+
+/// What a query's inputs are made of, from names and roles.
+struct Plan {
+  explicit Plan(const Query& q);
+
+  const Query* query;
+  std::uint64_t name_hash;
+  std::vector<VectorField> vectors;
+  std::vector<std::size_t> rotations;  ///< where each quaternion x, y, z, w begins
+  std::vector<std::size_t> sizes;      ///< each number
+  std::vector<std::size_t> lone;       ///< numbers of no vector, size or rotation: times, flags, indices
+  std::vector<Thing> things;           ///< those with a position, in order
+  std::vector<std::size_t> positions, velocities, directions, movable;  ///< into vectors; movable: all three
+  std::array<std::vector<std::size_t>, 16> numbers;  ///< by role
+};
+
+/// The numbers of a case in the making. Whatever is set is rounded to the scalar.
+class Draft {
+ public:
+  Draft(const Plan& p, Scalar s, Random& r, std::span<double> values) : plan(p), scalar(s), random(r), values_(values) {}
+
+  const Plan& plan;
+  const Scalar scalar;
+  Random& random;
+  double unit = 1;  ///< the scene's length unit, a power of two
+
+  bool is_float() const { return scalar == Scalar::float32; }
+  /// Float has room for fewer binary orders than double.
+  int orders(int of_float, int of_double) const { return is_float() ? of_float : of_double; }
+
+  double operator[](std::size_t i) const { return values_[i]; }
+  void set(std::size_t i, double x) { values_[i] = is_float() ? double(float(x)) : x; }
+  void scale(std::size_t i, double factor) { set(i, values_[i] * factor); }
+  void step_ulps(std::size_t i, int ulps);
+
+  using Numbers = std::array<double, 3>;
+  Numbers vector(std::size_t v) const {
+    const std::size_t i = plan.vectors[v].begin;
+    return {values_[i], values_[i + 1], values_[i + 2]};
+  }
+  void set_vector(std::size_t v, const Numbers& x) {
+    for (std::size_t k = 0; k < 3; ++k) set(plan.vectors[v].begin + k, x[k]);
+  }
+  /// A vector with numbers in [-reach, reach].
+  Numbers random_vector(double reach) {
+    Numbers x;
+    for (double& component : x) component = random.uniform(-reach, reach);
+    return x;
+  }
+  /// Two different entries of a list of at least two.
+  std::array<std::size_t, 2> two_of(const std::vector<std::size_t>& list) {
+    const std::size_t first = random.below(list.size());
+    const std::size_t second = (first + 1 + random.below(list.size() - 1)) % list.size();
+    return {list[first], list[second]};
+  }
+  /// Directions and rotations that became zero get one number back.
+  void repair();
+
+ private:
+  std::span<double> values_;
+};
+
+/// Fills the draft with a scene: smooth numbers, shapes near each other, velocities that aim.
+void draw_scene(Draft& draft);
+
+/// An entry of the table of moves. False: it does not apply to this query, nothing was changed.
+struct Move {
+  std::string_view name, what;
+  bool (*apply)(Draft& draft);
+};
+std::span<const Move> moves();
+
+}  // namespace nearmiss

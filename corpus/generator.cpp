@@ -1,0 +1,201 @@
+#include "corpus/generator.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <deque>
+#include <stdexcept>
+
+#include "corpus/draft.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::size_t most_moves = 64;
+
+std::string_view parent(std::string_view name) { return name.substr(0, name.rfind('.')); }
+std::string_view last(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+std::string_view first(std::string_view name) { return name.substr(0, name.find('.')); }
+
+/// How many fields from i on have the same parent and are called x, y, z, w in this order.
+std::size_t components_at(const std::vector<Field>& fields, std::size_t i) {
+  constexpr std::string_view names[] = {"x", "y", "z", "w"};
+  std::size_t n = 0;
+  while (n < 4 && i + n < fields.size() && last(fields[i + n].name) == names[n] &&
+         parent(fields[i + n].name) == parent(fields[i].name)) {
+    ++n;
+  }
+  return n;
+}
+
+std::uint64_t hash(std::string_view text) {  // FNV-1a
+  std::uint64_t h = 0xcbf29ce484222325;
+  for (unsigned char c : text) h = (h ^ c) * 0x100000001b3;
+  return h;
+}
+
+Thing& thing_of(std::vector<Thing>& things, std::string_view name) {
+  for (Thing& t : things) {
+    if (t.name == name) return t;
+  }
+  things.push_back({std::string(name), {}, {}});
+  return things.back();
+}
+
+bool is_movable(Role role) { return role == Role::position || role == Role::velocity || role == Role::direction; }
+
+/// The plan of a query, made once per thread.
+const Plan& plan_of(const Query& query) {
+  static thread_local std::deque<Plan> plans;
+  for (const Plan& p : plans) {
+    if (p.query == &query) return p;
+  }
+  return plans.emplace_back(query);
+}
+
+/// Within the magnitudes that the generator promises.
+bool moderate(const Draft& d) {
+  const double largest = std::ldexp(1.0, d.orders(18, 60)), smallest = 1 / largest;
+  for (const auto& group : d.plan.numbers) {
+    double m = 0;
+    for (std::size_t i : group) m = std::max(m, std::abs(d[i]));
+    if (m > largest || (m > 0 && m < smallest)) return false;
+  }
+  return true;
+}
+
+void apply(Draft& d, const std::bitset<most_moves>& chosen, std::vector<std::string_view>& names) {
+  const std::span<const Move> table = moves();
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (chosen[i] && table[i].apply(d)) names.push_back(table[i].name);
+  }
+}
+
+std::bitset<most_moves> choose(Random& random, int count) {
+  std::bitset<most_moves> chosen;
+  for (; count > 0; --count) chosen.set(random.below(moves().size()));
+  return chosen;
+}
+
+/// Half of the cases that are not scenes start on a grid, where touches and ties are exact.
+std::bitset<most_moves> choose_for_new_case(Random& random) {
+  constexpr std::size_t small_lattice = 0, dyadic_grid = 1;
+  auto chosen = choose(random, random.between(1, 4));
+  if (random.one_in(2)) chosen.set(random.one_in(3) ? dyadic_grid : small_lattice);
+  return chosen;
+}
+
+bool attempt(Case& c, const Plan& plan, Random& random) {
+  c.moves.clear();
+  Draft draft(plan, c.scalar, random, c.values);
+  draw_scene(draft);
+  if (random.one_in(2)) apply(draft, choose_for_new_case(random), c.moves);
+  return moderate(draft) && !c.query->broken(c.values);
+}
+
+}  // namespace
+
+Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
+  const std::vector<Field>& fields = q.inputs;
+  std::vector<Thing> all;
+  for (std::size_t i = 0; i < fields.size(); ++i) numbers[std::size_t(fields[i].role)].push_back(i);
+  for (std::size_t i = 0; i < fields.size();) {
+    const Role role = fields[i].role;
+    Thing& thing = thing_of(all, first(fields[i].name));
+    const std::size_t n = components_at(fields, i);
+    if (n == 4 && role == Role::rotation) {
+      rotations.push_back(i);
+    } else if (role == Role::size) {
+      for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) {
+        sizes.push_back(k);
+        thing.sizes.push_back(k);
+      }
+    } else if (n == 3 && is_movable(role)) {
+      const std::size_t v = vectors.size();
+      vectors.push_back({i, role});
+      movable.push_back(v);
+      (role == Role::position ? positions : role == Role::velocity ? velocities : directions).push_back(v);
+      if (role == Role::position) thing.positions.push_back(v);
+    } else {
+      for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) lone.push_back(k);
+    }
+    i += std::max<std::size_t>(n, 1);
+  }
+  std::copy_if(all.begin(), all.end(), std::back_inserter(things), [](const Thing& t) { return !t.positions.empty(); });
+}
+
+void Draft::step_ulps(std::size_t i, int ulps) {
+  const double toward = ulps > 0 ? HUGE_VAL : -HUGE_VAL;
+  for (int k = std::abs(ulps); k > 0; --k) {
+    values_[i] = is_float() ? double(std::nextafter(float(values_[i]), float(toward))) : std::nextafter(values_[i], toward);
+  }
+}
+
+void Draft::repair() {
+  const auto all_zero = [&](std::size_t begin, std::size_t n) {
+    return std::all_of(&values_[begin], &values_[begin] + n, [](double x) { return x == 0; });
+  };
+  for (std::size_t v : plan.directions) {
+    const std::size_t begin = plan.vectors[v].begin;
+    const std::size_t k = random.below(3);
+    if (all_zero(begin, 3)) set(begin + k, random.sign());
+  }
+  for (std::size_t begin : plan.rotations) {
+    if (all_zero(begin, 4)) set(begin + 3, 1);
+  }
+}
+
+void generate(Case& into, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
+  const Plan& plan = plan_of(query);
+  // Each part passes through the mixer, so that streams of neighbouring seeds share nothing.
+  Random random(Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar)).bits() ^ Random(index).bits());
+  into.query = &query;
+  into.scalar = scalar;
+  into.values.resize(query.inputs.size());
+  into.origin = "generator";
+  into.seed = seed;
+  into.index = index;
+  constexpr int attempts = 1000;
+  for (int i = 0; i < attempts; ++i) {
+    if (attempt(into, plan, random)) return;
+  }
+  throw std::logic_error("generator: no valid case of " + std::string(query.name) + " in 1000 attempts");
+}
+
+Case generate(const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
+  Case c;
+  generate(c, query, scalar, seed, index);
+  return c;
+}
+
+void mutate(Case& c, std::uint64_t seed) {
+  Random random(seed);
+  const std::vector<double> before = c.values;
+  const std::size_t moves_before = c.moves.size();
+  constexpr int attempts = 16;
+  for (int i = 0; i < attempts; ++i) {
+    Draft draft(plan_of(*c.query), c.scalar, random, c.values);
+    apply(draft, choose(random, random.between(1, 3)), c.moves);
+    if (!c.query->broken(c.values)) return;
+    c.values = before;
+    c.moves.resize(moves_before);
+  }
+}
+
+std::span<const MoveName> move_names() {
+  static const std::vector<MoveName> names = [] {
+    std::vector<MoveName> all;
+    for (const Move& m : moves()) all.push_back({m.name, m.what});
+    return all;
+  }();
+  return names;
+}
+
+std::string_view known_move(std::string_view name) {
+  for (const Move& m : moves()) {
+    if (m.name == name) return m.name;
+  }
+  return {};
+}
+
+}  // namespace nearmiss

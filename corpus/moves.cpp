@@ -1,0 +1,380 @@
+#include <algorithm>
+#include <cmath>
+
+#include "corpus/draft.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Numbers = Draft::Numbers;
+
+Numbers difference(const Numbers& a, const Numbers& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+// Whole scenes.
+
+/// Rounds every number to a multiple of `step` units and sets the unit to `unit`.
+void to_grid(Draft& d, double step, double unit) {
+  const auto onto = [&](std::size_t i, double cell, double out) { d.set(i, std::nearbyint(d[i] / cell) * out); };
+  for (Role role : {Role::position, Role::velocity, Role::size}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) onto(i, step * d.unit, step * unit);
+  }
+  for (Role role : {Role::direction, Role::time}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) onto(i, step, step);
+  }
+  d.unit = unit;
+  d.repair();
+}
+
+bool small_lattice(Draft& d) {
+  to_grid(d, 0.5, 2);
+  for (std::size_t begin : d.plan.rotations) {
+    for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, std::nearbyint(2 * d[begin + k]));
+  }
+  d.repair();
+  return true;
+}
+
+bool dyadic_grid(Draft& d) {
+  to_grid(d, d.random.power_of_two(-6, -2), d.unit);
+  return true;
+}
+
+// Vectors and their numbers.
+
+bool equal_vectors(Draft& d) {
+  if (d.plan.positions.size() < 2) return false;
+  const auto [to, from] = d.two_of(d.plan.positions);
+  d.set_vector(to, d.vector(from));
+  return true;
+}
+
+bool shared_coordinate(Draft& d) {
+  if (d.plan.positions.size() < 2) return false;
+  const auto [to, from] = d.two_of(d.plan.positions);
+  const std::size_t k = d.random.below(3);
+  d.set(d.plan.vectors[to].begin + k, d.vector(from)[k]);
+  return true;
+}
+
+bool zero_component(Draft& d) {
+  if (d.plan.movable.empty()) return false;
+  const std::size_t begin = d.plan.vectors[d.random.pick(d.plan.movable)].begin;
+  d.set(begin + d.random.below(3), 0);
+  d.repair();
+  return true;
+}
+
+/// On the segment or in the plane of other positions; exactly so where nothing is rounded.
+bool between_positions(Draft& d) {
+  const auto& list = d.plan.positions;
+  if (list.size() < 3) return false;
+  const auto [to, from] = d.two_of(list);
+  Numbers at = d.vector(from);
+  for (int i = d.random.between(1, 2); i > 0; --i) {
+    const Numbers along = difference(d.vector(d.random.pick(list)), d.vector(from));
+    const double weight = 0.125 * d.random.between(-2, 8);
+    for (std::size_t k = 0; k < 3; ++k) at[k] += weight * along[k];
+  }
+  d.set_vector(to, at);
+  return true;
+}
+
+// Sizes.
+
+bool zero_size(Draft& d) {
+  if (d.plan.sizes.empty()) return false;
+  d.set(d.random.pick(d.plan.sizes), 0);
+  return true;
+}
+
+bool all_sizes_zero(Draft& d) {
+  if (d.plan.things.empty()) return false;
+  const Thing& thing = d.random.pick(d.plan.things);
+  for (std::size_t i : thing.sizes) d.set(i, 0);
+  return !thing.sizes.empty();
+}
+
+bool equal_sizes(Draft& d) {
+  if (d.plan.sizes.size() < 2) return false;
+  const auto [to, from] = d.two_of(d.plan.sizes);
+  d.set(to, d[from]);
+  return true;
+}
+
+bool size_ratio(Draft& d) {
+  if (d.plan.sizes.empty()) return false;
+  const int orders = d.random.between(1, d.orders(8, 30));
+  const double factor = std::ldexp(1.0, d.random.one_in(2) ? orders : -orders);
+  d.scale(d.random.pick(d.plan.sizes), factor);
+  return true;
+}
+
+// Velocities and directions.
+
+bool zero_velocity(Draft& d) {
+  if (d.plan.velocities.empty()) return false;
+  d.set_vector(d.random.pick(d.plan.velocities), {0, 0, 0});
+  return true;
+}
+
+bool axis_velocity(Draft& d) {
+  if (d.plan.velocities.empty()) return false;
+  const std::size_t v = d.random.pick(d.plan.velocities);
+  const std::size_t k = d.random.below(3);
+  Numbers along{};
+  along[k] = d.vector(v)[k] == 0 ? d.random.sign() : d.vector(v)[k];
+  d.set_vector(v, along);
+  return true;
+}
+
+bool scaled_velocity(Draft& d) {
+  if (d.plan.velocities.empty()) return false;
+  const double factor = d.random.power_of_two(-d.orders(8, 30), d.orders(8, 30));
+  const std::size_t begin = d.plan.vectors[d.random.pick(d.plan.velocities)].begin;
+  for (std::size_t k = 0; k < 3; ++k) d.scale(begin + k, factor);
+  return true;
+}
+
+bool aimed_at_position(Draft& d) {
+  if (d.plan.velocities.empty() || d.plan.positions.size() < 2) return false;
+  const auto& list = d.plan.positions;
+  Numbers along = difference(d.vector(list[1 + d.random.below(list.size() - 1)]), d.vector(list[0]));
+  const double factor = d.random.power_of_two(-2, 1);
+  for (double& x : along) x *= factor;
+  d.set_vector(d.random.pick(d.plan.velocities), along);
+  return true;
+}
+
+/// A vector that means a direction: another velocity or direction, or from one position to another.
+bool some_direction(Draft& d, std::size_t but, Numbers& out) {
+  const auto& list = d.plan.movable;
+  const std::size_t v = list[d.random.below(list.size())];
+  if (d.plan.vectors[v].role != Role::position) {
+    out = d.vector(v);
+    return v != but;
+  }
+  if (d.plan.positions.size() < 2) return false;
+  const auto [a, b] = d.two_of(d.plan.positions);
+  out = difference(d.vector(a), d.vector(b));
+  return true;
+}
+
+/// Picks a velocity or direction and hands it, with some other direction, to `make`.
+template <class Make>
+bool direct(Draft& d, Make make) {
+  const std::size_t velocities = d.plan.velocities.size(), all = velocities + d.plan.directions.size();
+  if (all == 0) return false;
+  const std::size_t k = d.random.below(all);
+  const std::size_t to = k < velocities ? d.plan.velocities[k] : d.plan.directions[k - velocities];
+  Numbers from;
+  if (!some_direction(d, to, from)) return false;
+  d.set_vector(to, make(from));
+  d.repair();
+  return true;
+}
+
+Numbers scaled(const Numbers& x, double factor) { return {factor * x[0], factor * x[1], factor * x[2]}; }
+
+bool parallel(Draft& d) {
+  return direct(d, [&](const Numbers& x) { return scaled(x, d.random.power_of_two(-2, 2)); });
+}
+bool antiparallel(Draft& d) {
+  return direct(d, [&](const Numbers& x) { return scaled(x, -d.random.power_of_two(-2, 2)); });
+}
+bool orthogonal(Draft& d) {
+  return direct(d, [&](const Numbers& x) {
+    const std::size_t i = d.random.below(3), j = (i + 1) % 3;
+    Numbers turned{};
+    turned[i] = -x[j];
+    turned[j] = x[i];
+    return turned;
+  });
+}
+
+// Rotations.
+
+bool axis_rotation(Draft& d) {
+  if (d.plan.rotations.empty()) return false;
+  const std::size_t begin = d.random.pick(d.plan.rotations);
+  const std::size_t first = d.random.one_in(2) ? 3 : d.random.below(4);
+  const std::size_t second = d.random.below(4);
+  const double length = d.random.one_in(4) ? d.random.power_of_two(-2, 2) : 1.0;
+  for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, 0);
+  d.set(begin + first, length);
+  if (d.random.one_in(2)) d.set(begin + second, d.random.sign() * length);
+  return true;
+}
+
+bool identity_rotation(Draft& d) {
+  for (std::size_t begin : d.plan.rotations) {
+    for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, k == 3 ? 1 : 0);
+  }
+  return !d.plan.rotations.empty();
+}
+
+bool scaled_rotation(Draft& d) {
+  if (d.plan.rotations.empty()) return false;
+  const std::size_t begin = d.random.pick(d.plan.rotations);
+  const double factor = d.random.one_in(2) ? d.random.power_of_two(-4, 4) : d.random.uniform(0.25, 4);
+  for (std::size_t k = 0; k < 4; ++k) d.scale(begin + k, factor);
+  d.repair();
+  return true;
+}
+
+/// 1e-3 ... 1e-16.
+double small_angle(Draft& d) {
+  double angle = d.random.sign();
+  for (int i = d.random.between(3, 16); i > 0; --i) angle /= 10;
+  return angle;
+}
+
+bool near_axis_rotation(Draft& d) {
+  if (!axis_rotation(d)) return false;
+  for (std::size_t begin : d.plan.rotations) {
+    const std::size_t k = begin + d.random.below(4);
+    d.set(k, d[k] + small_angle(d));
+  }
+  d.repair();
+  return true;
+}
+
+bool equal_rotations(Draft& d) {
+  if (d.plan.rotations.size() < 2) return false;
+  const auto [to, from] = d.two_of(d.plan.rotations);
+  const double sign = d.random.sign();
+  const double factor = d.random.one_in(2) ? 1.0 : sign * d.random.power_of_two(-2, 2);
+  for (std::size_t k = 0; k < 4; ++k) d.set(to + k, factor * d[from + k]);
+  return true;
+}
+
+bool near_equal_rotations(Draft& d) {
+  if (!equal_rotations(d)) return false;
+  const std::size_t begin = d.random.pick(d.plan.rotations);
+  const std::size_t k = begin + d.random.below(4);
+  d.set(k, d[k] + small_angle(d));
+  d.repair();
+  return true;
+}
+
+// Touches.
+
+/// Two things that have positions, one of them with a size.
+bool touching_pair(Draft& d, const Thing*& a, const Thing*& b) {
+  const auto& things = d.plan.things;
+  if (things.size() < 2) return false;
+  const std::size_t first = d.random.below(things.size());
+  a = &things[first];
+  b = &things[(first + 1 + d.random.below(things.size() - 1)) % things.size()];
+  if (a->sizes.empty()) std::swap(a, b);
+  return !a->sizes.empty();
+}
+
+/// How far the thing reaches along axis k when it is a sphere or a box that stands upright.
+double reach_along(const Draft& d, const Thing& thing, std::size_t k) {
+  if (thing.sizes.empty()) return 0;
+  return d[thing.sizes[thing.sizes.size() == 3 ? k : 0]];
+}
+
+bool touch_by_size(Draft& d) {
+  const Thing *a = nullptr, *b = nullptr;
+  if (!touching_pair(d, a, b)) return false;
+  const std::size_t k = d.random.below(3);
+  const double from = d.vector(d.random.pick(a->positions))[k];
+  const double apart = std::abs(from - d.vector(d.random.pick(b->positions))[k]);
+  const double rest = apart - reach_along(d, *b, k);
+  const std::size_t size = a->sizes[a->sizes.size() == 3 ? k : d.random.below(a->sizes.size())];
+  d.set(size, rest > 0 ? rest : apart);
+  return true;
+}
+
+bool touch_by_position(Draft& d) {
+  const Thing *a = nullptr, *b = nullptr;
+  if (!touching_pair(d, a, b)) return false;
+  const std::size_t k = d.random.below(3);
+  const Numbers from = d.vector(d.random.pick(b->positions));
+  Numbers at = d.vector(a->positions.front());
+  if (d.random.one_in(2)) at = from;
+  at[k] = from[k] + d.random.sign() * (reach_along(d, *a, k) + reach_along(d, *b, k));
+  d.set_vector(a->positions.front(), at);
+  return true;
+}
+
+// Transforms of everything.
+
+bool far_offset(Draft& d) {
+  if (d.plan.positions.empty()) return false;
+  Numbers offset;
+  for (double& x : offset) {
+    const double sign = d.random.one_in(3) ? 0.0 : d.random.sign();
+    const int times = d.random.between(1, 7);
+    x = sign * times * d.random.power_of_two(0, d.orders(10, 40));
+  }
+  for (std::size_t v : d.plan.positions) {
+    const Numbers x = d.vector(v);
+    d.set_vector(v, {x[0] + offset[0], x[1] + offset[1], x[2] + offset[2]});
+  }
+  return true;
+}
+
+bool scaled_lengths(Draft& d) {
+  const double factor = d.random.power_of_two(-d.orders(8, 30), d.orders(8, 30));
+  for (Role role : {Role::position, Role::velocity, Role::size}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.scale(i, factor);
+  }
+  return true;
+}
+
+bool ulp_nudge(Draft& d) {
+  const std::size_t count = d.plan.query->inputs.size();
+  bool any = false;
+  for (int i = d.random.between(1, 3); i > 0; --i) {
+    const std::size_t at = d.random.below(count);
+    const Role role = d.plan.query->inputs[at].role;
+    if (role == Role::flag || role == Role::index || (d[at] == 0 && d.random.one_in(2))) continue;
+    const int ulps = d.random.between(1, 3);
+    d.step_ulps(at, d.random.one_in(2) ? ulps : -ulps);
+    if (role == Role::size && d[at] < 0) d.set(at, 0);
+    any = true;
+  }
+  return any;
+}
+
+/// The closed table. Applied in this order, so that what is exact is made before it is moved, and the
+/// last ulps are changed at the very end.
+constexpr Move table[] = {
+    {"small-lattice", "every number a small integer", small_lattice},
+    {"dyadic-grid", "every number a multiple of a power of two", dyadic_grid},
+    {"equal-vectors", "two positions are the same: a duplicate vertex, coincident centers", equal_vectors},
+    {"shared-coordinate", "a coordinate copied from another position", shared_coordinate},
+    {"zero-component", "one number of a vector is 0", zero_component},
+    {"between-positions", "a position on the segment or in the plane of others", between_positions},
+    {"zero-size", "one size is 0", zero_size},
+    {"all-sizes-zero", "a shape without any size", all_sizes_zero},
+    {"equal-sizes", "two sizes are the same", equal_sizes},
+    {"size-ratio", "one size tiny or huge", size_ratio},
+    {"axis-rotation", "a quaternion of a right angle or a half turn", axis_rotation},
+    {"identity-rotation", "no shape is turned", identity_rotation},
+    {"near-axis-rotation", "1e-3 ... 1e-16 from a right angle", near_axis_rotation},
+    {"equal-rotations", "two shapes turned alike", equal_rotations},
+    {"near-equal-rotations", "two shapes turned alike but for 1e-3 ... 1e-16", near_equal_rotations},
+    {"scaled-rotation", "a quaternion whose length is not 1", scaled_rotation},
+    {"touch-by-size", "a size equal to a coordinate's distance: upright shapes touch", touch_by_size},
+    {"touch-by-position", "a center as far along one axis as both shapes reach", touch_by_position},
+    {"zero-velocity", "no motion", zero_velocity},
+    {"axis-velocity", "motion along one axis", axis_velocity},
+    {"aimed-at-position", "motion straight at a vertex or center", aimed_at_position},
+    {"parallel", "a velocity or direction along another one or along an edge", parallel},
+    {"antiparallel", "the same, against it", antiparallel},
+    {"orthogonal", "a velocity or direction at an exact right angle to another one or to an edge", orthogonal},
+    {"scaled-velocity", "the same motion, much slower or faster", scaled_velocity},
+    {"far-offset", "everything far from the origin", far_offset},
+    {"scaled-lengths", "all lengths times a power of two", scaled_lengths},
+    {"ulp-nudge", "up to three numbers moved by 1 to 3 ulps", ulp_nudge},
+};
+
+}  // namespace
+
+std::span<const Move> moves() { return table; }
+
+}  // namespace nearmiss

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include "corpus/draft.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Numbers = Draft::Numbers;
+
+Numbers plus(const Numbers& a, const Numbers& b, double factor = 1) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
+/// One thing of the scene: where it is and how far it reaches, roughly.
+struct Placed {
+  Numbers center{};
+  double reach = 0;
+};
+
+double draw_sizes(Draft& d, const Thing& thing) {
+  if (thing.sizes.empty()) return thing.positions.size() > 1 ? d.unit : 0.0;
+  double sum = 0;
+  for (std::size_t i : thing.sizes) {
+    d.set(i, d.unit * d.random.uniform(0.25, 2));
+    sum += d[i];
+  }
+  return sum / double(thing.sizes.size());
+}
+
+void put(Draft& d, const Thing& thing, const Placed& at) {
+  const bool single = thing.positions.size() == 1;
+  for (std::size_t v : thing.positions) {
+    d.set_vector(v, single ? at.center : plus(at.center, d.random_vector(1.5 * d.unit)));
+  }
+}
+
+/// A vector of about unit length.
+Numbers draw_direction(Draft& d) {
+  Numbers x = d.random_vector(1);
+  const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  if (length < 0.125) return {0, 0, 1};
+  for (double& component : x) component /= length;
+  return x;
+}
+
+/// The first thing anywhere near the origin, the others at distances comparable with both reaches.
+std::vector<Placed>& place_things(Draft& d) {
+  static thread_local std::vector<Placed> placed;
+  placed.clear();
+  const double furthest = d.plan.velocities.empty() ? 2 : 4;
+  for (const Thing& thing : d.plan.things) {
+    Placed p{{}, draw_sizes(d, thing)};
+    if (placed.empty()) {
+      p.center = d.random_vector(4 * d.unit);
+    } else {
+      const Placed& first = placed.front();
+      const double together = first.reach + p.reach > 0 ? first.reach + p.reach : d.unit;
+      const Numbers towards = draw_direction(d);
+      p.center = plus(first.center, towards, together * d.random.uniform(0, furthest));
+    }
+    put(d, thing, p);
+    placed.push_back(p);
+  }
+  return placed;
+}
+
+/// A point of the thing, or between its points.
+Numbers point_of(Draft& d, const Thing& thing) {
+  Numbers sum{};
+  double weights = 0;
+  for (std::size_t v : thing.positions) {
+    const double w = d.random.uniform(0.01, 1);
+    sum = plus(sum, d.vector(v), w);
+    weights += w;
+  }
+  for (double& x : sum) x /= weights;
+  return sum;
+}
+
+void aim(Draft& d, std::size_t velocity, const std::vector<Placed>& placed) {
+  if (placed.size() < 2 || d.random.one_in(8)) return d.set_vector(velocity, d.random_vector(2 * d.unit));
+  const std::size_t target = 1 + d.random.below(placed.size() - 1);
+  const bool single = d.plan.things[target].positions.size() == 1;
+  const double around = (single ? 1.5 : 0.25) * (placed[0].reach + placed[target].reach);
+  const Numbers target_point = point_of(d, d.plan.things[target]);
+  const Numbers to = plus(target_point, d.random_vector(around));
+  Numbers along = plus(to, placed[0].center, -1);
+  const double per_time = d.random.uniform(0.25, 2);
+  for (double& x : along) x *= per_time;
+  d.set_vector(velocity, along);
+}
+
+void draw_rotation(Draft& d, std::size_t begin) {
+  std::array<double, 4> q;
+  double length2 = 0;
+  for (double& x : q) {
+    x = d.random.uniform(-1, 1);
+    length2 += x * x;
+  }
+  const double scale = d.random.one_in(4) ? 1 : 1 / std::sqrt(length2);
+  for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, q[k] * scale);
+}
+
+double draw_index(Draft& d) {
+  if (d.random.one_in(4)) return -1;
+  const std::size_t choices = d.random.one_in(3) ? 3 : 15;
+  return double(d.random.below(choices));
+}
+
+double draw_lone(Draft& d, Role role) {
+  switch (role) {
+    case Role::flag: return double(d.random.below(2));
+    case Role::index: return draw_index(d);
+    case Role::time: return d.random.uniform(0, 2);
+    default: return d.unit * d.random.uniform(-4, 4);
+  }
+}
+
+}  // namespace
+
+void draw_scene(Draft& d) {
+  d.unit = d.random.one_in(4) ? d.random.power_of_two(-4, 4) : 1.0;
+  const std::vector<Placed>& placed = place_things(d);
+  for (std::size_t v : d.plan.velocities) aim(d, v, placed);
+  for (std::size_t v : d.plan.directions) d.set_vector(v, d.random.one_in(2) ? draw_direction(d) : d.random_vector(2));
+  for (std::size_t begin : d.plan.rotations) draw_rotation(d, begin);
+  for (std::size_t i : d.plan.lone) d.set(i, draw_lone(d, d.plan.query->inputs[i].role));
+  d.repair();
+}
+
+}  // namespace nearmiss

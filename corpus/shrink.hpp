@@ -1,0 +1,15 @@
+/// Smaller cases of the same finding.
+#pragma once
+
+#include <functional>
+
+#include "oracles/case.hpp"
+
+namespace nearmiss {
+
+/// The simplest case found for which `keeps` still holds: zeros, small integers, few significant
+/// bits, few distinct numbers. `keeps(c)` must hold; it is asked at most `questions` times, always
+/// about valid cases that are exact in their scalar. Deterministic.
+Case shrink(const Case& c, const std::function<bool(const Case&)>& keeps, int questions = 20000);
+
+}  // namespace nearmiss

@@ -1,0 +1,111 @@
+#include "corpus/store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+std::vector<fs::path> json_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path seeds_of(const Query& query) { return corpus_folder() / "seeds" / query.name; }
+
+/// The names of an enumeration that counts from 0 to `last`.
+template <class Enum>
+bool is_name_of(const std::string& word, Enum last) {
+  for (int i = 0; i <= int(last); ++i) {
+    if (word == name_of(Enum(i))) return true;
+  }
+  return false;
+}
+
+std::string word(const json& expectation, const char* name, const std::string& where, const std::string& path) {
+  const auto found = expectation.find(name);
+  if (found == expectation.end()) return {};
+  if (!found->is_string()) throw BadInput(fmt::format("{}: {}.{} is {}: it must be a string", where, path, name, found->dump()));
+  return found->get<std::string>();
+}
+
+Expected expectation_from(const json& j, const std::string& where, const std::string& path) {
+  const auto fail = [&](std::string_view member, const std::string& value, std::string_view rule) {
+    throw BadInput(fmt::format("{}: {}{} is {}: it must be {}", where, path, member, value, rule));
+  };
+  if (!j.is_object()) fail("", j.dump(), "an object");
+  for (const auto& item : j.items()) {
+    if (item.key() != "subject" && item.key() != "verdict" && item.key() != "disagreement") {
+      throw BadInput(fmt::format("{}: {}.{} is unknown", where, path, item.key()));
+    }
+  }
+  Expected e{word(j, "subject", where, path), word(j, "verdict", where, path), word(j, "disagreement", where, path)};
+  if (e.subject.empty()) throw BadInput(fmt::format("{}: {}.subject is missing", where, path));
+  if (!is_name_of(e.verdict, Verdict::broke)) fail(".verdict", '"' + e.verdict + '"', "a verdict of the judge");
+  if (!e.disagreement.empty() && !is_name_of(e.disagreement, Disagreement::not_unit)) {
+    fail(".disagreement", '"' + e.disagreement + '"', "a disagreement that the judge tells apart");
+  }
+  return e;
+}
+
+}  // namespace
+
+fs::path corpus_folder() {
+  const char* told = std::getenv("NEARMISS_CORPUS");
+  return told != nullptr && *told != '\0' ? told : NEARMISS_CORPUS_FOLDER;
+}
+
+StoredCase read_stored_case(const fs::path& file) {
+  const std::string where = file.string();
+  const json j = parse_json(read_file(file), where);
+  StoredCase stored{case_from_json(j, where), file, {}, {}};
+  if (stored.question.origin.empty()) {
+    stored.question.origin = (file.parent_path().filename() / file.filename()).string();
+  }
+  if (const auto note = j.find("note"); note != j.end()) {
+    if (!note->is_string()) throw BadInput(fmt::format("{}: note is {}: it must be a string", where, note->dump()));
+    stored.note = note->get<std::string>();
+  }
+  if (const auto expected = j.find("expected"); expected != j.end()) {
+    if (!expected->is_array()) {
+      throw BadInput(fmt::format("{}: expected is {}: it must be an array", where, expected->dump()));
+    }
+    for (std::size_t i = 0; i < expected->size(); ++i) {
+      stored.expected.push_back(expectation_from((*expected)[i], where, fmt::format("expected[{}]", i)));
+    }
+  }
+  return stored;
+}
+
+std::vector<StoredCase> stored_cases(const Query& query) {
+  std::vector<StoredCase> all;
+  for (const fs::path& folder : {seeds_of(query), corpus_folder() / "regressions" / query.name}) {
+    for (const fs::path& file : json_files(folder)) {
+      all.push_back(read_stored_case(file));
+      const Query& own = *all.back().question.query;
+      if (own.name != query.name) {
+        throw BadInput(fmt::format("{}: query is \"{}\": it must be that of its folder", file.string(), own.name));
+      }
+    }
+  }
+  return all;
+}
+
+std::size_t count_seeds(const Query& query) { return json_files(seeds_of(query)).size(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,40 @@
+/// Each tier of `collide` keeps its contract, as far as the oracle can tell.
+#include <gtest/gtest.h>
+
+#include "corpus/generator.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+constexpr std::uint64_t cases_per_stream = 100;
+
+class EveryTier : public testing::TestWithParam<Pairing> {};
+
+TEST_P(EveryTier, KeepsItsContract) {
+  const auto [query, subject] = GetParam();
+  Case c;
+  const auto first_violation = [&, query = query, subject = subject](std::uint64_t stream) -> std::string {
+    for (std::uint64_t i = 0; i < cases_per_stream; ++i) {
+      generate(c, *query, subject->scalar, stream, i);
+      if (is_violation(examined(c, *subject))) return told(c, *subject);
+    }
+    return {};
+  };
+  EXPECT_TRUE(holds_for_streams("answers agree with the oracle within the contract", first_violation));
+}
+
+TEST_P(EveryTier, PromisesSomethingAboutMostCases) {
+  const auto [query, subject] = GetParam();
+  constexpr int cases = 2000;
+  int covered = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    covered += examined(generate(*query, subject->scalar, 1, i), *subject).verdict != Verdict::out_of_domain;
+  }
+  EXPECT_GE(covered, cases * 8 / 10) << "of " << cases << " cases within the contract's domain";
+}
+
+INSTANTIATE_TEST_SUITE_P(Agreement, EveryTier, testing::ValuesIn(our_pairings()), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss

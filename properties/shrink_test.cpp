@@ -1,0 +1,68 @@
+/// The shrinker finds simple cases and never leaves what it is told to keep.
+#include "corpus/shrink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "corpus/generator.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+TEST(Shrink, FindsZerosWhereNothingIsAsked) {
+  const Query& query = *find_query("closest_point_segment");
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const Case c = shrink(generate(query, Scalar::float64, 1, i), [](const Case&) { return true; });
+    EXPECT_EQ(c.values, std::vector<double>(query.inputs.size(), 0.0));
+  }
+}
+
+TEST(Shrink, FindsTheSimplestNumberOnTheRightSide) {
+  const Query& query = *find_query("moving_point_sphere");
+  const auto far = [](const Case& c) { return c.values[0] > 100; };
+  Case c = generate(query, Scalar::float32, 1, 0);
+  c.values[0] = 12345.678f;
+  const Case small = shrink(c, far);
+  EXPECT_EQ(small.values[0], 128);
+}
+
+TEST(Shrink, CopiesCoordinatesToHaveFewerDistinctOnes) {
+  const Query& query = *find_query("closest_point_segment");
+  const auto sum = [](const Case& c) { return c.values[0] > 1 && c.values[1] > 1; };
+  Case c = generate(query, Scalar::float64, 1, 0);
+  c.values[0] = 3.3, c.values[1] = 77.7;
+  const Case small = shrink(c, sum);
+  EXPECT_EQ(small.values[0], small.values[1]);
+}
+
+class Shrinking : public testing::TestWithParam<NamedQuery> {};
+
+TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
+  const Query& query = *GetParam().query;
+  for (Scalar scalar : scalars) {
+    for (std::uint64_t i = 0; i < 10; ++i) {
+      const Case c = generate(query, scalar, 1, i);
+      const bool truth = truth_is_yes(c);
+      int questions = 0;
+      const Case small = shrink(c, [&](const Case& smaller) {
+        ++questions;
+        EXPECT_FALSE(query.broken(smaller.values));
+        for (double x : smaller.values) EXPECT_TRUE(representable(x, scalar));
+        return truth_is_yes(smaller) == truth;
+      }, 500);
+      EXPECT_EQ(truth_is_yes(small), truth);
+      EXPECT_LE(questions, 500);
+      const std::set<double> before(c.values.begin(), c.values.end()), after(small.values.begin(), small.values.end());
+      EXPECT_LE(after.size(), before.size());
+      EXPECT_LE(after.size(), 6u) << query.name << " case " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Shrinking, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss

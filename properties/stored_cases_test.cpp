@@ -1,0 +1,76 @@
+/// Every stored case is what its file name and its expectations say.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/store.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+class StoredCases : public testing::TestWithParam<NamedQuery> {};
+
+bool fits(const Case& c, Scalar scalar) {
+  return std::all_of(c.values.begin(), c.values.end(), [&](double x) { return representable(x, scalar); });
+}
+
+TEST_P(StoredCases, HoldAtLeastSixSeeds) { EXPECT_GE(count_seeds(*GetParam().query), 6u); }
+
+TEST_P(StoredCases, SayWhatTheyAreAbout) {
+  for (const StoredCase& s : stored_cases(*GetParam().query)) {
+    EXPECT_GE(s.note.size(), 10u) << s.file;
+    EXPECT_FALSE(s.expected.empty()) << s.file;
+  }
+}
+
+/// miss-*.json and apart-*.json are a "no" of the exact oracle, all others a "yes".
+TEST_P(StoredCases, AreNamedAfterTheTruth) {
+  int yes = 0, no = 0;
+  for (const StoredCase& s : stored_cases(*GetParam().query)) {
+    const std::string name = s.file.filename().string();
+    const bool expected = !name.starts_with("miss") && !name.starts_with("apart");
+    EXPECT_EQ(truth_is_yes(s.question), expected) << s.file;
+    ++(expected ? yes : no);
+  }
+  EXPECT_GT(yes, 0);
+  const Kind kind = GetParam().query->kind;
+  if (kind != Kind::points && kind != Kind::direction) {
+    EXPECT_GT(no, 0);
+  }
+}
+
+/// An open bug is a stored case that expects the violation: it fails here on the day it is fixed.
+TEST_P(StoredCases, MeetTheirExpectations) {
+  const Query& query = *GetParam().query;
+  for (const StoredCase& s : stored_cases(query)) {
+    for (const Expected& e : s.expected) {
+      const Subject* subject = find_subject(e.subject);
+      if (subject == nullptr) {
+        EXPECT_FALSE(e.subject.starts_with("collide-")) << s.file << " expects something of " << e.subject;
+        continue;  // another library, not built here
+      }
+      Case c = s.question;
+      ASSERT_TRUE(fits(c, subject->scalar)) << s.file << ": " << e.subject << " cannot hold its numbers";
+      c.scalar = subject->scalar;
+      const Finding f = examined(c, *subject);
+      EXPECT_EQ(name_of(f.verdict), e.verdict) << s.file << ", " << e.subject << ": " << f.clause;
+      if (!e.disagreement.empty()) {
+        EXPECT_EQ(name_of(f.disagreement), e.disagreement) << s.file << ", " << e.subject;
+      }
+    }
+  }
+}
+
+TEST_P(StoredCases, ComeBackFromJson) {
+  for (const StoredCase& s : stored_cases(*GetParam().query)) {
+    const Case back = case_from_json(parse_json(case_to_json(s.question).dump(), "text"), "text");
+    EXPECT_EQ(back.values, s.question.values) << s.file;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, StoredCases, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss

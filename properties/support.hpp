@@ -1,0 +1,50 @@
+/// What the properties share: which subjects they hold to their word, and how a failure is told.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "impl/subject/subject.hpp"
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+
+/// A query and a subject that answers it. Shows as <query>__<subject>, fit for a test's name.
+struct Pairing {
+  const Query* query;
+  const Subject* subject;
+};
+std::ostream& operator<<(std::ostream& out, const Pairing& p);
+/// Every query with every tier of `collide` that answers it.
+std::vector<Pairing> our_pairings();
+
+/// A query; shows as its name.
+struct NamedQuery {
+  const Query* query;
+};
+std::ostream& operator<<(std::ostream& out, const NamedQuery& q);
+std::vector<NamedQuery> every_query();
+
+inline constexpr Scalar scalars[] = {Scalar::float32, Scalar::float64};
+
+/// The subject's answer, given in this process, and the judge's word on it.
+Finding examined(const Case& question, const Subject& subject);
+inline bool is_violation(const Finding& f) {
+  return f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke;
+}
+/// A violation as a person needs it: the finding, the command that replays it, the shrunk case as JSON
+/// and as C++.
+std::string told(const Case& question, const Subject& subject);
+
+/// The exact decision; the exact stage is asked only where the interval cannot tell.
+bool truth_is_yes(const Case& question);
+
+/// Checks with RapidCheck that `failure_of` says "" for 200 streams (seeds) of the generator; what it
+/// says otherwise is printed with the stream. The environment variable RC_PARAMS overrides the number
+/// (max_success) and RapidCheck's own seed.
+bool holds_for_streams(const std::string& sentence, const std::function<std::string(std::uint64_t)>& failure_of);
+
+}  // namespace nearmiss

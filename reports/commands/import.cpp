@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/nyu_ccd.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/explain.hpp"
+#include "reports/interrupt.hpp"
+#include "reports/progress.hpp"
+#include "reports/report.hpp"
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The benchmark asks about the times from 0 to 1, both included.
+constexpr double end_of_time = 1;
+
+/// What the oracle says about the benchmark's question: exact, decision and time.
+bool exactly_collides(const Case& question) {
+  Answer at_end;
+  at_end.yes = true;
+  at_end.values[0] = end_of_time;
+  const Enclosure e = question.query->oracle.exact(question.values, at_end, question.scalar, nullptr);
+  return e.may_be_yes && e.error[0].high <= 0;  // error is the exact time less end_of_time
+}
+
+bool says_collides(const Answer& a) { return a.yes && a.values[0] <= end_of_time; }
+
+std::string word(bool collides) { return collides ? "collides" : "does not collide"; }
+
+/// One subject's answers, compared with the benchmark's truth.
+struct Score {
+  const Subject* subject;
+  std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
+  std::vector<std::string> wrong;  ///< one line each
+};
+
+/// One import: cases come in, counts and lists go out.
+class NyuCcd {
+ public:
+  NyuCcd(std::span<const Subject* const> subjects, fs::path out) : out_(std::move(out)) {
+    for (const Subject* s : subjects) {
+      if (s->offering(query).answer != nullptr) scores_.push_back({s, 0, 0, 0, 0, 0, 0, 0, {}});
+    }
+  }
+  static constexpr std::string_view query = "moving_point_triangle";
+
+  void take(const GroundTruths& read) {
+    queries_ += read.queries;
+    skipped_ += read.skipped;
+    for (std::size_t at = 0; at < read.fit.size() && !interrupted(); at += Worker::capacity) {
+      take_batch({read.fit.data() + at, std::min(Worker::capacity, read.fit.size() - at)});
+      progress_.tell(fit_, std::nullopt, std::nullopt, oracle_wrong_.size());
+    }
+  }
+  std::string text() const;
+  std::string summary() const;
+  int exit_code() const {
+    const bool violated = std::any_of(scores_.begin(), scores_.end(), [](const Score& s) { return s.violations + s.broke > 0; });
+    return !oracle_wrong_.empty() || violated ? 1 : interrupted() ? 2 : 0;
+  }
+
+ private:
+  void take_batch(std::span<const GroundTruth> batch) {
+    std::vector<bool> truth;
+    for (const GroundTruth& g : batch) {
+      const bool exact = exactly_collides(g.question);
+      compare_oracle(g, exact);
+      truth.push_back(g.parallel ? exact : g.collides);
+      if (!out_.empty()) write(g);
+    }
+    for (Score& s : scores_) ask(s, batch, truth);
+  }
+  void compare_oracle(const GroundTruth& g, bool exact) {
+    ++fit_;
+    if (g.parallel) ++parallel_;
+    if (exact == g.collides) return;
+    const std::string line = fmt::format("{}: the benchmark says that it {}, the oracle that it {}", g.where,
+                                         word(g.collides), word(exact));
+    (g.parallel ? parallel_wrong_ : oracle_wrong_).push_back(line);
+  }
+  void ask(Score& s, std::span<const GroundTruth> batch, const std::vector<bool>& truth) {
+    std::vector<Case> cases;
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (auto same = in_scalar(batch[i].question, s.subject->scalar)) {
+        cases.push_back(std::move(*same));
+        at.push_back(i);
+      }
+    }
+    s.outside += batch.size() - cases.size();
+    if (cases.empty()) return;
+    workers_.send(*s.subject, cases);
+    const auto answers = workers_.receive(*s.subject);
+    for (std::size_t i = 0; i < cases.size(); ++i) score(s, cases[i], answers[i], batch[at[i]].where, truth[at[i]]);
+  }
+  static void score(Score& s, const Case& question, const Answer& a, const std::string& where, bool truth) {
+    const Finding f = judge(question, a, s.subject->offering(query).contract, Detail::verdict);
+    if (f.verdict == Verdict::violates_contract) ++s.violations;
+    if (f.verdict == Verdict::broke) ++s.broke;
+    if (f.verdict == Verdict::cannot_answer) ++s.cannot_answer;
+    if (a.status != Answer::Status::answered) return;
+    if (says_collides(a) == truth) {
+      ++s.right;
+      return;
+    }
+    ++(truth ? s.false_misses : s.false_hits);
+    s.wrong.push_back(fmt::format("{}: {} says {}, but it {} until time {:g} (verdict: {}{})", where, s.subject->name,
+                                  answer_text(*question.query, a, question.scalar), word(truth), end_of_time,
+                                  name_of(f.verdict),
+                                  f.backward ? ", backward error > " + epsilons_text(f.backward->above) + " epsilon" : ""));
+  }
+  void write(const GroundTruth& g) const {
+    fs::path row(g.where);  // "erleben-spikes/data_0_0.csv:1"
+    std::string name = row.parent_path().filename().string() + "-" + row.filename().string();
+    std::replace_if(name.begin(), name.end(), [](char c) { return c == ':' || c == '.' || c == ' '; }, '-');
+    write_file(out_ / (name + ".json"), case_to_json(g.question).dump(2) + "\n");
+  }
+
+  fs::path out_;
+  Workers workers_;
+  Progress progress_;
+  std::vector<Score> scores_;
+  std::uint64_t queries_ = 0, skipped_ = 0, fit_ = 0, parallel_ = 0;
+  std::vector<std::string> oracle_wrong_, parallel_wrong_;
+};
+
+std::string lines_of(std::string_view heading, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  return fmt::format("\n{}\n  {}\n", heading, fmt::join(lines, "\n  "));
+}
+
+std::string NyuCcd::text() const {
+  std::string text = fmt::format(
+      "{} queries: {} fit {}, {} skipped (the corners move differently, or no double holds the relative velocity)\n"
+      "The oracle agrees with the truth column on {} of {}; {} of them move parallel to the face, where the\n"
+      "one-sided query has no hit by definition.\n",
+      count_text(queries_), count_text(fit_), query, count_text(skipped_),
+      count_text(fit_ - oracle_wrong_.size() - parallel_wrong_.size()), count_text(fit_), count_text(parallel_));
+  text += lines_of("The oracle contradicts the truth column:", oracle_wrong_);
+  text += lines_of("Motion parallel to the face (not counted against anybody):", parallel_wrong_);
+  std::vector<std::vector<std::string>> rows{
+      {"SUBJECT", "RIGHT", "FALSE HITS", "FALSE MISSES", "OUTSIDE", "NO ANSWER", "BROKE", "VIOLATIONS"}};
+  for (const Score& s : scores_) {
+    rows.push_back({s.subject->name, count_text(s.right), count_text(s.false_hits), count_text(s.false_misses),
+                    count_text(s.outside), count_text(s.cannot_answer), count_text(s.broke), count_text(s.violations)});
+  }
+  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar)\n" + table_text(rows);
+  for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
+  return text;
+}
+
+std::string NyuCcd::summary() const {
+  return fmt::format("{}{} queries, {} fit, {} skipped; the oracle contradicts the truth column on {}, and on {} parallel ones",
+                     interrupted() ? "interrupted: " : "", count_text(queries_), count_text(fit_), count_text(skipped_),
+                     count_text(oracle_wrong_.size()), count_text(parallel_wrong_.size()));
+}
+
+class ImportCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {"import",
+            "read cases of a benchmark whose truth is known, and compare",
+            {"FORMAT is nyu-ccd: vertex-face queries of the NYU continuous-collision benchmark, 8 rows a query (the "
+             "vertex and three face corners at time 0, then at time 1) and 7 integer columns (x, y, z as numerator, "
+             "denominator pairs, then the truth). Queries whose corners all move alike become cases of "
+             "moving_point_triangle, with the triangle turned towards the point; the others are counted as skipped.",
+             "The exact oracle's decision (a hit at a time of at most 1) is compared with the truth column, and so is "
+             "the answer of every subject that offers the query. A motion exactly parallel to the face has no hit by "
+             "the query's definition; where the truth column says otherwise it is listed apart."},
+            {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
+             {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
+             {"2", "A file cannot be read or is malformed, the output cannot be written, or it was interrupted."}},
+            {{"nearmiss import nyu-ccd erleben-spikes/*.csv", "Compare."},
+             {"nearmiss import nyu-ccd erleben-spikes/*.csv --out cases", "Also write each case as a JSON file."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FORMAT", format_, "The format of the files: nyu-ccd")
+        ->required()
+        ->type_name("")
+        ->check(CLI::Validator(
+            [](const std::string& t) { return t == "nyu-ccd" ? "" : "unknown format '" + t + "'; known is nyu-ccd"; }, ""));
+    app.add_option("FILE", files_, "A file of the benchmark")->required()->type_name("");
+    app.add_option("-o,--out", out_, "Write each case that fits as a JSON file into this folder")->type_name("DIR");
+    selection_.declare_subjects(app);
+  }
+  int run(const CLI::App&) override {
+    catch_interrupts();
+    if (!out_.empty()) {
+      std::error_code error;
+      fs::create_directories(out_, error);
+      if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", out_, error.message()));
+    }
+    NyuCcd import(selection_.subjects(), out_);
+    for (const std::string& f : files_) {
+      if (!interrupted()) import.take(read_nyu_ccd({f}));
+    }
+    fmt::print("{}\n{}\n", import.text(), import.summary());
+    return import.exit_code();
+  }
+
+ private:
+  std::string format_, out_;
+  std::vector<std::string> files_;
+  Selection selection_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> import_command() { return std::make_unique<ImportCommand>(); }
+
+}  // namespace nearmiss

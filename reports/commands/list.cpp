@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/store.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/properties.hpp"
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What each subject, or each referee, has for the query.
+Json offers(const Query& query, bool referees_only) {
+  Json j = Json::object();
+  for (const Subject& s : subjects()) {
+    if (!referees_only || s.referee) j[s.name] = name_of(s.offering(query.name).offer);
+  }
+  return j;
+}
+
+Json list_json() {
+  Json queries = Json::array();
+  for (const Query& q : catalogue()) {
+    queries.push_back({{"query", q.name},
+                       {"kind", name_of(q.kind)},
+                       {"subjects", offers(q, false)},
+                       {"referees", offers(q, true)},
+                       {"fuzz_target", fmt::format("fuzz_{}", q.name)},
+                       {"seeds", count_seeds(q)},
+                       {"properties", properties_of(q)}});
+  }
+  return {{"queries", queries}};
+}
+
+char mark_of(Offer o) { return o == Offer::answers ? '+' : o == Offer::by_equivalence ? '~' : '.'; }
+
+std::string letter(std::size_t i) {
+  return i < 26 ? std::string(1, char('A' + i)) : std::string(1, char('A' + i / 26 - 1)) + char('A' + i % 26);
+}
+
+std::string subjects_table() {
+  std::vector<std::vector<std::string>> rows{{"", "SUBJECT", "VERSION", "SCALAR", ""}};
+  for (std::size_t i = 0; i < subjects().size(); ++i) {
+    const Subject& s = subjects()[i];
+    rows.push_back({letter(i), s.name, s.version, std::string(name_of(s.scalar)), s.referee ? "also a referee" : ""});
+  }
+  return table_text(rows);
+}
+
+std::string queries_table() {
+  std::vector<std::vector<std::string>> rows{{"QUERY", "KIND"}};
+  for (std::size_t i = 0; i < subjects().size(); ++i) rows[0].push_back(letter(i));
+  rows[0].insert(rows[0].end(), {"SEEDS", "PROPERTIES"});
+  for (const Query& q : catalogue()) {
+    std::vector<std::string> row{std::string(q.name), std::string(name_of(q.kind))};
+    for (const Subject& s : subjects()) row.emplace_back(1, mark_of(s.offering(q.name).offer));
+    row.push_back(std::to_string(count_seeds(q)));
+    row.push_back(std::to_string(properties_of(q).size()));
+    rows.push_back(row);
+  }
+  return table_text(rows);
+}
+
+/// One line for each pair of query and subject, with the reason or the equivalence.
+std::string reasons_table() {
+  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "HOW OR WHY NOT"}};
+  for (const Query& q : catalogue()) {
+    for (const Subject& s : subjects()) {
+      const Offering& o = s.offering(q.name);
+      rows.push_back({std::string(q.name), s.name, std::string(name_of(o.offer)), o.how});
+    }
+  }
+  return table_text(rows);
+}
+
+class ListCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {"list",
+            "show the queries and what each subject has for them",
+            {"For every query: its kind of answer, whether each subject answers it (+), answers it by an equivalent "
+             "question (~) or does not offer it (.), the number of seeds in its corpus, and the properties that are "
+             "tested. Subjects marked as referees also give second opinions in reports.",
+             "--why tells for each query and subject by which equivalence, or why not. --json prints one object for "
+             "programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by equivalence\" | "
+             "\"not offered\"}, \"referees\": {the same}, \"fuzz_target\", \"seeds\", \"properties\"}]}."},
+            {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
+            {{"nearmiss list", "The table."},
+             {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},
+             {"nearmiss list --json", "For programs."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_flag("--json", json_, "Print JSON");
+    app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")->excludes("--json");
+    app.add_option("--names", names_, "Print only the names of all queries or of all subjects, one a line")
+        ->type_name("queries|subjects")
+        ->check(CLI::Validator(
+            [](const std::string& t) { return t == "queries" || t == "subjects" ? "" : "'" + t + "' is neither queries nor subjects"; }, ""))
+        ->excludes("--json")
+        ->excludes("--why");
+  }
+  int run(const CLI::App&) override {
+    if (json_) {
+      fmt::print("{}\n", list_json().dump(2));
+    } else if (why_) {
+      fmt::print("{}", reasons_table());
+    } else if (!names_.empty()) {
+      for (const std::string& n : names_ == "queries" ? query_names() : subject_names()) fmt::print("{}\n", n);
+    } else {
+      fmt::print("{}\n{}\n+ answers   ~ by equivalence   . not offered   (nearmiss list --why tells how and why)\n",
+                 subjects_table(), queries_table());
+    }
+    return 0;
+  }
+
+ private:
+  bool json_ = false, why_ = false;
+  std::string names_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> list_command() { return std::make_unique<ListCommand>(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/store.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/fuzz_targets.hpp"
+#include "reports/interrupt.hpp"
+#include "reports/replay.hpp"
+#include "reports/run.hpp"
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+using Clock = Run::Clock;
+
+constexpr double default_minutes = 10, most_minutes = 1e6;
+/// The share of the time that is left for fuzzing, and within it the share for judging what was found.
+constexpr double fuzzing_share = 1.0 / 3, judging_share = 0.1;
+
+Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
+  return a + std::chrono::duration_cast<Clock::duration>((b - a) * share);
+}
+
+double seconds_until(Clock::time_point t) { return std::chrono::duration<double>(t - Clock::now()).count(); }
+
+/// Asks every stored case of every subject, and compares with what is stored about them.
+void replay_stored(Run& run) {
+  run.doing("stored cases");
+  std::uint64_t cases = 0, expectations = 0;
+  Json unexpected = Json::array();
+  for (const Query* q : run.settings().queries) {
+    for (const StoredCase& stored : stored_cases(*q)) {
+      if (run.should_stop()) break;
+      ++cases;
+      run.examine_by_all(stored.question, [&](const Subject& s, const Finding& f) {
+        for (const Expected& e : stored.expected) {
+          if (e.subject != s.name) continue;
+          ++expectations;
+          const bool same = e.verdict == name_of(f.verdict) &&
+                            (e.disagreement.empty() || e.disagreement == name_of(f.disagreement));
+          if (same) continue;
+          unexpected.push_back({{"file", stored.file.filename().string()},
+                                {"query", q->name},
+                                {"subject", s.name},
+                                {"expected", e.verdict + (e.disagreement.empty() ? "" : ", " + e.disagreement)},
+                                {"found", fmt::format("{}, {}", name_of(f.verdict), name_of(f.disagreement))}});
+        }
+      });
+    }
+  }
+  run.note("stored", {{"cases", cases}, {"expectations", expectations}, {"unexpected", unexpected}});
+}
+
+Json outcome_json(const FuzzOutcome& o) {
+  return {{"query", o.query}, {"seconds", o.seconds}, {"executions", o.executions}, {"ended", o.ended}, {"failed", o.failed}};
+}
+
+/// Each target for the same time; at least a second, so the last ones may have none left.
+Json run_targets(Run& run, const FuzzTargets& found, Clock::time_point until) {
+  Json ran = Json::array();
+  for (std::size_t i = 0; i < found.targets.size(); ++i) {
+    const double left = seconds_until(until);
+    if (left < 1 || run.should_stop()) break;
+    const FuzzTarget& target = found.targets[i];
+    run.doing(fmt::format("fuzzing {}", target.query->name));
+    const double share = left / double(found.targets.size() - i);
+    ran.push_back(outcome_json(fuzz(target, {run.settings().folder, unsigned(std::max(1.0, share)), [&] { run.tick(); },
+                                             [&] { return run.should_stop(); }})));
+  }
+  return ran;
+}
+
+/// The case in a file that a fuzz target left: JSON, or an artifact of libFuzzer in its query's folder.
+std::optional<Case> fuzzed_case(const fs::path& file) {
+  if (file.extension() == ".json") return read_case_or_report(file);
+  const Query* query = find_query(file.parent_path().filename().string());
+  const std::string bytes = query == nullptr ? "" : read_file(file);
+  if (bytes.empty()) return std::nullopt;
+  std::optional<Case> c =
+      case_from_bytes(*query, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  if (c) c->origin = "fuzz/" + std::string(query->name) + "/" + file.filename().string();
+  return c;
+}
+
+/// Turns what the targets left into findings of this run.
+Json examine_fuzzed(Run& run) {
+  run.doing("judging what fuzzing found");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(run.settings().folder / "fuzz")) {
+    if (entry.is_regular_file() && entry.path().extension() != ".log") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::uint64_t examined = 0;
+  Json unreadable = Json::array();
+  for (const fs::path& f : files) {
+    if (run.should_stop()) break;
+    try {
+      if (const std::optional<Case> c = fuzzed_case(f)) run.examine_by_all(*c);
+      ++examined;
+    } catch (const BadInput& e) {
+      unreadable.push_back(e.what());
+    }
+  }
+  return {{"files", files.size()}, {"examined", examined}, {"unreadable", unreadable}};
+}
+
+class NightlyCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {"nightly",
+            "examine every subject for a given time: stored cases, generated cases, fuzzing",
+            {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
+             "stored about it. Then new cases are generated for all queries and subjects. In the last third of the "
+             "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
+             "everything else. Where the fuzz targets are not built, the summary and the index say so, and the "
+             "generated cases get their time.",
+             "The run folder is that of 'nearmiss run', with corpus/QUERY/ for what the fuzz targets learned and "
+             "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
+            judging_exit_status(),
+            {{"nearmiss nightly --minutes 60", "One hour."},
+             {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
+  }
+  void declare(CLI::App& app) override {
+    add_positive_number(app, "-m,--minutes", minutes_, fmt::format("How long, in all. Default: {}", default_minutes), "M",
+                        most_minutes);
+    add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
+                     std::numeric_limits<std::uint64_t>::max());
+    app.add_option("-o,--out", out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree")
+        ->type_name("DIR");
+    app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory);
+  }
+  int run(const CLI::App&) override {
+    const auto begin = Clock::now();
+    const double seconds = 60 * minutes_.value_or(default_minutes);
+    const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    const std::uint64_t seed = seed_or_random(seed_);
+    const Selection all;
+    const FuzzTargets found = find_fuzz_targets(
+        targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());
+    catch_interrupts();
+    Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), all.queries(), all.subjects(),
+             seed, end});
+    fmt::print("seed {}, for {}, into {}\n{}\n", seed, duration_text(seconds), run.settings().folder.string(),
+               targets_text(found));
+    std::fflush(stdout);
+    replay_stored(run);
+    run.set_until(found.targets.empty() ? end : between(begin, end, 1 - fuzzing_share));
+    run.doing("generated cases");
+    run.generate(std::nullopt);
+    run.set_until(end);
+    const std::string fuzzing = fuzz_all(run, found, end);
+    run.finish();
+    fmt::print("\n{}\n{}{}; fuzzing: {}\n", run.table(), run.worst_findings(), run.summary(), fuzzing);
+    return run.exit_code();
+  }
+
+ private:
+  static std::string targets_text(const FuzzTargets& found) {
+    if (found.targets.empty()) {
+      return fmt::format("The fuzz targets are not built (none with libFuzzer in {}): "
+                         "cmake --preset fuzz && cmake --build --preset fuzz builds them.", found.where);
+    }
+    return fmt::format("{} of {} fuzz targets in {}", found.targets.size(), found.targets.size() + found.missing.size(),
+                       found.where);
+  }
+  /// Returns what the summary says.
+  static std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end) {
+    if (found.targets.empty()) {
+      run.note("fuzz", {{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}});
+      return "not built";
+    }
+    const Json ran = run_targets(run, found, between(Clock::now(), end, 1 - judging_share));
+    const Json examined = ran.empty() ? Json(nullptr) : examine_fuzzed(run);
+    run.note("fuzz", {{"state", ran.empty() ? "no time" : "ran"}, {"where", found.where}, {"missing", found.missing},
+                      {"targets", ran}, {"left", examined}});
+    if (ran.empty()) return "no time was left";
+    std::uint64_t executions = 0;
+    for (const Json& t : ran) executions += t["executions"].get<std::uint64_t>();
+    return fmt::format("{} of {} targets, {} executions, {} case files", ran.size(),
+                       found.targets.size() + found.missing.size(), count_text(executions),
+                       count_text(examined["files"].get<std::uint64_t>()));
+  }
+
+  std::optional<double> minutes_;
+  std::optional<std::uint64_t> seed_;
+  std::string out_, targets_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> nightly_command() { return std::make_unique<NightlyCommand>(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,123 @@
+#include "reports/commands/options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+template <class T>
+std::optional<T> parsed(const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+CLI::Validator known(const char* what, std::vector<std::string> (*words)()) {
+  const auto check = [what, words](const std::string& word) -> std::string {
+    for (const std::string& w : words()) {
+      if (w == word) return "";
+    }
+    return unknown_text(what, word, words());
+  };
+  return CLI::Validator(check, "");
+}
+
+std::string high_text(std::uint64_t high) {
+  return high == std::numeric_limits<std::uint64_t>::max() ? "2^64 - 1" : std::to_string(high);
+}
+
+template <class Item>
+std::vector<const Item*> chosen(const std::vector<std::string>& names, std::span<const Item> all) {
+  std::vector<const Item*> items;
+  for (const Item& item : all) {
+    if (names.empty() || std::find(names.begin(), names.end(), item.name) != names.end()) items.push_back(&item);
+  }
+  return items;
+}
+
+}  // namespace
+
+std::vector<std::string> query_names() {
+  std::vector<std::string> names;
+  for (const Query& q : catalogue()) names.emplace_back(q.name);
+  return names;
+}
+
+std::vector<std::string> subject_names() {
+  std::vector<std::string> names;
+  for (const Subject& s : subjects()) names.push_back(s.name);
+  return names;
+}
+
+std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words) {
+  const std::vector<std::string> close = close_matches(word, words);
+  return fmt::format("unknown {} '{}'; {}", what, word,
+                     close.empty() ? "'nearmiss list' shows all" : fmt::format("did you mean {}?", fmt::join(close, " or ")));
+}
+
+void Selection::declare_queries(CLI::App& app) {
+  app.add_option("-q,--query", query, "Only this query; may be given several times. Default: all")
+      ->type_name("QUERY")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false)
+      ->check(known("query", query_names));
+}
+
+void Selection::declare_subjects(CLI::App& app) {
+  app.add_option("-s,--subject", subject, "Only this subject; may be given several times. Default: all")
+      ->type_name("SUBJECT")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false)
+      ->check(known("subject", subject_names));
+}
+
+std::vector<const Query*> Selection::queries() const { return chosen<Query>(query, catalogue()); }
+std::vector<const Subject*> Selection::subjects() const { return chosen<Subject>(subject, nearmiss::subjects()); }
+
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    const auto value = parsed<std::uint64_t>(text);
+    if (value && *value >= low && *value <= high) return "";
+    return fmt::format("'{}' is not a whole number from {} to {}", text, low, high_text(high));
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator positive_number(double high) {
+  const auto check = [high](const std::string& text) -> std::string {
+    const auto value = parsed<double>(text);
+    if (value && *value > 0 && *value <= high) return "";
+    return fmt::format("'{}' is not a number above 0 and up to {}", text, high);
+  };
+  return CLI::Validator(check, "");
+}
+
+void add_whole_number(CLI::App& app, const std::string& name, std::optional<std::uint64_t>& value,
+                      const std::string& description, std::uint64_t low, std::uint64_t high) {
+  app.add_option_function<std::string>(name, [&value](const std::string& t) { value = parsed<std::uint64_t>(t); },
+                                       description)
+      ->type_name("N")
+      ->check(whole_number(low, high));
+}
+
+void add_positive_number(CLI::App& app, const std::string& name, std::optional<double>& value,
+                         const std::string& description, const std::string& unit, double high) {
+  app.add_option_function<std::string>(name, [&value](const std::string& t) { value = parsed<double>(t); }, description)
+      ->type_name(unit)
+      ->check(positive_number(high));
+}
+
+std::uint64_t seed_or_random(std::optional<std::uint64_t> given) { return given ? *given : std::random_device{}(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,45 @@
+/// Options that several commands have, with checks that say what would be right.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "impl/subject/subject.hpp"
+#include "oracles/query.hpp"
+
+namespace nearmiss {
+
+std::vector<std::string> query_names();
+std::vector<std::string> subject_names();
+
+/// An error text for a word that is none of `words`: "unknown query 'x'; did you mean …?"
+std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words);
+
+/// --query and --subject, repeatable and checked; none means all.
+struct Selection {
+  std::vector<std::string> query, subject;
+
+  void declare_queries(CLI::App& app);
+  void declare_subjects(CLI::App& app);
+  std::vector<const Query*> queries() const;
+  std::vector<const Subject*> subjects() const;
+};
+
+/// Takes only whole numbers from `low` to `high`, in decimal digits.
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
+/// Takes only decimal numbers above zero and up to `high`.
+CLI::Validator positive_number(double high);
+
+/// An option whose text is a whole number, checked when it is parsed.
+void add_whole_number(CLI::App& app, const std::string& name, std::optional<std::uint64_t>& value,
+                      const std::string& description, std::uint64_t low, std::uint64_t high);
+void add_positive_number(CLI::App& app, const std::string& name, std::optional<double>& value,
+                         const std::string& description, const std::string& unit, double high);
+
+/// `given`, or else one drawn from the system's entropy.
+std::uint64_t seed_or_random(std::optional<std::uint64_t> given);
+
+}  // namespace nearmiss

@@ -1,0 +1,63 @@
+#include "reports/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+class ReplayCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {"replay",
+            "ask subjects one case again, and show what is true",
+            {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again, "
+             "whatever the file says about answers. The page shows the inputs, the exact answer, and for each subject "
+             "its answer, the verdict and how far the inputs would have to move to excuse it.",
+             "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
+            judging_exit_status(),
+            {{"nearmiss replay reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings again."},
+             {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/tunnel.json", "One subject, a stored case."},
+             {"nearmiss replay --json case.json", "As a JSON array of reports."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
+    selection_.declare_subjects(app);
+    app.add_flag("--json", json_, "Print a JSON array with a report for each file and subject");
+  }
+  int run(const CLI::App&) override {
+    std::vector<Case> cases;
+    for (const std::string& f : files_) cases.push_back(read_case_or_report(f));
+    Workers workers;
+    const std::vector<const Subject*> subjects = selection_.subjects();
+    bool bad = false;
+    nlohmann::ordered_json reports = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const Replay r = replay(cases[i], files_[i], subjects, workers);
+      for (const Report& report : r.reports) {
+        bad = bad || is_bad(report.finding);
+        if (json_) reports.push_back(report_to_json(report));
+      }
+      if (!json_) fmt::print("{}{}", i > 0 ? "\n" : "", replay_text(r));
+    }
+    if (json_) fmt::print("{}\n", reports.dump(2));
+    return bad ? 1 : 0;
+  }
+
+ private:
+  std::vector<std::string> files_;
+  Selection selection_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> replay_command() { return std::make_unique<ReplayCommand>(); }
+
+}  // namespace nearmiss

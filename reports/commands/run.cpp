@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include "corpus/bad_input.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/interrupt.hpp"
+#include "reports/run.hpp"
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::uint64_t default_cases = 10'000, most_cases = 1'000'000'000'000;
+constexpr double most_seconds = 1e8;
+
+/// Throws BadInput unless one of the subjects offers one of the queries.
+void check_offered(const std::vector<const Query*>& queries, const std::vector<const Subject*>& subjects) {
+  for (const Query* q : queries) {
+    for (const Subject* s : subjects) {
+      if (s->offering(q->name).answer != nullptr) return;
+    }
+  }
+  const Query& q = *queries.front();
+  const Subject& s = *subjects.front();
+  throw BadInput(fmt::format("nothing to run: no chosen subject offers a chosen query ({} does not offer {}: {})",
+                             s.name, q.name, s.offering(q.name).how));
+}
+
+class RunCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {"run",
+            "ask subjects many generated cases and judge the answers",
+            {"Every chosen subject answers generated cases of every chosen query that it offers, each in a process of "
+             "its own. The exact oracle knows the truth, and the judge tells what is proved against each answer. "
+             "Subjects that compute in the same scalar get the same cases, and the same seed gives the same cases on "
+             "every machine.",
+             "The run folder receives index.json with all counts (written from the start, and also when the run is "
+             "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
+             "fault the first 8, then those that are at least twice as bad as any before. All others are counted. "
+             "A folder that exists is added to; its index.json then describes the newest run.",
+             "The table has one row for each query and subject. WITHIN: differs, by no more than was promised. "
+             "OUTSIDE: beyond the domain of the promise. WORST BACKWARD: the largest bound that was proved on how far "
+             "inputs would have to move, in units of the scalar's epsilon, to make an answer right. WORST FORWARD: of "
+             "the answers with the right decision. EXACT: the share that intervals could not decide. YES: the share of "
+             "cases whose exact answer is yes. The last line is a summary."},
+            judging_exit_status(),
+            {{"nearmiss run", "10,000 cases for every query and subject."},
+             {"nearmiss run --subject fcl --query moving_sphere_box --cases 100000 --seed 1",
+              "One subject and one query, reproducibly."},
+             {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."}}};
+  }
+
+  void declare(CLI::App& app) override {
+    selection_.declare_subjects(app);
+    selection_.declare_queries(app);
+    add_whole_number(app, "-n,--cases", cases_,
+                     fmt::format("Cases for each query and subject. Default: {}", default_cases), 1, most_cases);
+    add_positive_number(app, "-t,--seconds", seconds_, "For so long, instead of a number of cases", "S", most_seconds);
+    app.get_option("--seconds")->excludes("--cases");
+    add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
+                     std::numeric_limits<std::uint64_t>::max());
+    app.add_option("-o,--out", out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree")
+        ->type_name("DIR");
+  }
+
+  int run(const CLI::App&) override {
+    check_offered(selection_.queries(), selection_.subjects());
+    const std::uint64_t seed = seed_or_random(seed_);
+    catch_interrupts();
+    RunSettings settings{typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
+                         selection_.queries(), selection_.subjects(), seed, std::nullopt};
+    if (seconds_) {
+      settings.until = Run::Clock::now() + std::chrono::duration_cast<Run::Clock::duration>(
+                                               std::chrono::duration<double>(*seconds_));
+    }
+    Run run(std::move(settings));
+    fmt::print("seed {}, {}, into {}\n", seed,
+               seconds_ ? fmt::format("for {} s", *seconds_)
+                        : count_text(cases_.value_or(default_cases)) + " cases for each query and subject",
+               run.settings().folder.string());
+    std::fflush(stdout);
+    run.generate(seconds_ ? std::nullopt : std::optional(cases_.value_or(default_cases)));
+    run.finish();
+    fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
+    return run.exit_code();
+  }
+
+ private:
+  Selection selection_;
+  std::optional<std::uint64_t> cases_, seed_;
+  std::optional<double> seconds_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> run_command() { return std::make_unique<RunCommand>(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,168 @@
+#include "reports/fuzz_targets.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <system_error>
+#include <thread>
+
+#include "corpus/codec.hpp"
+#include "corpus/store.hpp"
+
+extern char** environ;
+
+namespace nearmiss {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+/// How long a target may take beyond its time to start, and to end when it is told to.
+constexpr auto grace = 3s;
+
+/// A target of a plain build has a main of its own and cannot fuzz; libFuzzer's options are in the file.
+bool has_libfuzzer(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  return bytes.find(std::string_view("\0max_total_time\0", 16)) != std::string::npos;
+}
+
+std::vector<fs::path> usual_folders() {
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  const fs::path build = executable.parent_path().parent_path();
+  return {build / "fuzz", build.parent_path() / "fuzz" / "fuzz", fs::path(NEARMISS_SOURCE_FOLDER) / "build/fuzz/fuzz"};
+}
+
+FuzzTargets targets_in(const fs::path& folder, std::span<const Query* const> queries) {
+  FuzzTargets found;
+  found.where = folder.string();
+  for (const Query* q : queries) {
+    const fs::path file = folder / fmt::format("fuzz_{}", q->name);
+    if (fs::is_regular_file(file) && has_libfuzzer(file)) {
+      found.targets.push_back({q, file});
+    } else {
+      found.missing.emplace_back(q->name);
+    }
+  }
+  return found;
+}
+
+void put_seeds(const Query& query, const fs::path& corpus) {
+  for (const StoredCase& s : stored_cases(query)) {
+    const std::vector<std::uint8_t> bytes = case_to_bytes(s.question);
+    write_file(corpus / ("seed-" + s.file.stem().string()),
+               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+}
+
+/// A child in a process group of its own, so that a terminal's interrupt does not reach it and that its
+/// own children end with it.
+class Child {
+ public:
+  Child(const std::vector<std::string>& arguments, const std::vector<std::string>& more_environment,
+        const fs::path& log) {
+    std::vector<char*> argv, envp;
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    for (char** e = environ; *e != nullptr; ++e) envp.push_back(*e);
+    for (const std::string& e : more_environment) envp.push_back(const_cast<char*>(e.c_str()));
+    argv.push_back(nullptr);
+    envp.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    const int error = posix_spawn(&pid_, argv[0], &files, &attributes, argv.data(), envp.data());
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (error != 0) throw std::system_error(error, std::generic_category(), arguments[0]);
+  }
+  ~Child() {
+    if (status_) return;
+    send(SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  bool ended() {
+    int status = 0;
+    if (!status_ && waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;
+    return status_.has_value();
+  }
+  void send(int signal) { kill(-pid_, signal); }
+  int status() const { return *status_; }
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+};
+
+std::uint64_t executions_in(const fs::path& log) {
+  static constexpr std::string_view key = "stat::number_of_executed_units:";
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with(key)) return std::strtoull(line.c_str() + key.size(), nullptr, 10);
+  }
+  return 0;
+}
+
+}  // namespace
+
+FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
+  if (folder) return targets_in(*folder, queries);
+  std::string searched;
+  for (const fs::path& f : usual_folders()) {
+    FuzzTargets found = targets_in(f, queries);
+    if (!found.targets.empty()) return found;
+    searched += (searched.empty() ? "" : ", ") + f.lexically_normal().string();
+  }
+  FuzzTargets none;
+  for (const Query* q : queries) none.missing.emplace_back(q->name);
+  none.where = searched;
+  return none;
+}
+
+FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
+  const std::string query(target.query->name);
+  const fs::path corpus = budget.run_folder / "corpus" / query, reports = budget.run_folder / "fuzz";
+  const fs::path artifacts = reports / query, log = reports / (query + ".log");
+  fs::create_directories(corpus);
+  fs::create_directories(artifacts);
+  put_seeds(*target.query, corpus);
+  const auto begin = Clock::now();
+  Child child({target.file.string(), corpus.string(), fmt::format("-max_total_time={}", budget.seconds),
+               fmt::format("-artifact_prefix={}/", artifacts.string()), "-print_final_stats=1"},
+              {"NEARMISS_FUZZ_REPORTS=" + reports.string()}, log);
+  bool told = false, stopped = false;
+  const auto end = begin + std::chrono::seconds(budget.seconds) + grace;
+  for (auto deadline = end; !child.ended(); std::this_thread::sleep_for(50ms)) {
+    budget.tick();
+    if (!told && (Clock::now() > deadline || budget.cancelled())) {
+      child.send(SIGINT);  // libFuzzer prints its statistics and leaves
+      told = stopped = true;
+      deadline = Clock::now() + grace;
+    }
+    if (told && Clock::now() > deadline) child.send(SIGKILL);
+  }
+  FuzzOutcome o{query, std::chrono::duration<double>(Clock::now() - begin).count(), executions_in(log), "", false};
+  const int status = child.status();
+  o.ended = WIFSIGNALED(status) ? fmt::format("killed by signal {}", WTERMSIG(status))
+                                : fmt::format("exit code {}", WEXITSTATUS(status));
+  o.failed = status != 0 && !stopped;
+  return o;
+}
+
+}  // namespace nearmiss

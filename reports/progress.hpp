@@ -1,0 +1,40 @@
+/// Tells on standard error how far long work is: one line that is rewritten on a terminal, elsewhere a
+/// line every ten seconds.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace nearmiss {
+
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// What is being done now: "stored cases", "fuzzing moving_sphere_box".
+  void doing(std::string what);
+  /// Where the total is known, or else the seconds until the end, the time left is shown as well.
+  void tell(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
+            std::uint64_t findings);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string line(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
+                   std::uint64_t findings) const;
+
+  const bool terminal_;
+  const Clock::time_point begin_;
+  Clock::time_point told_;
+  std::string what_;
+  bool shown_ = false;
+};
+
+/// "1 h 02 min", "3 min 05 s", "12 s".
+std::string duration_text(double seconds);
+
+}  // namespace nearmiss

@@ -1,0 +1,32 @@
+/// One case again: what every subject says to it, as a page for people.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/report.hpp"
+
+namespace nearmiss {
+
+/// The case of a case file, of a stored case or of a report. Throws BadInput.
+Case read_case_or_report(const std::filesystem::path& file);
+
+/// One case and its reports, one for each subject that was asked.
+struct Replay {
+  Case question;
+  std::string file;
+  Truth truth;
+  std::vector<Report> reports;
+  struct Unasked {
+    std::string subject, why;
+  };
+  std::vector<Unasked> unasked;  ///< not offered, or the numbers are not exact in the subject's scalar
+};
+
+Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
+              Workers& workers);
+std::string replay_text(const Replay& r);
+
+}  // namespace nearmiss

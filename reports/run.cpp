@@ -1,0 +1,325 @@
+#include "reports/run.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
+#include "reports/explain.hpp"
+#include "reports/interrupt.hpp"
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace std::chrono_literals;
+
+constexpr auto between_indexes = 5s;
+constexpr std::size_t batch_size = 512;
+constexpr int run_schema_version = 1;
+
+std::string utc_text(const char* format) { return fmt::format(fmt::runtime(format), fmt::gmtime(std::time(nullptr))); }
+
+double seconds_since(Run::Clock::time_point t) { return std::chrono::duration<double>(Run::Clock::now() - t).count(); }
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+}
+
+std::string_view name_of(RunState s) {
+  return s == RunState::running ? "running" : s == RunState::finished ? "finished" : "interrupted";
+}
+
+/// For a command line: in single quotes where it holds more than plain characters.
+std::string quoted(const std::string& path) {
+  const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+:=@") ==
+                     std::string::npos;
+  if (plain) return path;
+  std::string text = "'";
+  for (const char c : path) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+std::filesystem::path runs_folder() {
+  if (const char* named = std::getenv("NEARMISS_RUNS"); named != nullptr && *named != '\0') return named;
+  return NEARMISS_RUNS_FOLDER;
+}
+
+std::filesystem::path new_run_folder(std::uint64_t seed) {
+  return runs_folder() / fmt::format("{}-{}", utc_text("{:%Y%m%dT%H%M%SZ}"), seed);
+}
+
+/// A finding whose report is written after its batch: a report asks other subjects, whose answers to
+/// the batch may still be wanted.
+struct Run::Pending {
+  Case question;
+  const Subject* subject;
+  Answer answer;
+};
+
+struct Run::Notes {
+  Json parts = Json::object();
+};
+
+Run::Run(RunSettings settings)
+    : settings_(std::move(settings)),
+      started_(utc_text("{:%Y-%m-%dT%H:%M:%SZ}")),
+      begin_(Clock::now()),
+      notes_(std::make_unique<Notes>()) {
+  for (const Query* q : settings_.queries) {
+    for (const Subject* s : settings_.subjects) {
+      if (s->offering(q->name).answer != nullptr) tally(*q, *s) = {q, s};
+    }
+  }
+  make_folder(settings_.folder);
+  write_index(RunState::running);
+}
+
+Run::~Run() = default;
+
+Tally& Run::tally(const Query& query, const Subject& subject) { return tallies_[{&query, &subject}]; }
+
+std::vector<const Subject*> Run::asked(const Query& query, Scalar scalar) const {
+  std::vector<const Subject*> asked;
+  for (const Subject* s : settings_.subjects) {
+    if (s->scalar == scalar && tallies_.contains({&query, s})) asked.push_back(s);
+  }
+  return asked;
+}
+
+bool Run::should_stop() const {
+  return interrupted() || (settings_.until && Clock::now() >= *settings_.until);
+}
+
+void Run::examine(std::span<const Case> cases) {
+  const Query& query = *cases.front().query;
+  const auto asked_now = asked(query, cases.front().scalar);
+  for (const Subject* s : asked_now) workers_.send(*s, cases);
+  for (const Subject* s : asked_now) {
+    const std::span<const Answer> answers = workers_.receive(*s);
+    const collide::Contract& contract = s->offering(query.name).contract;
+    for (std::size_t i = 0; i < cases.size() && (i % 64 != 0 || !should_stop()); ++i) {
+      take(cases[i], *s, answers[i], judge(cases[i], answers[i], contract, Detail::verdict));
+    }
+  }
+  write_pending();
+  tick();
+}
+
+void Run::examine_by_all(const Case& question, const std::function<void(const Subject&, const Finding&)>& each) {
+  for (const Subject* s : settings_.subjects) {
+    if (!tallies_.contains({question.query, s})) continue;
+    const std::optional<Case> same = in_scalar(question, s->scalar);
+    Finding f;
+    f.verdict = Verdict::out_of_domain;
+    Answer answer;
+    if (same) {
+      answer = workers_.ask(*s, *same);
+      f = judge(*same, answer, s->offering(question.query->name).contract, Detail::verdict);
+    }
+    take(same ? *same : question, *s, answer, f);
+    if (each) each(*s, f);
+  }
+  write_pending();
+  tick();
+}
+
+void Run::take(const Case& question, const Subject& subject, const Answer& answer, const Finding& f) {
+  Tally& t = tally(*question.query, subject);
+  t.count(f);
+  ++cases_;
+  if (!is_bad(f)) return;
+  ++bad_;
+  if (keeper_.keep(t, f)) pending_.push_back({question, &subject, answer});
+}
+
+void Run::write_pending() {
+  for (const Pending& p : pending_) write_report(p);
+  pending_.clear();
+}
+
+void Run::write_report(const Pending& p) {
+  Report r = nearmiss::examine(p.question, *p.subject, p.answer, workers_);
+  const std::string name = fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
+  const std::filesystem::path below = std::filesystem::path("findings") / r.question.query->name / name;
+  r.replay = "nearmiss replay " + quoted((settings_.folder / below).string());
+  make_folder((settings_.folder / below).parent_path());
+  write_file(settings_.folder / below, report_to_json(r).dump(2) + "\n");
+  written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
+                      std::string(nearmiss::name_of(r.finding.verdict)),
+                      std::string(nearmiss::name_of(r.finding.disagreement)), headline(r),
+                      r.finding.backward ? std::optional(r.finding.backward->above) : std::nullopt});
+}
+
+void Run::generate(std::optional<std::uint64_t> cases) {
+  struct Stream {
+    const Query* query;
+    Scalar scalar;
+    std::size_t subjects;
+    std::uint64_t next = 0;
+    double seconds = 0;
+  };
+  std::vector<Stream> streams;
+  std::uint64_t total = cases_;
+  for (const Query* q : settings_.queries) {
+    for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+      const std::size_t n = asked(*q, scalar).size();
+      if (n == 0) continue;
+      streams.push_back({q, scalar, n});
+      total += n * cases.value_or(0);
+    }
+  }
+  if (cases) total_ = total;
+  std::vector<Case> batch;
+  while (!should_stop()) {
+    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : batch_size; };
+    const auto behind = [&](const Stream& a, const Stream& b) {
+      return std::pair(left(a) == 0, a.seconds) < std::pair(left(b) == 0, b.seconds);
+    };
+    const auto stream = std::min_element(streams.begin(), streams.end(), behind);
+    if (stream == streams.end() || left(*stream) == 0) break;
+    const Clock::time_point begin = Clock::now();
+    batch.resize(std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)}));
+    for (Case& c : batch) nearmiss::generate(c, *stream->query, stream->scalar, settings_.seed, stream->next++);
+    examine(batch);
+    stream->seconds += seconds_since(begin);
+  }
+}
+
+void Run::note(const std::string& part, Json value) { notes_->parts[part] = std::move(value); }
+
+void Run::doing(std::string what) { progress_.doing(std::move(what)); }
+
+void Run::tick() {
+  std::optional<double> left;
+  if (settings_.until) left = std::chrono::duration<double>(*settings_.until - Clock::now()).count();
+  progress_.tell(cases_, total_, left, bad_);
+  if (Clock::now() - indexed_ >= between_indexes) write_index(RunState::running);
+}
+
+void Run::write_index(RunState state) {
+  Json j{{"schema", run_schema_version},
+         {"state", name_of(state)},
+         {"summary", summary()},
+         {"command", settings_.command},
+         {"seed", settings_.seed},
+         {"started", started_},
+         {"updated", utc_text("{:%Y-%m-%dT%H:%M:%SZ}")},
+         {"seconds", seconds_since(begin_)},
+         {"cases", cases_},
+         {"findings", bad_}};
+  j["tallies"] = Json::array();
+  for (const Query* q : settings_.queries) {
+    for (const Subject* s : settings_.subjects) {
+      if (const auto t = tallies_.find({q, s}); t != tallies_.end()) j["tallies"].push_back(tally_to_json(t->second));
+    }
+  }
+  j["not_offered"] = Json::array();
+  for (const Query* q : settings_.queries) {
+    for (const Subject* s : settings_.subjects) {
+      if (!tallies_.contains({q, s})) {
+        j["not_offered"].push_back({{"query", q->name}, {"subject", s->name}, {"why", s->offering(q->name).how}});
+      }
+    }
+  }
+  j.update(notes_->parts);
+  j["reports"] = Json::array();
+  for (const Written& w : written_) {
+    j["reports"].push_back({{"file", w.file},
+                            {"id", w.id},
+                            {"query", w.query},
+                            {"subject", w.subject},
+                            {"verdict", w.verdict},
+                            {"disagreement", w.disagreement},
+                            {"backward_above_epsilon", w.above ? Json(*w.above) : Json(nullptr)},
+                            {"headline", w.headline}});
+  }
+  j["environment"] = environment_to_json();
+  write_file(settings_.folder / "index.json", j.dump(2) + "\n");
+  indexed_ = Clock::now();
+}
+
+void Run::finish() { write_index(interrupted() ? RunState::interrupted : RunState::finished); }
+
+std::uint64_t Run::bad() const { return bad_; }
+std::uint64_t Run::cases() const { return cases_; }
+int Run::exit_code() const { return bad_ > 0 ? 1 : interrupted() ? 2 : 0; }
+
+std::string Run::summary() const {
+  std::map<std::string, std::uint64_t> faults;
+  for (const auto& [key, t] : tallies_) {
+    for (int d = 0; d < disagreement_count; ++d) faults[std::string(nearmiss::name_of(Disagreement(d)))] += t.violations[std::size_t(d)];
+    faults["broke"] += t.of(Verdict::broke);
+  }
+  std::vector<std::string> counted;
+  for (int d = 0; d < disagreement_count; ++d) {
+    const std::string name(nearmiss::name_of(Disagreement(d)));
+    if (faults[name] > 0) counted.push_back(count_text(faults[name]) + " " + (d == 0 ? "other" : name));
+  }
+  if (faults["broke"] > 0) counted.push_back(count_text(faults["broke"]) + " broke");
+  const double seconds = seconds_since(begin_);
+  return fmt::format("{}{} answers in {} ({}/s): {}; {} report{} in {}", interrupted() ? "interrupted: " : "",
+                     count_text(cases_), duration_text(seconds),
+                     count_text(std::uint64_t(double(cases_) / std::max(seconds, 1e-3))),
+                     counted.empty() ? "nothing violated" : "violations: " + list_text(counted), count_text(written_.size()),
+                     written_.size() == 1 ? "" : "s", settings_.folder.string());
+}
+
+std::string Run::worst_findings() const {
+  constexpr std::size_t shown = 12;
+  std::vector<const Written*> worst;
+  for (const Written& w : written_) {
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Written* o) {
+      return std::tie(o->query, o->subject, o->verdict, o->disagreement) ==
+             std::tie(w.query, w.subject, w.verdict, w.disagreement);
+    });
+    if (same == worst.end()) {
+      worst.push_back(&w);
+    } else if (w.above > (*same)->above) {
+      *same = &w;
+    }
+  }
+  std::stable_sort(worst.begin(), worst.end(), [](auto a, auto b) { return a->above > b->above; });
+  std::string text;
+  for (std::size_t i = 0; i < worst.size() && i < shown; ++i) {
+    text += fmt::format("{}\n    {}\n", worst[i]->headline, (settings_.folder / worst[i]->file).string());
+  }
+  if (worst.size() > shown) text += fmt::format("and {} more, see index.json\n", worst.size() - shown);
+  return text.empty() ? text : text + "\n";
+}
+
+std::string Run::table() const {
+  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "CASES", "AGREES", "WITHIN", "VIOLATES", "BROKE",
+                                              "OUTSIDE", "NO ANSWER", "WORST BACKWARD", "WORST FORWARD", "EXACT", "YES"}};
+  for (const Query* q : settings_.queries) {
+    for (const Subject* s : settings_.subjects) {
+      const auto found = tallies_.find({q, s});
+      if (found == tallies_.end()) continue;
+      const Tally& t = found->second;
+      const double decided = std::max(1.0, double(t.decided()));
+      rows.push_back({std::string(q->name), s->name, count_text(t.cases), count_text(t.of(Verdict::agrees)),
+                      count_text(t.of(Verdict::within_contract)), count_text(t.of(Verdict::violates_contract)),
+                      count_text(t.of(Verdict::broke)), count_text(t.of(Verdict::out_of_domain)),
+                      count_text(t.of(Verdict::cannot_answer)),
+                      t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward) + " eps",
+                      fmt::format("{:.3g} ulp", t.worst_forward),
+                      fmt::format("{:.2g} %", 100 * double(t.decided_by_exact) / decided),
+                      fmt::format("{:.0f} %", 100 * double(t.truth_yes) / decided)});
+    }
+  }
+  return table_text(rows);
+}
+
+}  // namespace nearmiss

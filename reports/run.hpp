@@ -1,0 +1,115 @@
+/// A run: many cases through many subjects, counted, with the worst findings kept as reports.
+///
+/// The run folder holds index.json, which reports/run.schema.json describes (written when the run
+/// begins, every few seconds, and at its end), and findings/QUERY/SUBJECT-FAULT-ID.json, each written
+/// as soon as it is found.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/progress.hpp"
+#include "reports/report.hpp"
+#include "reports/tally.hpp"
+#include "reports/workers.hpp"
+
+namespace nearmiss {
+
+/// reports/runs/ of the source tree, or what the environment variable NEARMISS_RUNS says.
+std::filesystem::path runs_folder();
+/// "20260131T235959Z-42" within runs_folder().
+std::filesystem::path new_run_folder(std::uint64_t seed);
+
+/// Where a run was when it was last written down.
+enum class RunState { running, finished, interrupted };
+
+struct RunSettings {
+  std::string command;  ///< as typed
+  std::filesystem::path folder;
+  std::vector<const Query*> queries;
+  std::vector<const Subject*> subjects;
+  std::uint64_t seed = 0;
+  std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop, if not by number of cases
+};
+
+class Run {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Makes the folder and writes the first index. Throws BadInput where it cannot.
+  explicit Run(RunSettings settings);
+  ~Run();
+
+  /// Asks every subject of the run that offers the query and computes in the cases' scalar. All cases
+  /// are of one query and one scalar. Stops early when it should.
+  void examine(std::span<const Case> cases);
+  /// Asks every subject that offers the query, whatever its scalar; a case that it cannot hold exactly
+  /// is out of its domain. Calls `each` with every finding.
+  void examine_by_all(const Case& question,
+                      const std::function<void(const Subject&, const Finding&)>& each = {});
+  /// Cases of the generator: `cases` for each query and subject, or without a number until the time is
+  /// over. Queries take turns, so that each gets the same time as long as it has cases left.
+  void generate(std::optional<std::uint64_t> cases);
+
+  /// True when it was interrupted or its time is over.
+  bool should_stop() const;
+  void set_until(Clock::time_point until) { settings_.until = until; }
+  /// A part of the run beyond its tallies, such as "stored" or "fuzz", for the index.
+  void note(const std::string& part, nlohmann::ordered_json value);
+  void doing(std::string what);
+  /// For work outside of this class: shows progress, and brings the index up to date from time to time.
+  void tick();
+
+  /// Writes the last index. The run is interrupted or finished.
+  void finish();
+  /// One line: what was asked and what came of it.
+  std::string summary() const;
+  /// Violations and breakages.
+  std::uint64_t bad() const;
+  std::uint64_t cases() const;
+  /// A table for people: one row for each query and subject.
+  std::string table() const;
+  /// Headline and file of the worst reports, one for each query, subject and fault; empty without any.
+  std::string worst_findings() const;
+  const RunSettings& settings() const { return settings_; }
+  /// 0, 1 for violations, 2 for an interrupted run without any.
+  int exit_code() const;
+
+ private:
+  struct Pending;
+  struct Notes;
+  /// A report that was written, as the index lists it.
+  struct Written {
+    std::string file, id, query, subject, verdict, disagreement, headline;
+    std::optional<double> above;
+  };
+  Tally& tally(const Query& query, const Subject& subject);
+  std::vector<const Subject*> asked(const Query& query, Scalar scalar) const;
+  void take(const Case& question, const Subject& subject, const Answer& answer, const Finding& f);
+  void write_pending();
+  void write_report(const Pending& p);
+  void write_index(RunState state);
+
+  RunSettings settings_;
+  std::string started_;
+  Clock::time_point begin_, indexed_;
+  Workers workers_;
+  std::map<std::pair<const Query*, const Subject*>, Tally> tallies_;
+  Keeper keeper_;
+  std::vector<Pending> pending_;
+  std::vector<Written> written_;
+  std::unique_ptr<Notes> notes_;
+  Progress progress_;
+  std::optional<std::uint64_t> total_;
+  std::uint64_t cases_ = 0, bad_ = 0;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,53 @@
+/// What is counted of each query and subject, and which findings are worth a report.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "impl/subject/subject.hpp"
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+
+inline constexpr int disagreement_count = int(Disagreement::not_unit) + 1;
+
+/// The counts of one subject on one query. The ways in which answers differ are never added together.
+struct Tally {
+  const Query* query = nullptr;
+  const Subject* subject = nullptr;
+  std::uint64_t cases = 0;
+  std::array<std::uint64_t, verdict_count> verdicts{};
+  std::array<std::uint64_t, disagreement_count> within_contract{};  ///< by disagreement
+  std::array<std::uint64_t, disagreement_count> violations{};       ///< by disagreement
+  std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
+  std::uint64_t truth_yes = 0;   ///< of the decided ones
+  double worst_backward = -1;    ///< the largest proved bound, in epsilon; negative: nothing was proved
+  double worst_forward = 0;      ///< in ulps, where the decision is right
+
+  void count(const Finding& f);
+  std::uint64_t of(Verdict v) const { return verdicts[std::size_t(v)]; }
+  std::uint64_t bad() const { return of(Verdict::violates_contract) + of(Verdict::broke); }
+  std::uint64_t decided() const { return decided_by_interval + decided_by_exact; }
+};
+
+nlohmann::ordered_json tally_to_json(const Tally& t);
+
+/// Says which findings are kept as reports: of each query, subject and fault the first `first_few`, then
+/// only those whose proved backward bound is at least twice that of the worst kept so far.
+class Keeper {
+ public:
+  bool keep(const Tally& of, const Finding& f);
+  static constexpr std::uint64_t first_few = 8;
+
+ private:
+  struct Kept {
+    std::uint64_t count = 0;
+    double worst = 0;
+  };
+  std::map<std::string, Kept> kept_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,39 @@
+/// One worker process for each subject, started when it is first asked.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "impl/subject/worker.hpp"
+#include "oracles/case.hpp"
+
+namespace nearmiss {
+
+/// Not for use from several threads. Throws std::system_error where a process cannot be started.
+class Workers {
+ public:
+  explicit Workers(WorkerLimits limits = {}) : limits_(limits) {}
+
+  /// The subject must offer the case's query. For a batch, `cases` are all of one query.
+  Answer ask(const Subject& subject, const Case& question);
+  /// At most `capacity_for` cases. Several subjects may be sent to before the first is received from;
+  /// what is received stays valid until the subject is sent to again.
+  void send(const Subject& subject, std::span<const Case> cases);
+  std::span<const Answer> receive(const Subject& subject);
+
+  static std::size_t capacity_for(const Query& query);
+
+ private:
+  Worker& of(const Subject& subject);
+
+  WorkerLimits limits_;
+  std::map<const Subject*, std::unique_ptr<Worker>> workers_;
+  std::vector<double> flat_;
+};
+
+/// The same numbers as a case in another scalar; empty where it cannot hold one of them exactly.
+std::optional<Case> in_scalar(const Case& question, Scalar scalar);
+
+}  // namespace nearmiss
