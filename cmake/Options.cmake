@@ -37,4 +37,8 @@ if(NEARMISS_SANITIZE)
     -fsanitize=${NEARMISS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=${NEARMISS_SANITIZE})
 endif()
+if(NEARMISS_LIBFUZZER)  # the counters by which libFuzzer steers; its main is linked into the fuzz targets alone
+  target_compile_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 target_include_directories(nearmiss_flags INTERFACE ${PROJECT_SOURCE_DIR})

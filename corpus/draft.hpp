@@ -71,6 +71,10 @@ struct Plan {
   std::array<std::vector<std::size_t>, 16> numbers;  ///< by role
 };
 
+/// The nearest number of the scalar. Not inline: GCC 12 at -O3 loses the rounding of some of several
+/// such numbers when it sees them side by side and puts them into one vector register.
+double rounded_to(Scalar scalar, double x);
+
 /// The numbers of a case in the making. Whatever is set is rounded to the scalar.
 class Draft {
  public:
@@ -86,7 +90,7 @@ class Draft {
   int orders(int of_float, int of_double) const { return is_float() ? of_float : of_double; }
 
   double operator[](std::size_t i) const { return values_[i]; }
-  void set(std::size_t i, double x) { values_[i] = is_float() ? double(float(x)) : x; }
+  void set(std::size_t i, double x) { values_[i] = rounded_to(scalar, x); }
   void scale(std::size_t i, double factor) { set(i, values_[i] * factor); }
   void step_ulps(std::size_t i, int ulps);
 

@@ -124,6 +124,10 @@ Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
   std::copy_if(all.begin(), all.end(), std::back_inserter(things), [](const Thing& t) { return !t.positions.empty(); });
 }
 
+[[gnu::noinline]] double rounded_to(Scalar scalar, double x) {
+  return scalar == Scalar::float32 ? double(float(x)) : x;
+}
+
 void Draft::step_ulps(std::size_t i, int ulps) {
   const double toward = ulps > 0 ? HUGE_VAL : -HUGE_VAL;
   for (int k = std::abs(ulps); k > 0; --k) {
@@ -176,7 +180,7 @@ void mutate(Case& c, std::uint64_t seed) {
   for (int i = 0; i < attempts; ++i) {
     Draft draft(plan_of(*c.query), c.scalar, random, c.values);
     apply(draft, choose(random, random.between(1, 3)), c.moves);
-    if (!c.query->broken(c.values)) return;
+    if (c.moves.size() > moves_before && !c.query->broken(c.values)) return;
     c.values = before;
     c.moves.resize(moves_before);
   }

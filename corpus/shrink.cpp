@@ -16,7 +16,7 @@ int cost(double x) {
   const double fraction = std::frexp(std::abs(x), &exponent);
   const auto bits = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
   const int significant = 53 - std::countr_zero(bits);
-  return 2 * significant + 2 * std::abs(exponent - significant) + (x < 0 ? 1 : 0);
+  return 6 * significant + 2 * std::abs(exponent - significant) + (x < 0 ? 1 : 0);
 }
 
 long cost(const Case& c) {

@@ -16,17 +16,15 @@ void closest_point_segment(const collide::inputs::closest_point_segment<N>& q, O
   if (!may_be_positive(from_v0) || !may_be_positive(from_v1)) return;
   const N a = assume_at_least_zero(from_v0), b = assume_at_least_zero(from_v1);
   const N length2 = norm2(along);
-  if (may_be_zero(length2)) {
-    // Anywhere on the segment: between its ends in each coordinate.
-    Vector<N> between;
-    for (int i = 0; i < 3; ++i) between[i] = join(v0[i], v1[i]);
-    return out.yes({answer_vector(between)});
-  }
-  // The share of v1 is a / (a + b); it is written so that its interval stays within [0, 1].
-  const N share = assume_within(N(a / length2), 0.0, 1.0), rest = assume_within(N(b / length2), 0.0, 1.0);
   Vector<N> nearest;
-  for (int i = 0; i < 3; ++i) {
-    nearest[i] = meet(N(v0[i] + along[i] * share), N(v1[i] - along[i] * rest));
+  for (int i = 0; i < 3; ++i) nearest[i] = join(v0[i], v1[i]);  // between the ends, whatever else
+  if (!may_be_zero(length2)) {
+    // The share of v1, and that of v0: known best from the nearer end.
+    const N share = assume_within(N(a / length2), 0.0, 1.0), rest = assume_within(N(b / length2), 0.0, 1.0);
+    for (int i = 0; i < 3; ++i) {
+      const N foot = meet(N(v0[i] + along[i] * share), N(v1[i] - along[i] * rest));
+      nearest[i] = is_enclosure<N> ? meet(foot, nearest[i]) : foot;
+    }
   }
   out.yes({answer_vector(nearest)});
 }

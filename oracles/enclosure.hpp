@@ -44,6 +44,7 @@ struct Enclosure {
   std::uint64_t mismatched = 0;
   /// Of the same: the largest proved distance, in ulps of the given number; and to which number.
   double ulps = 0;
+  double absolute = 0;  ///< the same distance, not in ulps
   int worst = -1;
   /// Upper bound of that distance: equal to `ulps` but for the width of the enclosure.
   double ulps_at_most = 0;

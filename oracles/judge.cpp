@@ -156,7 +156,7 @@ Answer with_unit_normals(const Query& query, Answer answer, double error, Scalar
 void take_forward(const Enclosure& e, Finding& f) {
   f.forward_ulps = e.ulps;
   f.worst = e.worst;
-  f.forward_absolute = e.worst < 0 ? 0.0 : e.error[std::size_t(e.worst)].nearest_to_zero();
+  f.forward_absolute = e.absolute;
 }
 
 Finding violation(Finding f, Disagreement d, std::string clause) {

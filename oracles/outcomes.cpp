@@ -76,25 +76,26 @@ void Tally::count_everything() {
   result_.may_be_yes = result_.may_be_no = result_.may_match = true;
   result_.error.fill({-infinity, infinity});
   result_.mismatched = 0;
-  result_.ulps = 0;
+  result_.ulps = result_.absolute = 0;
   result_.ulps_at_most = infinity;
 }
 
-void Tally::count(bool yes, std::span<const Bounds> errors) {
+void Tally::count(bool yes, std::span<const Bounds> errors, const std::optional<Bounds>& turn) {
   (yes ? result_.may_be_yes : result_.may_be_no) = true;
   if (yes != about_.yes) return;
   std::uint64_t mismatched = 0;
-  double ulps = 0, ulps_at_most = 0;
+  double ulps = 0, ulps_at_most = 0, absolute = 0;
   int worst = -1;
   for (const Layout::Part& part : layout_.parts) {
     const double unit = unit_of(about_, part, errors, scalar_);
     for (std::size_t i = part.begin; i < part.end && i < errors.size(); ++i) {
       result_.error[i].include(errors[i]);
       if (!about_.gives(i)) continue;
-      const double least = errors[i].nearest_to_zero() / unit;
-      ulps_at_most = std::max(ulps_at_most, errors[i].furthest_from_zero() / unit);
+      const Bounds& off = part.role == Role::normal && turn ? *turn : errors[i];
+      const double least = off.nearest_to_zero() / unit;
+      ulps_at_most = std::max(ulps_at_most, off.furthest_from_zero() / unit);
       if (least > 1) mismatched |= std::uint64_t{1} << i;
-      if (least > ulps || worst < 0) ulps = least, worst = int(i);
+      if (least > ulps || worst < 0) ulps = least, absolute = off.nearest_to_zero(), worst = int(i);
     }
   }
   if (mismatched == 0) result_.may_match = true;
@@ -103,6 +104,7 @@ void Tally::count(bool yes, std::span<const Bounds> errors) {
   if (better) {
     result_.mismatched = mismatched;
     result_.ulps = ulps;
+    result_.absolute = absolute;
     result_.ulps_at_most = ulps_at_most;
     result_.worst = worst;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "oracles/arithmetic.hpp"
@@ -64,8 +65,9 @@ class Tally {
   void list_in(std::vector<Alternative>* list) { list_ = list; }
 
  protected:
-  /// One possible answer: `errors[i]` encloses exact - given.
-  void count(bool yes, std::span<const Bounds> errors);
+  /// One possible answer: `errors[i]` encloses exact - given. Where many normals are right, `turn`
+  /// encloses how far the given one is from the nearest of them.
+  void count(bool yes, std::span<const Bounds> errors, const std::optional<Bounds>& turn = std::nullopt);
   void count_everything();
 
   const Answer& about_;
@@ -95,47 +97,54 @@ class Outcomes : public Tally {
   void everything() { count_everything(); }
 
  private:
+  using Errors = std::array<Bounds, Answer::capacity>;
+
   void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves);
-  std::array<Bounds, Answer::capacity> errors_of(const A& a, const Normals<N>& normals, std::size_t leaves,
-                                                 bool from_zero, std::size_t& count) const;
+  /// Exact - given for the first `leaves` leaves, or the exact values themselves; tells how many.
+  std::size_t errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero, Errors& errors) const;
+  Bounds turn_of(const Normals<N>& normals) const;
 };
 
 template <class N, class A>
-std::array<Bounds, Answer::capacity> Outcomes<N, A>::errors_of(const A& a, const Normals<N>& normals,
-                                                               std::size_t leaves, bool from_zero,
-                                                               std::size_t& count) const {
-  std::array<Bounds, Answer::capacity> errors;
+std::size_t Outcomes<N, A>::errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero,
+                                      Errors& errors) const {
   std::size_t i = 0;
-  collide::for_each_leaf(a, [&](const auto& leaf, Role) {
+  collide::for_each_leaf(a, [&](const auto& leaf, Role role) {
+    if (i >= leaves) return;
+    const double given = from_zero ? 0.0 : about_.values[i];
     if constexpr (std::is_same_v<std::decay_t<decltype(leaf)>, N>) {
-      if (i < leaves) {
-        errors[i] = from_zero || about_.values[i] == 0 ? bounds(leaf) : bounds(N(leaf - N(about_.values[i])));
+      if (role == Role::normal && many_normals) {
+        errors[i] = {-1 - std::abs(given), 1 + std::abs(given)};
+      } else {
+        const N exact = role == Role::normal ? N(assume_within(leaf, -1.0, 1.0)) : leaf;
+        errors[i] = given == 0 ? bounds(exact) : bounds(N(exact - N(given)));
       }
     } else {
-      const double e = double(leaf) - (from_zero ? 0.0 : about_.values[i]);
-      errors[i] = {e, e};
+      errors[i] = {double(leaf) - given, double(leaf) - given};
     }
     ++i;
   });
-  count = std::min(i, leaves);
-  if (!normals.many) return errors;
+  return i;
+}
+
+/// The largest change that one of the faced directions needs to see in the given normal.
+template <class N, class A>
+Bounds Outcomes<N, A>::turn_of(const Normals<N>& normals) const {
+  Bounds largest{0, 0};
   for (const Layout::Part& part : layout_.parts) {
     if (part.role != Role::normal) continue;
-    for (std::size_t k = part.begin; k < part.end; ++k) errors[k] = from_zero ? Bounds{-1, 1} : Bounds{0, 0};
-    if (from_zero) continue;
-    const Vector<N> given{N(about_.values[part.begin]), N(about_.values[part.begin + 1]),
-                          N(about_.values[part.begin + 2])};
+    const double* n = &about_.values[part.begin];
     for (const Facing<N>& f : normals.facing) {
-      const N component = inner(f.direction, given);
-      const Bounds below = bounds(N(f.low - component)), above = bounds(N(f.high - component));
-      // The least change that the component needs: into [low, high].
+      const N component = inner(f.direction, Vector<N>{N(n[0]), N(n[1]), N(n[2])});
+      const Bounds up = bounds(N(f.low - component)), down = bounds(N(f.high - component));
       Bounds change{0, 0};
-      if (below.high > 0) change = {std::max(0.0, below.low), below.high};
-      if (above.low < 0) change = {above.low, std::min(0.0, above.high)};
-      if (change.furthest_from_zero() > errors[part.begin].furthest_from_zero()) errors[part.begin] = change;
+      if (up.high > 0) change = {std::max(0.0, up.low), up.high};
+      if (down.low < 0) change = {std::max(0.0, -down.high), -down.low};
+      largest.low = std::max(largest.low, change.low);
+      largest.high = std::max(largest.high, change.high);
     }
   }
-  return errors;
+  return largest;
 }
 
 template <class N, class A>
@@ -147,10 +156,9 @@ void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::s
       if (time.low > largest_finite(scalar_)) return;
     }
   }
-  std::size_t count_given = 0;
   if (list_ != nullptr) {
     Alternative alternative{yes, 0, {}, normals.many, {}};
-    alternative.values = errors_of(a, normals, leaves, true, alternative.count);
+    alternative.count = errors_of(a, normals.many, leaves, true, alternative.values);
     for (const Facing<N>& f : normals.facing) {
       alternative.facing.push_back({{bounds(f.direction[0]), bounds(f.direction[1]), bounds(f.direction[2])},
                                     {bounds(f.low).low, bounds(f.high).high}});
@@ -158,8 +166,9 @@ void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::s
     list_->push_back(std::move(alternative));
   }
   if (yes != about_.yes) return count(yes, {});
-  const auto errors = errors_of(a, normals, leaves, false, count_given);
-  count(yes, {errors.data(), count_given});
+  Errors errors;
+  const std::size_t given = errors_of(a, normals.many, leaves, false, errors);
+  count(yes, {errors.data(), given}, normals.many ? std::optional(turn_of(normals)) : std::nullopt);
 }
 
 // The two stages, and the line with which an oracle's .cpp file ends.

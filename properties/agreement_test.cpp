@@ -7,11 +7,11 @@
 namespace nearmiss {
 namespace {
 
-constexpr std::uint64_t cases_per_stream = 100;
+constexpr std::uint64_t cases_per_stream = 500;
 
 class EveryTier : public testing::TestWithParam<Pairing> {};
 
-TEST_P(EveryTier, KeepsItsContract) {
+TEST_P(EveryTier, AnswersKeepTheirContract) {
   const auto [query, subject] = GetParam();
   Case c;
   const auto first_violation = [&, query = query, subject = subject](std::uint64_t stream) -> std::string {

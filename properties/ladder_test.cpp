@@ -22,7 +22,8 @@ std::vector<Answer> answers_about(const Case& c) {
       all.push_back(p.subject->offering(c.query->name).answer(c.values));
     }
   }
-  const Answer right = all.back();
+  Answer right = all.back();
+  for (double& x : right.values) x = std::isfinite(x) ? x : 1.0;  // a miss has no time to be wrong by
   Answer off = right, opposite = right;
   for (double& x : off.values) x *= 1 + 0x1p-12;
   opposite.yes = !opposite.yes;
@@ -35,23 +36,15 @@ Enclosure at_rung(const Case& c, const Answer& about, int k) {
   return c.query->oracle.interval(c.values, widening(*c.query, c.values, c.scalar, rung(k)), about, c.scalar);
 }
 
-/// "" when `outer` encloses all that `inner` does.
-std::string not_enclosed(const Query& query, const Enclosure& inner, const Enclosure& outer) {
+/// "" when `outer` excludes nothing that `inner` allows: what the judge's search of the ladder rests on.
+std::string excluded(const Enclosure& inner, const Enclosure& outer) {
   if (inner.may_be_yes && !outer.may_be_yes) return "may_be_yes is lost";
   if (inner.may_be_no && !outer.may_be_no) return "may_be_no is lost";
   if (inner.may_match && !outer.may_match) return "may_match is lost";
-  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    const Bounds &in = inner.error[i], &out = outer.error[i];
-    if (in.empty()) continue;
-    if (out.empty() || in.low < out.low || in.high > out.high) {
-      return fmt::format("error of {}: [{}, {}] is not within [{}, {}]", query.outputs[i].name, in.low, in.high, out.low,
-                         out.high);
-    }
-  }
   return {};
 }
 
-TEST_P(Oracles, EncloseMoreWhenTheInputIsWidened) {
+TEST_P(Oracles, ExcludeNoMoreWhenTheInputIsWidened) {
   const Query& query = *GetParam().query;
   const auto shrinking = [&](std::uint64_t stream) -> std::string {
     for (Scalar scalar : scalars) {
@@ -60,7 +53,7 @@ TEST_P(Oracles, EncloseMoreWhenTheInputIsWidened) {
         Enclosure before = at_rung(c, about, 0);
         for (int k = 1; k < rungs; ++k) {
           const Enclosure now = at_rung(c, about, k);
-          const std::string lost = not_enclosed(query, before, now);
+          const std::string lost = excluded(before, now);
           if (!lost.empty()) return fmt::format("from rung {} to {}: {}\n{}", k - 1, k, lost, case_to_json(c).dump(2));
           before = now;
         }
@@ -68,7 +61,7 @@ TEST_P(Oracles, EncloseMoreWhenTheInputIsWidened) {
     }
     return {};
   };
-  EXPECT_TRUE(holds_for_streams("a wider input never has a narrower enclosure", shrinking));
+  EXPECT_TRUE(holds_for_streams("a wider input excludes nothing that a narrower one allows", shrinking));
 }
 
 /// Both enclose the same number, so they share at least one.

@@ -175,14 +175,13 @@ class Explanation {
     if (f.disagreement == Disagreement::not_finite || f.disagreement == Disagreement::not_unit) return "";
     const double above = f.backward->above;
     if (above == 0) {
-      return "This is proved for exactly these numbers: it is a near miss, which moving them by one rounding error may excuse";
+      return "This is proved for exactly these numbers; moving them by one rounding error may make the answer right";
     }
     if (const double still = same_decision_within(); still > 0 && still >= above) {
       return fmt::format("Even if every input number were moved by up to {}, {}", amount_text(still, scalar_),
                          r_.truth.yes ? phrases_.still_yes : phrases_.still_no);
     }
-    return fmt::format("Even if every input number may be moved by up to {}, no such input has this answer",
-                       amount_text(above, scalar_));
+    return fmt::format("Moving every input number by up to {} cannot make that answer right", amount_text(above, scalar_));
   }
   /// For a wrong decision: the truth is proved to stay as it is for inputs this near, in epsilon.
   double same_decision_within() const {

@@ -34,7 +34,7 @@ class Progress {
   bool shown_ = false;
 };
 
-/// "1 h 02 min", "3 min 05 s", "12 s".
+/// "1 h 02 min", "3 min 05 s", "12 s", "0.4 s".
 std::string duration_text(double seconds);
 
 }  // namespace nearmiss

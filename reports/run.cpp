@@ -8,11 +8,13 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <tuple>
+#include <utility>
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
 #include "reports/explain.hpp"
 #include "reports/interrupt.hpp"
+#include "reports/pretty_json.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -38,6 +40,42 @@ void make_folder(const std::filesystem::path& folder) {
 
 std::string_view name_of(RunState s) {
   return s == RunState::running ? "running" : s == RunState::finished ? "finished" : "interrupted";
+}
+
+/// One of them, for the summary.
+std::string_view noun_of(Disagreement d) {
+  switch (d) {
+    case Disagreement::none: return "other violation";
+    case Disagreement::not_finite: return "number that is not finite";
+    case Disagreement::not_unit: return "normal that is not unit";
+    default: return nearmiss::name_of(d);
+  }
+}
+
+std::string percent_text(std::uint64_t part, std::uint64_t whole) {
+  if (part == 0 || whole == 0) return "0 %";
+  const double percent = 100 * double(part) / double(whole);
+  return percent >= 10 ? fmt::format("{:.0f} %", percent) : fmt::format("{:.2g} %", percent);
+}
+
+/// Violations by kind of disagreement: a false hit is never added to a false miss.
+std::vector<std::string> table_row(const Tally& t) {
+  const auto violations = [&](Disagreement d) { return t.violations[std::size_t(d)]; };
+  const std::uint64_t hits = violations(Disagreement::false_hit), misses = violations(Disagreement::false_miss);
+  return {"  " + t.subject->name,
+          count_text(t.cases),
+          count_text(t.of(Verdict::agrees)),
+          count_text(t.of(Verdict::within_contract)),
+          count_text(hits),
+          count_text(misses),
+          count_text(t.of(Verdict::violates_contract) - hits - misses),
+          count_text(t.of(Verdict::broke)),
+          count_text(t.of(Verdict::out_of_domain)),
+          count_text(t.of(Verdict::cannot_answer)),
+          t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward),
+          fmt::format("{:.3g}", t.worst_forward),
+          percent_text(t.truth_yes, t.decided()),
+          percent_text(t.decided_by_exact, t.decided())};
 }
 
 /// For a command line: in single quotes where it holds more than plain characters.
@@ -156,7 +194,7 @@ void Run::write_report(const Pending& p) {
   const std::filesystem::path below = std::filesystem::path("findings") / r.question.query->name / name;
   r.replay = "nearmiss replay " + quoted((settings_.folder / below).string());
   make_folder((settings_.folder / below).parent_path());
-  write_file(settings_.folder / below, report_to_json(r).dump(2) + "\n");
+  write_file(settings_.folder / below, pretty_json(report_to_json(r)));
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
                       std::string(nearmiss::name_of(r.finding.verdict)),
                       std::string(nearmiss::name_of(r.finding.disagreement)), headline(r),
@@ -247,7 +285,7 @@ void Run::write_index(RunState state) {
                             {"headline", w.headline}});
   }
   j["environment"] = environment_to_json();
-  write_file(settings_.folder / "index.json", j.dump(2) + "\n");
+  write_file(settings_.folder / "index.json", pretty_json(j));
   indexed_ = Clock::now();
 }
 
@@ -258,23 +296,21 @@ std::uint64_t Run::cases() const { return cases_; }
 int Run::exit_code() const { return bad_ > 0 ? 1 : interrupted() ? 2 : 0; }
 
 std::string Run::summary() const {
-  std::map<std::string, std::uint64_t> faults;
+  std::map<std::string_view, std::uint64_t> faults;
   for (const auto& [key, t] : tallies_) {
-    for (int d = 0; d < disagreement_count; ++d) faults[std::string(nearmiss::name_of(Disagreement(d)))] += t.violations[std::size_t(d)];
-    faults["broke"] += t.of(Verdict::broke);
+    for (int d = 0; d < disagreement_count; ++d) faults[noun_of(Disagreement(d))] += t.violations[std::size_t(d)];
+    faults["breakage"] += t.of(Verdict::broke);
   }
   std::vector<std::string> counted;
-  for (int d = 0; d < disagreement_count; ++d) {
-    const std::string name(nearmiss::name_of(Disagreement(d)));
-    if (faults[name] > 0) counted.push_back(count_text(faults[name]) + " " + (d == 0 ? "other" : name));
+  for (const auto& [fault, count] : faults) {
+    if (count > 0) counted.push_back(plural_text(count, fault));
   }
-  if (faults["broke"] > 0) counted.push_back(count_text(faults["broke"]) + " broke");
   const double seconds = seconds_since(begin_);
-  return fmt::format("{}{} answers in {} ({}/s): {}; {} report{} in {}", interrupted() ? "interrupted: " : "",
-                     count_text(cases_), duration_text(seconds),
+  return fmt::format("{}{} in {} ({}/s): {}; {} in {}", interrupted() ? "interrupted: " : "",
+                     plural_text(cases_, "answer"), duration_text(seconds),
                      count_text(std::uint64_t(double(cases_) / std::max(seconds, 1e-3))),
-                     counted.empty() ? "nothing violated" : "violations: " + list_text(counted), count_text(written_.size()),
-                     written_.size() == 1 ? "" : "s", settings_.folder.string());
+                     counted.empty() ? "nothing violated" : "violations: " + list_text(counted),
+                     plural_text(written_.size(), "report"), settings_.folder.string());
 }
 
 std::string Run::worst_findings() const {
@@ -301,25 +337,18 @@ std::string Run::worst_findings() const {
 }
 
 std::string Run::table() const {
-  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "CASES", "AGREES", "WITHIN", "VIOLATES", "BROKE",
-                                              "OUTSIDE", "NO ANSWER", "WORST BACKWARD", "WORST FORWARD", "EXACT", "YES"}};
+  std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "WITHIN", "FALSE HIT", "FALSE MISS", "WRONG", "BROKE",
+                                              "OUTSIDE", "NO ANSWER", "BACKWARD", "FORWARD", "YES", "EXACT"}};
   for (const Query* q : settings_.queries) {
+    bool first = true;
     for (const Subject* s : settings_.subjects) {
       const auto found = tallies_.find({q, s});
       if (found == tallies_.end()) continue;
-      const Tally& t = found->second;
-      const double decided = std::max(1.0, double(t.decided()));
-      rows.push_back({std::string(q->name), s->name, count_text(t.cases), count_text(t.of(Verdict::agrees)),
-                      count_text(t.of(Verdict::within_contract)), count_text(t.of(Verdict::violates_contract)),
-                      count_text(t.of(Verdict::broke)), count_text(t.of(Verdict::out_of_domain)),
-                      count_text(t.of(Verdict::cannot_answer)),
-                      t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward) + " eps",
-                      fmt::format("{:.3g} ulp", t.worst_forward),
-                      fmt::format("{:.2g} %", 100 * double(t.decided_by_exact) / decided),
-                      fmt::format("{:.0f} %", 100 * double(t.truth_yes) / decided)});
+      if (std::exchange(first, false)) rows.push_back({std::string(q->name)});
+      rows.push_back(table_row(found->second));
     }
   }
-  return table_text(rows);
+  return table_text(rows, "", 1);
 }
 
 }  // namespace nearmiss

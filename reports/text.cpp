@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace nearmiss {
@@ -32,6 +33,8 @@ std::size_t width_of(std::string_view s) {
 
 /// Bounds at most this many double ulps apart are shown as one decimal.
 constexpr double shown_as_one = 8;
+/// Enough for a decimal that lies between any two neighbours.
+constexpr int most_digits = 18;
 
 }  // namespace
 
@@ -44,8 +47,15 @@ std::string number_text(double x, Scalar scalar) {
 std::string bounds_text(const Bounds& b) {
   if (b.low == b.high) return number_text(b.low);
   const long double middle = (static_cast<long double>(b.low) + b.high) / 2;
-  if (b.high - b.low <= shown_as_one * ulp(double(middle), Scalar::float64)) return fmt::format("{:.17g}", middle);
-  return fmt::format("between {} and {}", number_text(b.low), number_text(b.high));
+  if (b.high - b.low > shown_as_one * ulp(double(middle), Scalar::float64)) {
+    return fmt::format("between {} and {}", number_text(b.low), number_text(b.high));
+  }
+  for (int digits = 1; digits <= most_digits; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", middle, digits);
+    const long double read = std::strtold(text.c_str(), nullptr);
+    if (b.low <= read && read <= b.high) return text;
+  }
+  return number_text(b.low);
 }
 
 std::string epsilons_text(double k) {
@@ -72,6 +82,11 @@ std::string count_text(std::uint64_t n) {
   return text;
 }
 
+std::string plural_text(std::uint64_t n, std::string_view noun) {
+  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') ? "es" : "s";
+  return fmt::format("{} {}{}", count_text(n), noun, ending);
+}
+
 std::string list_text(std::span<const std::string> items) {
   std::string text;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -94,7 +109,8 @@ std::vector<std::string> close_matches(std::string_view word, std::span<const st
   return best;
 }
 
-std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent) {
+std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent,
+                       std::size_t right_from) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
@@ -104,8 +120,10 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows, std::s
   for (const auto& row : rows) {
     std::string line(indent);
     for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::size_t padding = widths[i] - width_of(row[i]);
+      line.append(i >= right_from ? padding : 0, ' ');
       line += row[i];
-      line.append(widths[i] - width_of(row[i]) + 2, ' ');
+      line.append((i >= right_from ? 0 : padding) + 2, ' ');
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

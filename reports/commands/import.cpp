@@ -10,6 +10,7 @@
 #include "reports/commands/options.hpp"
 #include "reports/explain.hpp"
 #include "reports/interrupt.hpp"
+#include "reports/pretty_json.hpp"
 #include "reports/progress.hpp"
 #include "reports/report.hpp"
 #include "reports/text.hpp"
@@ -119,10 +120,11 @@ class NyuCcd {
                                   f.backward ? ", backward error > " + epsilons_text(f.backward->above) + " epsilon" : ""));
   }
   void write(const GroundTruth& g) const {
-    fs::path row(g.where);  // "erleben-spikes/data_0_0.csv:1"
-    std::string name = row.parent_path().filename().string() + "-" + row.filename().string();
-    std::replace_if(name.begin(), name.end(), [](char c) { return c == ':' || c == '.' || c == ' '; }, '-');
-    write_file(out_ / (name + ".json"), case_to_json(g.question).dump(2) + "\n");
+    const std::size_t colon = g.where.rfind(':');  // "erleben-spikes/data_0_0.csv:1"
+    const fs::path file = fs::absolute(g.where.substr(0, colon));
+    write_file(out_ / fmt::format("{}-{}-{}.json", file.parent_path().filename().string(), file.stem().string(),
+                                  g.where.substr(colon + 1)),
+               pretty_json(case_to_json(g.question)));
   }
 
   fs::path out_;
@@ -153,7 +155,7 @@ std::string NyuCcd::text() const {
     rows.push_back({s.subject->name, count_text(s.right), count_text(s.false_hits), count_text(s.false_misses),
                     count_text(s.outside), count_text(s.cannot_answer), count_text(s.broke), count_text(s.violations)});
   }
-  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar)\n" + table_text(rows);
+  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar)\n" + table_text(rows, "", 1);
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;
 }

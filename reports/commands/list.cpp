@@ -5,6 +5,7 @@
 #include "corpus/store.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/pretty_json.hpp"
 #include "reports/properties.hpp"
 #include "reports/text.hpp"
 
@@ -106,7 +107,7 @@ class ListCommand : public Command {
   }
   int run(const CLI::App&) override {
     if (json_) {
-      fmt::print("{}\n", list_json().dump(2));
+      fmt::print("{}", pretty_json(list_json()));
     } else if (why_) {
       fmt::print("{}", reasons_table());
     } else if (!names_.empty()) {

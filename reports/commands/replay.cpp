@@ -7,6 +7,7 @@
 
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/pretty_json.hpp"
 
 namespace nearmiss {
 
@@ -46,7 +47,7 @@ class ReplayCommand : public Command {
       }
       if (!json_) fmt::print("{}{}", i > 0 ? "\n" : "", replay_text(r));
     }
-    if (json_) fmt::print("{}\n", reports.dump(2));
+    if (json_) fmt::print("{}", pretty_json(reports));
     return bad ? 1 : 0;
   }
 

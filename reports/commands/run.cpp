@@ -40,11 +40,13 @@ class RunCommand : public Command {
              "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
              "fault the first 8, then those that are at least twice as bad as any before. All others are counted. "
              "A folder that exists is added to; its index.json then describes the newest run.",
-             "The table has one row for each query and subject. WITHIN: differs, by no more than was promised. "
-             "OUTSIDE: beyond the domain of the promise. WORST BACKWARD: the largest bound that was proved on how far "
-             "inputs would have to move, in units of the scalar's epsilon, to make an answer right. WORST FORWARD: of "
-             "the answers with the right decision. EXACT: the share that intervals could not decide. YES: the share of "
-             "cases whose exact answer is yes. The last line is a summary."},
+             "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
+             "against them. WITHIN: they differ, by no more than was promised. FALSE HIT, FALSE MISS, WRONG: violations, "
+             "by a wrong yes, a wrong no, or wrong numbers. OUTSIDE: the promise does not cover the input. BACKWARD: the "
+             "largest proved bound on how far inputs would have to move to make an answer right, in units of the "
+             "scalar's epsilon. FORWARD: the largest proved distance from an exact number, in units in the last place, "
+             "where the decision is right. YES: the share of cases whose exact answer is yes. EXACT: the share that "
+             "intervals could not decide. The last line is a summary."},
             judging_exit_status(),
             {{"nearmiss run", "10,000 cases for every query and subject."},
              {"nearmiss run --subject fcl --query moving_sphere_box --cases 100000 --seed 1",

@@ -1,0 +1,170 @@
+/// One fuzz target per query, compiled with NEARMISS_QUERY_NAME: bytes become a case, the tiers of
+/// `collide` answer it, the judge has its say, and a violation ends the process with the case in hand.
+///
+/// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas
+/// NEARMISS_FUZZ_REPORTS   a folder: each violation becomes a case file there, and the target goes on
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
+#include "impl/subject/subject.hpp"
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+namespace {
+
+const Query& query() {
+  static const Query& q = *find_query(NEARMISS_QUERY_NAME);
+  return q;
+}
+
+[[noreturn]] void cannot_run(const std::string& why) {
+  std::fprintf(stderr, "fuzz_" NEARMISS_QUERY_NAME ": %s\n", why.c_str());
+  std::exit(2);
+}
+
+std::vector<std::string> named_in_environment() {
+  const char* told = std::getenv("NEARMISS_SUBJECTS");
+  std::vector<std::string> names;
+  for (std::string_view rest = told == nullptr ? "" : told; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    if (comma > 0) names.emplace_back(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return names;
+}
+
+/// Every tier of `collide` and the subjects named in the environment that answer this query.
+std::vector<const Subject*> asked_subjects() {
+  std::vector<const Subject*> asked;
+  for (const Subject& s : subjects()) {
+    if (s.name.starts_with("collide-") && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
+  }
+  for (const std::string& name : named_in_environment()) {
+    const Subject* s = find_subject(name);
+    if (s == nullptr) cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
+    if (s->offering(query().name).offer == Offer::not_offered) {
+      cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which does not offer this query", name));
+    }
+    if (std::find(asked.begin(), asked.end(), s) == asked.end()) asked.push_back(s);
+  }
+  return asked;
+}
+
+Answer ask(const Offering& offering, const Case& c) try {
+  return offering.answer(c.values);
+} catch (const std::exception& e) {
+  return Answer::without(Answer::Status::broke, e.what());
+}
+
+std::string description(const Subject& subject, const Finding& f) {
+  std::string text = fmt::format("{}: {}", subject.name, name_of(f.verdict));
+  if (f.disagreement != Disagreement::none) text += fmt::format(", {}", name_of(f.disagreement));
+  if (!f.clause.empty()) text += fmt::format(" ({})", f.clause);
+  if (f.backward) text += fmt::format(", backward error above {} epsilon", f.backward->above);
+  return text;
+}
+
+std::string case_file(const Case& c, const std::string& note) {
+  auto j = case_to_json(c);
+  j["note"] = note;
+  return j.dump(2) + '\n';
+}
+
+std::uint64_t content_hash(const Case& c) {  // FNV-1a
+  std::uint64_t h = 0xcbf29ce484222325;
+  for (std::uint8_t byte : case_to_bytes(c)) h = (h ^ byte) * 0x100000001b3;
+  return h;
+}
+
+/// One common bug must not fill the disk: this many files of one kind of finding are enough.
+constexpr int most_files_of_a_kind = 100;
+
+void store(const std::filesystem::path& folder, const Case& c, const Subject& subject, const Finding& f) {
+  static std::map<std::string, int> written;
+  int& count = written[fmt::format("{} {} {}", subject.name, name_of(f.disagreement), f.clause)];
+  if (count == most_files_of_a_kind) return;
+  ++count;
+  const std::string name = fmt::format("{}-{}-{:016x}.json", query().name, subject.name, content_hash(c));
+  try {
+    write_file(folder / name, case_file(c, description(subject, f)));
+  } catch (const BadInput& e) {
+    cannot_run(e.what());
+  }
+}
+
+void report(const Case& c, const Subject& subject, const Finding& f) {
+  const char* folder = std::getenv("NEARMISS_FUZZ_REPORTS");
+  if (folder != nullptr && *folder != '\0') return store(folder, c, subject, f);
+  const std::string note = description(subject, f);
+  std::fprintf(stderr, "%s\n%s%s", note.c_str(), case_file(c, note).c_str(), case_to_cpp(c).c_str());
+  std::abort();
+}
+
+void examine(const Case& c) {
+  static const std::vector<const Subject*> asked = asked_subjects();
+  for (const Subject* s : asked) {
+    if (s->scalar != c.scalar) continue;
+    const Offering& offering = s->offering(query().name);
+    const Finding f = judge(c, ask(offering, c), offering.contract, Detail::verdict);
+    if (f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke) report(c, *s, f);
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
+
+/// -1 for bytes that are no case: libFuzzer does not keep them.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  auto c = nearmiss::case_from_bytes(nearmiss::query(), {data, size});
+  if (!c) return -1;
+  c->origin = "fuzz";
+  nearmiss::examine(*c);
+  return 0;
+}
+
+#ifdef NEARMISS_LIBFUZZER
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+
+/// Half of the mutations are the generator's moves, which keep a case a case and bring it near
+/// something; the others are libFuzzer's own, on the bytes. Bytes that are no case give way to a new one.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned int seed) {
+  using namespace nearmiss;
+  auto c = case_from_bytes(query(), {data, size});
+  if (c && seed % 2 == 0) return LLVMFuzzerMutate(data, size, max_size);
+  if (c) {
+    mutate(*c, seed);
+  } else {
+    c = generate(query(), seed % 4 < 2 ? Scalar::float32 : Scalar::float64, seed, 0);
+  }
+  const std::vector<std::uint8_t> bytes = case_to_bytes(*c);
+  if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
+}
+
+/// Every case of a query has one of two lengths: growing inputs slowly from nothing would find none.
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  static std::vector<char*> arguments(*argv, *argv + *argc);
+  static char no_length_control[] = "-len_control=0";
+  arguments.insert(arguments.begin() + 1, no_length_control);
+  *argc = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  *argv = arguments.data();
+  return 0;
+}
+
+#endif

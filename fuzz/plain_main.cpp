@@ -1,0 +1,67 @@
+/// Gives a fuzz target a main of its own where libFuzzer is not linked: asks about every file that is
+/// named, or found in a folder that is named. A .json file is a case file, any other holds bytes.
+/// Exit code 0: all replayed; 2: nothing to replay, or a file that is no case. A violation aborts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corpus/codec.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_of(const fs::path& named) {
+  if (!fs::is_directory(named)) return {named};
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(named)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::uint8_t> bytes_of(const fs::path& file) {
+  if (file.extension() == ".json") {
+    const Case c = read_case(file);
+    if (c.query->name != NEARMISS_QUERY_NAME) {
+      throw BadInput(fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, NEARMISS_QUERY_NAME));
+    }
+    return case_to_bytes(c);
+  }
+  const std::string text = read_file(file);
+  return {text.begin(), text.end()};
+}
+
+void replay(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = bytes_of(file);
+  if (LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) != 0) {
+    throw BadInput(fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(), NEARMISS_QUERY_NAME));
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
+
+int main(int argc, char** argv) try {
+  std::size_t replayed = 0;
+  for (int i = 1; i < argc; ++i) {
+    for (const auto& file : nearmiss::files_of(argv[i])) {
+      nearmiss::replay(file);
+      ++replayed;
+    }
+  }
+  if (replayed == 0) throw nearmiss::BadInput("fuzz_" NEARMISS_QUERY_NAME ": no files to replay; usage: FILE|FOLDER ...");
+  std::printf("fuzz_" NEARMISS_QUERY_NAME ": %zu cases replayed, nothing violated\n", replayed);
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "%s\n", e.what());
+  return 2;
+}

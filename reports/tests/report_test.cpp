@@ -1,0 +1,206 @@
+/// Reports say what is true of each kind of disagreement, and are valid under their schema.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "reports/explain.hpp"
+#include "reports/report.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Never asked: its answers are given by the tests.
+Subject stooge(std::string_view query, const collide::Contract& contract) {
+  const auto never = [](std::span<const double>) { return Answer::without(Answer::Status::broke, "asked"); };
+  return {"stooge", "1", Scalar::float64, false, {{std::string(query), Offer::answers, "", contract, never}}};
+}
+
+/// Promises the utmost.
+constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
+
+/// A ball of radius 1 that flies along x from -10 with speed 2, at the unit box around (0, y, 0).
+Case flight(double y) {
+  return {find_query("moving_sphere_box"), Scalar::float64, {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1},
+          "test", 0, 0, {}};
+}
+/// A ball of radius 1 at x against the unit box around 0.
+Case overlap(double x) {
+  return {find_query("sphere_box_penetration"), Scalar::float64, {x, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1}, "test", 0, 0, {}};
+}
+Case nearest() {
+  return {find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 4, 0, 0, 1, 2, 0}, "test", 0, 0, {}};
+}
+
+Answer answer(bool yes, std::initializer_list<double> values) {
+  Answer a;
+  a.yes = yes;
+  std::copy(values.begin(), values.end(), a.values.begin());
+  return a;
+}
+Answer miss() { return answer(false, {infinity, 0, 0, 0, 0, 0, 0}); }
+Answer hit(double time, double y = 0, double normal_x = -1, double normal_y = 0) {
+  return answer(true, {time, -1, y, 0, normal_x, normal_y, 0});
+}
+
+Report report(const Case& question, const Answer& given, const collide::Contract& contract = strict) {
+  Workers workers;
+  Report r = examine(question, stooge(question.query->name, contract), given, workers);
+  r.replay = "nearmiss replay report.json";
+  return r;
+}
+
+struct Expectation {
+  const char* name;
+  Report (*make)();
+  Verdict verdict;
+  Disagreement disagreement;
+  const char* says;  ///< part of the explanation
+};
+void PrintTo(const Expectation& e, std::ostream* out) { *out << e.name; }
+
+const Expectation expectations[] = {
+    {"agrees", [] { return report(flight(0), hit(4)); }, Verdict::agrees, Disagreement::none,
+     "stooge agrees with the exact answer. Exactly, they touch at time 4."},
+    {"agrees_on_a_miss", [] { return report(flight(5), miss()); }, Verdict::agrees, Disagreement::none,
+     "Exactly, they never touch."},
+    {"false_miss", [] { return report(flight(0), miss()); }, Verdict::violates_contract, Disagreement::false_miss,
+     "stooge says that the sphere never touches the box. Exactly, they touch at time 4. Even if every input number "
+     "were moved by up to"},
+    {"false_hit", [] { return report(flight(5), hit(4)); }, Verdict::violates_contract, Disagreement::false_hit,
+     "stooge says that the sphere touches the box at time 4. Exactly, they never touch."},
+    {"wrong_time", [] { return report(flight(0), hit(4.5)); }, Verdict::violates_contract, Disagreement::wrong_time,
+     "stooge gives time 4.5. Exactly, it is 4: time is off by 0.5"},
+    {"wrong_place", [] { return report(flight(0), hit(4, 0.5)); }, Verdict::violates_contract,
+     Disagreement::wrong_place, "stooge gives location (-1, 0.5, 0). Exactly, it is (-1, 0, 0): location.y is off by 0.5"},
+    {"wrong_point", [] { return report(nearest(), answer(true, {2, 0, 0})); }, Verdict::violates_contract,
+     Disagreement::wrong_place, "stooge gives point (2, 0, 0). Exactly, it is (1, 0, 0)"},
+    {"wrong_normal", [] { return report(flight(0), hit(4, 0, 0, 1)); }, Verdict::violates_contract,
+     Disagreement::wrong_normal, "stooge gives normal (0, 1, 0). Exactly, it is (-1, 0, 0)"},
+    {"wrong_depth", [] { return report(overlap(1.5), answer(true, {0.25, -1, 0, 0, 1, 0, 0})); },
+     Verdict::violates_contract, Disagreement::wrong_depth, "stooge gives depth 0.25. Exactly, it is 0.5"},
+    {"false_miss_of_depth", [] { return report(overlap(1.5), answer(false, {-0.5, 0, 0, 0, 0, 0, 0})); },
+     Verdict::violates_contract, Disagreement::false_miss,
+     "stooge says that the sphere and the box are apart, depth -0.5. Exactly, they touch or overlap, depth 0.5."},
+    {"wrong_direction",
+     [] {
+       const Case c{find_query("bounce_direction"), Scalar::float64,
+                    {0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1}, "test", 0, 0, {}};
+       return report(c, answer(true, {0, 1, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_direction,
+     "stooge gives direction (0, 1, 0). Exactly, it is (0, 0, 1)"},
+    {"not_finite", [] { return report(flight(0), hit(4, std::nan(""))); }, Verdict::violates_contract,
+     Disagreement::not_finite, "stooge answers, but location.y is nan. Exactly, they touch at time 4."},
+    {"not_unit", [] { return report(flight(0), hit(4, 0, -1.25)); }, Verdict::violates_contract,
+     Disagreement::not_unit, "stooge gives a normal of length 1.25"},
+    {"within_contract", [] { return report(flight(0), hit(4.5), {}); }, Verdict::within_contract,
+     Disagreement::wrong_time, "It promises nothing that this would break."},
+    {"out_of_domain", [] { return report(flight(0), miss(), {.lowest = 10, .highest = 20}); }, Verdict::out_of_domain,
+     Disagreement::none, "stooge promises nothing for numbers of this size."},
+    {"cannot_answer", [] { return report(flight(0), Answer::without(Answer::Status::cannot_answer, "too fast")); },
+     Verdict::cannot_answer, Disagreement::none, "stooge says that it cannot answer this case: too fast."},
+    {"broke", [] { return report(flight(0), Answer::without(Answer::Status::broke, "no answer within 2 s")); },
+     Verdict::broke, Disagreement::none, "stooge gave no answer: no answer within 2 s. Exactly, they touch at time 4."},
+};
+
+class EveryKind : public testing::TestWithParam<Expectation> {};
+
+TEST_P(EveryKind, IsJudgedExplainedAndValid) {
+  const Expectation& e = GetParam();
+  const Report r = e.make();
+  EXPECT_EQ(name_of(r.finding.verdict), name_of(e.verdict));
+  EXPECT_EQ(name_of(r.finding.disagreement), name_of(e.disagreement));
+  EXPECT_NE(explanation(r).find(e.says), std::string::npos) << explanation(r);
+  EXPECT_EQ(headline(r).find("stooge"), 0u);
+  const nlohmann::json j = nlohmann::json::parse(report_to_json(r).dump());
+  EXPECT_EQ(complaints(j, "report.schema.json"), "");
+  EXPECT_EQ(case_from_json({{"query", j["query"]}, {"scalar", j["scalar"]}, {"inputs", j["inputs"]}}, "report").values,
+            r.question.values);
+}
+
+INSTANTIATE_TEST_SUITE_P(Report, EveryKind, testing::ValuesIn(expectations),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Report, CoversEveryVerdictAndDisagreement) {
+  for (int v = 0; v < verdict_count; ++v) {
+    EXPECT_TRUE(std::any_of(std::begin(expectations), std::end(expectations),
+                            [&](const Expectation& e) { return int(e.verdict) == v; }))
+        << name_of(Verdict(v));
+  }
+  for (int d = 0; d <= int(Disagreement::not_unit); ++d) {
+    EXPECT_TRUE(std::any_of(std::begin(expectations), std::end(expectations),
+                            [&](const Expectation& e) { return int(e.disagreement) == d; }))
+        << name_of(Disagreement(d));
+  }
+}
+
+TEST(Report, GivesAMissNoTime) {
+  const auto j = report_to_json(report(flight(0), miss()));
+  EXPECT_EQ(j["answer"].dump(), R"({"status":"answered","yes":false,"values":{}})");
+  const auto truth = report_to_json(report(flight(5), hit(4)))["truth"];
+  EXPECT_EQ(truth["alternatives"].dump(), R"([{"yes":false,"values":{}}])");
+}
+
+TEST(Report, WritesNumbersThatAreNotFiniteAsWords) {
+  const auto j = report_to_json(report(flight(0), hit(4, std::nan(""))));
+  EXPECT_EQ(j["answer"]["values"]["location"].dump(), R"([-1.0,"NaN",0.0])");
+}
+
+TEST(Report, ListsTheConeWhereManyNormalsAreRight) {
+  // The ball's center is the box's own: every face is equally near but for the radius; start at a corner.
+  Case corner = flight(0);
+  corner.values[0] = -1, corner.values[1] = 1, corner.values[2] = 1, corner.values[3] = 0;
+  const auto j = report_to_json(report(corner, miss()));
+  ASSERT_FALSE(j["truth"]["alternatives"].empty());
+  EXPECT_TRUE(j["truth"]["alternatives"][0].contains("normal_cone")) << j["truth"].dump(2);
+  EXPECT_EQ(complaints(nlohmann::json::parse(j.dump()), "report.schema.json"), "");
+}
+
+TEST(Report, HasAnIdThatDependsOnTheCaseAndTheFault) {
+  const std::string id = id_of(report(flight(0), miss()));
+  EXPECT_EQ(id, id_of(report(flight(0), miss())));
+  EXPECT_NE(id, id_of(report(flight(0.5), miss())));
+  EXPECT_NE(id, id_of(report(flight(0), hit(4.5))));
+}
+
+/// Every way to take a report apart must be seen by the schema, or it checks nothing.
+TEST(ReportSchema, RejectsBrokenDocuments) {
+  const nlohmann::json good = nlohmann::json::parse(report_to_json(report(flight(0), hit(4.5))).dump());
+  ASSERT_EQ(complaints(good, "report.schema.json"), "");
+  for (const auto& member : good.items()) {
+    nlohmann::json broken = good;
+    broken.erase(member.key());
+    EXPECT_NE(complaints(broken, "report.schema.json"), "") << "without " << member.key();
+    broken = good;
+    broken[member.key()] = nlohmann::json::array({1.5});
+    if (member.key() != "referees") EXPECT_NE(complaints(broken, "report.schema.json"), "") << member.key() << " an array";
+  }
+  const auto reject = [&](const char* pointer, const nlohmann::json& value) {
+    nlohmann::json broken = good;
+    broken[nlohmann::json::json_pointer(pointer)] = value;
+    EXPECT_NE(complaints(broken, "report.schema.json"), "") << pointer << " = " << value;
+  };
+  reject("/surplus", 1);
+  reject("/schema", 2);
+  reject("/id", "2f53d141f79");
+  reject("/answer/values/time", nullptr);
+  reject("/answer/values/time", "infinite");
+  reject("/answer/status", "silent");
+  reject("/finding/verdict", "wrong");
+  reject("/finding/disagreement", "false");
+  reject("/finding/backward/above_epsilon", -1);
+  reject("/finding/backward/surplus", 1);
+  reject("/truth/alternatives", nlohmann::json::array());
+  reject("/truth/alternatives/0/values/time", nlohmann::json::array({1.0, 2.0, 3.0, 4.0}));
+  reject("/contract/backward_epsilon", -1);
+  reject("/subject/scalar", "half");
+}
+
+}  // namespace
+}  // namespace nearmiss
