@@ -16,10 +16,13 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
+# Paths below the source folder are hashed as relative ones, so that another clone, or the copy that
+# properties/eighth_query builds, finds what was compiled here.
 find_program(NEARMISS_CCACHE ccache)
 if(NEARMISS_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${NEARMISS_CCACHE})
-  set(CMAKE_C_COMPILER_LAUNCHER ${NEARMISS_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${NEARMISS_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 
 # Warnings, and floating point as IEEE 754 has it. A contraction (a * b + c in one rounding) or a

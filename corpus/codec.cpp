@@ -126,8 +126,8 @@ class Reader {
     return j.get<std::uint64_t>();
   }
   double number(const json& j, const std::string& path, Role role, Scalar scalar) const;
-  void inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix,
-              Scalar scalar, std::vector<double>& values) const;
+  void inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix, Scalar scalar,
+              std::vector<double>& values) const;
   const Query* query(const json& j) const;
   Scalar scalar(const json& j) const;
   void origin(const json& j, Case& c) const;
@@ -252,10 +252,13 @@ class StrictSax : public json::json_sax_t {
   static std::string cut(const std::string& s) { return s.size() > 40 ? s.substr(0, 37) + "..." : s; }
   std::string path() const {
     std::string p;
-    for (const Level& l : levels_) p += l.object ? (p.empty() || l.key.empty() ? "" : ".") + l.key : fmt::format("[{}]", l.index);
+    for (const Level& l : levels_)
+      p += l.object ? (p.empty() || l.key.empty() ? "" : ".") + l.key : fmt::format("[{}]", l.index);
     return p;
   }
-  [[noreturn]] void fail(const std::string& what) const { throw BadInput(fmt::format("{}: {} {}", where_, path(), what)); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw BadInput(fmt::format("{}: {} {}", where_, path(), what));
+  }
   bool value() {
     if (!levels_.empty()) ++levels_.back().index;
     return true;

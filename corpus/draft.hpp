@@ -68,7 +68,7 @@ struct Plan {
   std::vector<std::size_t> lone;       ///< numbers of no vector, size or rotation: times, flags, indices
   std::vector<Thing> things;           ///< those with a position, in order
   std::vector<std::size_t> positions, velocities, directions, movable;  ///< into vectors; movable: all three
-  std::array<std::vector<std::size_t>, 16> numbers;  ///< by role
+  std::array<std::vector<std::size_t>, 16> numbers;                     ///< by role
 };
 
 /// The nearest number of the scalar. Not inline: GCC 12 at -O3 loses the rounding of some of several
@@ -78,7 +78,8 @@ double rounded_to(Scalar scalar, double x);
 /// The numbers of a case in the making. Whatever is set is rounded to the scalar.
 class Draft {
  public:
-  Draft(const Plan& p, Scalar s, Random& r, std::span<double> values) : plan(p), scalar(s), random(r), values_(values) {}
+  Draft(const Plan& p, Scalar s, Random& r, std::span<double> values)
+      : plan(p), scalar(s), random(r), values_(values) {}
 
   const Plan& plan;
   const Scalar scalar;

@@ -131,7 +131,8 @@ Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
 void Draft::step_ulps(std::size_t i, int ulps) {
   const double toward = ulps > 0 ? HUGE_VAL : -HUGE_VAL;
   for (int k = std::abs(ulps); k > 0; --k) {
-    values_[i] = is_float() ? double(std::nextafter(float(values_[i]), float(toward))) : std::nextafter(values_[i], toward);
+    values_[i] =
+        is_float() ? double(std::nextafter(float(values_[i]), float(toward))) : std::nextafter(values_[i], toward);
   }
 }
 

@@ -50,7 +50,8 @@ class Shrinker {
       : best_(c), cost_(cost(c)), keeps_(keeps), questions_(questions) {}
 
   Case run() {
-    while (pass() && questions_ > 0) {}
+    while (pass() && questions_ > 0) {
+    }
     return best_;
   }
 

@@ -40,7 +40,8 @@ bool is_name_of(const std::string& word, Enum last) {
 std::string word(const json& expectation, const char* name, const std::string& where, const std::string& path) {
   const auto found = expectation.find(name);
   if (found == expectation.end()) return {};
-  if (!found->is_string()) throw BadInput(fmt::format("{}: {}.{} is {}: it must be a string", where, path, name, found->dump()));
+  if (!found->is_string())
+    throw BadInput(fmt::format("{}: {}.{} is {}: it must be a string", where, path, name, found->dump()));
   return found->get<std::string>();
 }
 

@@ -53,7 +53,8 @@ std::vector<const Subject*> asked_subjects() {
   }
   for (const std::string& name : named_in_environment()) {
     const Subject* s = find_subject(name);
-    if (s == nullptr) cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
+    if (s == nullptr)
+      cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
     if (s->offering(query().name).offer == Offer::not_offered) {
       cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which does not offer this query", name));
     }

@@ -33,7 +33,8 @@ std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   if (file.extension() == ".json") {
     const Case c = read_case(file);
     if (c.query->name != NEARMISS_QUERY_NAME) {
-      throw BadInput(fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, NEARMISS_QUERY_NAME));
+      throw BadInput(
+          fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, NEARMISS_QUERY_NAME));
     }
     return case_to_bytes(c);
   }
@@ -44,7 +45,8 @@ std::vector<std::uint8_t> bytes_of(const fs::path& file) {
 void replay(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytes_of(file);
   if (LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) != 0) {
-    throw BadInput(fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(), NEARMISS_QUERY_NAME));
+    throw BadInput(fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(),
+                               NEARMISS_QUERY_NAME));
   }
 }
 
@@ -59,7 +61,8 @@ int main(int argc, char** argv) try {
       ++replayed;
     }
   }
-  if (replayed == 0) throw nearmiss::BadInput("fuzz_" NEARMISS_QUERY_NAME ": no files to replay; usage: FILE|FOLDER ...");
+  if (replayed == 0)
+    throw nearmiss::BadInput("fuzz_" NEARMISS_QUERY_NAME ": no files to replay; usage: FILE|FOLDER ...");
   std::printf("fuzz_" NEARMISS_QUERY_NAME ": %zu cases replayed, nothing violated\n", replayed);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());

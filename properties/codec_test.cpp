@@ -116,7 +116,13 @@ TEST_P(Codec, NamesEveryInputThatIsMissing) {
 INSTANTIATE_TEST_SUITE_P(Every, Codec, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 TEST(CaseToCpp, GivesInputsThatCompileAndMeanTheSame) {
-  const Case c{find_query("moving_point_sphere"), Scalar::float32, {1, -0.0, double(0.1f), 0, 0, -1, 0, 0, 0, 2, 1}, "", 0, 0, {}};
+  const Case c{find_query("moving_point_sphere"),
+               Scalar::float32,
+               {1, -0.0, double(0.1f), 0, 0, -1, 0, 0, 0, 2, 1},
+               "",
+               0,
+               0,
+               {}};
   EXPECT_EQ(case_to_cpp(c),
             "const collide::inputs::moving_point_sphere<float> question{.point = {1.0f, -0.0f, 0.1f}, "
             ".velocity = {0.0f, 0.0f, -1.0f}, .sphere = {.center = {0.0f, 0.0f, 0.0f}, .radius = 2.0f}, "
@@ -124,7 +130,9 @@ TEST(CaseToCpp, GivesInputsThatCompileAndMeanTheSame) {
 }
 
 TEST(FieldsToJson, WritesNumbersThatJsonLacksAsWords) {
-  const Field fields[] = {{"time", Role::time}, {"contacts.0.x", Role::position}, {"contacts.0.y", Role::position},
+  const Field fields[] = {{"time", Role::time},
+                          {"contacts.0.x", Role::position},
+                          {"contacts.0.y", Role::position},
                           {"contacts.0.z", Role::position}};
   const double values[] = {HUGE_VAL, -HUGE_VAL, std::nan(""), 1};
   EXPECT_EQ(fields_to_json(fields, values).dump(), R"({"time":"Infinity","contacts":[["-Infinity","NaN",1.0]]})");
@@ -147,28 +155,64 @@ const BadFile bad_files[] = {
     {"NotJson", "hello", {"file.json", "line 1"}},
     {"NoObject", "[1, 2]", {"the case is [1,2]", "an object"}},
     {"NoQuery", R"({"scalar": "double", "inputs": {}})", {"query is missing"}},
-    {"UnknownQuery", R"({"query": "moving_cone", "scalar": "double", "inputs": {}})", {"query is \"moving_cone\"", "list"}},
+    {"UnknownQuery",
+     R"({"query": "moving_cone", "scalar": "double", "inputs": {}})",
+     {"query is \"moving_cone\"", "list"}},
     {"QueryIsANumber", R"({"query": 3, "scalar": "double", "inputs": {}})", {"query is 3", "a string"}},
-    {"UnknownScalar", R"({"query": "moving_point_sphere", "scalar": "half", "inputs": {}})", {"scalar is \"half\"", "\"float\" or \"double\""}},
-    {"SurplusField", R"({"query": "moving_point_sphere", "scalar": "double", "inputs": {}, "colour": 1})", {"colour is unknown"}},
-    {"InputsAreAList", R"({"query": "moving_point_sphere", "scalar": "double", "inputs": [1]})", {"inputs is [1]", "an object"}},
+    {"UnknownScalar",
+     R"({"query": "moving_point_sphere", "scalar": "half", "inputs": {}})",
+     {"scalar is \"half\"", "\"float\" or \"double\""}},
+    {"SurplusField",
+     R"({"query": "moving_point_sphere", "scalar": "double", "inputs": {}, "colour": 1})",
+     {"colour is unknown"}},
+    {"InputsAreAList",
+     R"({"query": "moving_point_sphere", "scalar": "double", "inputs": [1]})",
+     {"inputs is [1]", "an object"}},
 };
 
 const BadFile bad_inputs[] = {
-    {"MissingMember", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5]}, "solid": true})", {"inputs.sphere.radius is missing"}},
-    {"SurplusMember", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1, "diameter": 2}, "solid": true})", {"inputs.sphere.diameter is unknown"}},
-    {"TwiceTheSame", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1, "radius": 2}, "solid": true})", {"inputs.sphere.radius is given twice"}},
-    {"ShortVector", R"({"point": [0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})", {"inputs.point is [0,0]", "an array of 3"}},
-    {"LongVector", R"({"point": [0,0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})", {"inputs.point is [0,0,0,0]", "an array of 3"}},
-    {"VectorByNames", R"({"point": {"x": 0, "y": 0, "z": 0}, "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})", {"inputs.point is {", "an array of 3"}},
-    {"TextForNumber", R"({"point": [0,"0",0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})", {"inputs.point.y is \"0\"", "a number"}},
-    {"NullForNumber", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": null}, "solid": true})", {"inputs.sphere.radius is null", "a number"}},
-    {"NumberForFlag", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": 1})", {"inputs.solid is 1", "true or false"}},
-    {"NegativeRadius", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": -1}, "solid": true})", {"inputs.sphere.radius is -1", "not negative"}},
-    {"NotANumber", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": NaN}, "solid": true})", {"inputs.sphere.radius", "line 1"}},
-    {"Infinity", R"({"point": [0,0,0], "velocity": [0,-Infinity,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})", {"inputs.velocity[1]", "line 1"}},
-    {"BeyondDouble", R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,1e999], "radius": 1}, "solid": true})", {"inputs.sphere.center[2] is 1e999", "within the range of double"}},
-    {"BelowDouble", R"({"point": [0,0,0], "velocity": [0,0,1e-400], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})", {"inputs.velocity[2] is 1e-400", "from zero"}},
+    {"MissingMember",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5]}, "solid": true})",
+     {"inputs.sphere.radius is missing"}},
+    {"SurplusMember",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1, "diameter": 2}, "solid": true})",
+     {"inputs.sphere.diameter is unknown"}},
+    {"TwiceTheSame",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1, "radius": 2}, "solid": true})",
+     {"inputs.sphere.radius is given twice"}},
+    {"ShortVector",
+     R"({"point": [0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.point is [0,0]", "an array of 3"}},
+    {"LongVector",
+     R"({"point": [0,0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.point is [0,0,0,0]", "an array of 3"}},
+    {"VectorByNames",
+     R"({"point": {"x": 0, "y": 0, "z": 0}, "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.point is {", "an array of 3"}},
+    {"TextForNumber",
+     R"({"point": [0,"0",0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.point.y is \"0\"", "a number"}},
+    {"NullForNumber",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": null}, "solid": true})",
+     {"inputs.sphere.radius is null", "a number"}},
+    {"NumberForFlag",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": 1})",
+     {"inputs.solid is 1", "true or false"}},
+    {"NegativeRadius",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": -1}, "solid": true})",
+     {"inputs.sphere.radius is -1", "not negative"}},
+    {"NotANumber",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": NaN}, "solid": true})",
+     {"inputs.sphere.radius", "line 1"}},
+    {"Infinity",
+     R"({"point": [0,0,0], "velocity": [0,-Infinity,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.velocity[1]", "line 1"}},
+    {"BeyondDouble",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,1e999], "radius": 1}, "solid": true})",
+     {"inputs.sphere.center[2] is 1e999", "within the range of double"}},
+    {"BelowDouble",
+     R"({"point": [0,0,0], "velocity": [0,0,1e-400], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.velocity[2] is 1e-400", "from zero"}},
 };
 
 void expect_refused(const std::string& text, const std::vector<const char*>& words) {
@@ -204,26 +248,27 @@ TEST(BadInputs, AreRefusedWhenAFloatCannotHoldThem) {
 }
 
 TEST(BadInputs, AreRefusedForAnIndexThatIsNoInteger) {
-  nlohmann::json j = parse_json(case_to_json(generate(*find_query("box_box_overlap"), Scalar::float64, 1, 0)).dump(), "");
+  nlohmann::json j =
+      parse_json(case_to_json(generate(*find_query("box_box_overlap"), Scalar::float64, 1, 0)).dump(), "");
   j["inputs"]["hint"] = 1.5;
   expect_refused(j.dump(), {"inputs.hint is 1.5", "an integer"});
 }
 
 TEST(BadInputs, AreRefusedForAZeroQuaternion) {
-  nlohmann::json j = parse_json(case_to_json(generate(*find_query("box_box_overlap"), Scalar::float64, 1, 0)).dump(), "");
+  nlohmann::json j =
+      parse_json(case_to_json(generate(*find_query("box_box_overlap"), Scalar::float64, 1, 0)).dump(), "");
   j["inputs"]["box2"]["orientation"] = {{"x", 0}, {"y", 0}, {"z", 0}, {"w", 0}};
   expect_refused(j.dump(), {"inputs.box2.orientation", "not all of x, y, z, w zero"});
 }
 
 TEST(BadInputs, AreRefusedForAnUnknownMove) {
-  nlohmann::json j = parse_json(case_to_json(generate(*find_query("box_box_overlap"), Scalar::float64, 1, 0)).dump(), "");
+  nlohmann::json j =
+      parse_json(case_to_json(generate(*find_query("box_box_overlap"), Scalar::float64, 1, 0)).dump(), "");
   j["origin"]["moves"] = {"sideways"};
   expect_refused(j.dump(), {"origin.moves is \"sideways\"", "the name of a move"});
 }
 
-TEST(BadInputs, AreRefusedWhenNestedWithoutEnd) {
-  expect_refused(std::string(100000, '['), {"nested more than"});
-}
+TEST(BadInputs, AreRefusedWhenNestedWithoutEnd) { expect_refused(std::string(100000, '['), {"nested more than"}); }
 
 // Files.
 
@@ -235,7 +280,8 @@ class Files : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::size_t entries() const {
-    return std::size_t(std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+    return std::size_t(
+        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
   }
   std::filesystem::path folder_;
 };
@@ -265,7 +311,8 @@ TEST_F(Files, ThatCannotBeReadAreNamedWithTheReason) {
     (void)read_case(folder_ / "missing.json");
     ADD_FAILURE();
   } catch (const BadInput& e) {
-    EXPECT_EQ(std::string(e.what()), (folder_ / "missing.json").string() + ": cannot be read: No such file or directory");
+    EXPECT_EQ(std::string(e.what()),
+              (folder_ / "missing.json").string() + ": cannot be read: No such file or directory");
   }
 }
 

@@ -88,8 +88,8 @@ TEST_P(Oracles, DecideExactlyWhatTheIntervalLeavesOpen) {
       for (std::uint64_t i = 0; i < 4; ++i) {
         const Case c = generate(query, scalar, stream, i);
         for (const Answer& about : answers_about(c)) {
-          const std::string what = contradiction(query, at_rung(c, about, 0),
-                                                 query.oracle.exact(c.values, about, scalar, nullptr));
+          const std::string what =
+              contradiction(query, at_rung(c, about, 0), query.oracle.exact(c.values, about, scalar, nullptr));
           if (!what.empty()) return what + '\n' + case_to_json(c).dump(2);
         }
       }

@@ -118,8 +118,8 @@ TEST_F(NyuCcdFiles, CountWhatDoesNotFit) {
   const std::string vertex = "1,1,1,1,2,1,0\n";
   const std::string third = "1,3,1,1,2,1,0\n";
   const std::string turned = "0,1,0,1,0,1,0\n4,1,0,1,1,1,0\n0,1,4,1,0,1,0\n";
-  write_file(file_, vertex + at_rest + vertex + at_rest + third + at_rest + vertex + at_rest + vertex + at_rest + vertex +
-                        turned);
+  write_file(file_, vertex + at_rest + vertex + at_rest + third + at_rest + vertex + at_rest + vertex + at_rest +
+                        vertex + turned);
   const GroundTruths truths = read_nyu_ccd({file_});
   EXPECT_EQ(truths.queries, 3u);
   EXPECT_EQ(truths.skipped, 2u);

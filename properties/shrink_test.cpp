@@ -47,12 +47,15 @@ TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
       const Case c = generate(query, scalar, 1, i);
       const bool truth = truth_is_yes(c);
       int questions = 0;
-      const Case small = shrink(c, [&](const Case& smaller) {
-        ++questions;
-        EXPECT_FALSE(query.broken(smaller.values));
-        for (double x : smaller.values) EXPECT_TRUE(representable(x, scalar));
-        return truth_is_yes(smaller) == truth;
-      }, 500);
+      const Case small = shrink(
+          c,
+          [&](const Case& smaller) {
+            ++questions;
+            EXPECT_FALSE(query.broken(smaller.values));
+            for (double x : smaller.values) EXPECT_TRUE(representable(x, scalar));
+            return truth_is_yes(smaller) == truth;
+          },
+          500);
       EXPECT_EQ(truth_is_yes(small), truth);
       EXPECT_LE(questions, 500);
       const std::set<double> before(c.values.begin(), c.values.end()), after(small.values.begin(), small.values.end());

@@ -33,7 +33,8 @@ std::vector<std::string> things(const Query& query) {
     members.push_back(member);
     const std::string noun = member.substr(0, member.find_last_not_of("0123456789") + 1);
     if (words.find(fmt::format("_{}_", noun)) == std::string::npos) continue;
-    found.push_back(noun == member ? fmt::format("the {}", noun) : fmt::format("{} {}", noun, member.substr(noun.size())));
+    found.push_back(noun == member ? fmt::format("the {}", noun)
+                                   : fmt::format("{} {}", noun, member.substr(noun.size())));
   }
   return found.size() == 2 ? found : std::vector<std::string>{};
 }
@@ -48,15 +49,15 @@ struct Phrases {
 Phrases phrases(const Query& query) {
   const std::vector<std::string> two = things(query);
   if (two.empty()) {
-    return {"the answer is yes",          "the answer is no",          "it is yes", "it is no",
-            "the answer would still be yes", "the answer would still be no"};
+    return {"the answer is yes",           "the answer is no", "it is yes", "it is no", "the answer would still be yes",
+            "the answer would still be no"};
   }
   if (query.kind == Kind::impact || has_role(query.inputs, Role::velocity)) {
     return {two[0] + " touches " + two[1], two[0] + " never touches " + two[1], "they touch", "they never touch",
             "they would still touch",      "they would still never touch"};
   }
   const std::string both = two[0] + " and " + two[1];
-  return {both + " touch or overlap", both + " are apart", "they touch or overlap", "they are apart",
+  return {both + " touch or overlap",          both + " are apart",        "they touch or overlap", "they are apart",
           "they would still touch or overlap", "they would still be apart"};
 }
 
@@ -103,7 +104,8 @@ class Explanation {
     }
     switch (r_.finding.disagreement) {
       case Disagreement::none: return "agrees with the exact answer";
-      case Disagreement::false_hit: return moving ? "reports a collision that is not there" : "says yes where no is right";
+      case Disagreement::false_hit:
+        return moving ? "reports a collision that is not there" : "says yes where no is right";
       case Disagreement::false_miss: return moving ? "misses a collision" : "says no where yes is right";
       case Disagreement::not_finite: return "answers with a number that is not finite";
       case Disagreement::not_unit: return "gives a normal that is not a unit vector";
@@ -117,7 +119,9 @@ class Explanation {
   std::string worst_member() const {
     return query_.outputs.empty() ? "answer" : top_member(query_.outputs[worst()].name);
   }
-  const Alternative* right_answer() const { return r_.truth.alternatives.empty() ? nullptr : &r_.truth.alternatives[0]; }
+  const Alternative* right_answer() const {
+    return r_.truth.alternatives.empty() ? nullptr : &r_.truth.alternatives[0];
+  }
 
   /// What it said, and what is true.
   std::vector<std::string> says() const {
@@ -141,7 +145,8 @@ class Explanation {
   }
   std::string decision() const {
     const Answer& a = r_.answer;
-    if (!kind_decides(query_.kind)) return worst_member() + " is " + member_text(query_, worst(), [&](auto i) { return given(i); });
+    if (!kind_decides(query_.kind))
+      return worst_member() + " is " + member_text(query_, worst(), [&](auto i) { return given(i); });
     const int measure = index_of(query_.outputs, query_.kind == Kind::depth ? Role::depth : Role::time);
     const bool measured = measure >= 0 && is_part(query_, a, std::size_t(measure));
     return (a.yes ? phrases_.yes : phrases_.no) +
@@ -181,7 +186,8 @@ class Explanation {
       return fmt::format("Even if every input number were moved by up to {}, {}", amount_text(still, scalar_),
                          r_.truth.yes ? phrases_.still_yes : phrases_.still_no);
     }
-    return fmt::format("Moving every input number by up to {} cannot make that answer right", amount_text(above, scalar_));
+    return fmt::format("Moving every input number by up to {} cannot make that answer right",
+                       amount_text(above, scalar_));
   }
   /// For a wrong decision: the truth is proved to stay as it is for inputs this near, in epsilon.
   double same_decision_within() const {
@@ -236,7 +242,9 @@ std::string explanation(const Report& r) { return Explanation(r).text(); }
 std::string answer_text(const Query& query, const Answer& answer, Scalar scalar) {
   if (answer.status == Answer::Status::cannot_answer) return "cannot answer";
   if (answer.status == Answer::Status::broke) return "broke";
-  const auto number = [&](std::size_t i) { return is_part(query, answer, i) ? number_text(answer.values[i], scalar) : "?"; };
+  const auto number = [&](std::size_t i) {
+    return is_part(query, answer, i) ? number_text(answer.values[i], scalar) : "?";
+  };
   switch (query.kind) {
     case Kind::decision: return answer.yes ? "yes" : "no";
     case Kind::impact: return answer.yes ? "hit" + measure_text(query, true, number) : "miss";

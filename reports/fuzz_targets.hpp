@@ -26,7 +26,8 @@ struct FuzzTargets {
 
 /// Looks into `folder` or, without one, where the build puts them: the folder fuzz/ of this build, then
 /// that of the preset "fuzz".
-FuzzTargets find_fuzz_targets(const std::optional<std::filesystem::path>& folder, std::span<const Query* const> queries);
+FuzzTargets find_fuzz_targets(const std::optional<std::filesystem::path>& folder,
+                              std::span<const Query* const> queries);
 
 /// What became of one target's run.
 struct FuzzOutcome {
@@ -40,7 +41,7 @@ struct FuzzOutcome {
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
   unsigned seconds = 1;
-  std::function<void()> tick;        ///< called about twenty times a second while the target runs
+  std::function<void()> tick;  ///< called about twenty times a second while the target runs
   std::function<bool()> cancelled;
 };
 

@@ -64,7 +64,8 @@ std::string truth_page(const Query& query, const Truth& truth, Scalar scalar) {
   }
   if (truth.margin_at_least > 0) {
     text += wrapped_text(fmt::format("The decision stays the same if every input number is moved by up to {}.",
-                                     amount_text(truth.margin_at_least, scalar)), "  ");
+                                     amount_text(truth.margin_at_least, scalar)),
+                         "  ");
   } else {
     text += "  The decision is on a knife's edge: no distance to its flip can be shown.\n";
   }
@@ -119,7 +120,7 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
       r.unasked.push_back({s->name, fmt::format("a number of the case is not exactly a {}", name_of(s->scalar))});
     } else {
       r.reports.push_back(examine(*same, *s, workers));
-      r.reports.back().replay = "nearmiss replay " + file;
+      r.reports.back().replay = "nearmiss replay " + shell_quoted(file);
     }
   }
   return r;
@@ -130,8 +131,8 @@ std::string replay_text(const Replay& r) {
   std::string text = fmt::format("{}\n{} ({}), numbers exactly {}", r.file, query.name, nearmiss::name_of(query.kind),
                                  nearmiss::name_of(r.question.scalar));
   if (const std::string origin = origin_text(r.question); !origin.empty()) text += fmt::format("; from {}", origin);
-  text += fmt::format("\n\nInputs\n{}\n{}\n{}", inputs_text(r.question),
-                      truth_page(query, r.truth, r.question.scalar), findings_table(r));
+  text += fmt::format("\n\nInputs\n{}\n{}\n{}", inputs_text(r.question), truth_page(query, r.truth, r.question.scalar),
+                      findings_table(r));
   for (const Report& report : r.reports) {
     if (report.finding.verdict == Verdict::agrees) continue;
     text += fmt::format("\n{}", wrapped_text(explanation(report), ""));

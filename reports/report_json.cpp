@@ -39,7 +39,8 @@ Json with_vectors(const Json& j) {
 }
 
 /// The first `count` fields nested by name, each leaf an enclosure; those of `skipped` roles left out.
-Json enclosures(const std::vector<Field>& fields, std::size_t count, std::span<const Bounds> values, bool skip_normals) {
+Json enclosures(const std::vector<Field>& fields, std::size_t count, std::span<const Bounds> values,
+                bool skip_normals) {
   Json nested = Json::object();
   for (std::size_t i = 0; i < std::min(count, fields.size()); ++i) {
     if (skip_normals && fields[i].role == Role::normal) continue;
@@ -89,9 +90,12 @@ Json opinion(const Query& query, const Opinion& o) {
 }
 
 Json contract_to_json(const collide::Contract& c) {
-  return {{"backward_epsilon", promise(c.backward)}, {"forward_ulps", promise(c.forward)},
-          {"exact_decisions", c.exact_decisions},    {"unit_epsilon", promise(c.unit)},
-          {"lowest_exponent", c.lowest},             {"highest_exponent", c.highest}};
+  return {{"backward_epsilon", promise(c.backward)},
+          {"forward_ulps", promise(c.forward)},
+          {"exact_decisions", c.exact_decisions},
+          {"unit_epsilon", promise(c.unit)},
+          {"lowest_exponent", c.lowest},
+          {"highest_exponent", c.highest}};
 }
 
 }  // namespace

@@ -78,16 +78,6 @@ std::vector<std::string> table_row(const Tally& t) {
           percent_text(t.decided_by_exact, t.decided())};
 }
 
-/// For a command line: in single quotes where it holds more than plain characters.
-std::string quoted(const std::string& path) {
-  const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+:=@") ==
-                     std::string::npos;
-  if (plain) return path;
-  std::string text = "'";
-  for (const char c : path) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 }  // namespace
 
 std::filesystem::path runs_folder() {
@@ -137,9 +127,7 @@ std::vector<const Subject*> Run::asked(const Query& query, Scalar scalar) const 
   return asked;
 }
 
-bool Run::should_stop() const {
-  return interrupted() || (settings_.until && Clock::now() >= *settings_.until);
-}
+bool Run::should_stop() const { return interrupted() || (settings_.until && Clock::now() >= *settings_.until); }
 
 void Run::examine(std::span<const Case> cases) {
   const Query& query = *cases.front().query;
@@ -192,7 +180,7 @@ void Run::write_report(const Pending& p) {
   Report r = nearmiss::examine(p.question, *p.subject, p.answer, workers_);
   const std::string name = fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
   const std::filesystem::path below = std::filesystem::path("findings") / r.question.query->name / name;
-  r.replay = "nearmiss replay " + quoted((settings_.folder / below).string());
+  r.replay = "nearmiss replay " + shell_quoted((settings_.folder / below).string());
   make_folder((settings_.folder / below).parent_path());
   write_file(settings_.folder / below, pretty_json(report_to_json(r)));
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
@@ -337,8 +325,8 @@ std::string Run::worst_findings() const {
 }
 
 std::string Run::table() const {
-  std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "WITHIN", "FALSE HIT", "FALSE MISS", "WRONG", "BROKE",
-                                              "OUTSIDE", "NO ANSWER", "BACKWARD", "FORWARD", "YES", "EXACT"}};
+  std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "WITHIN", "FALSE HIT", "FALSE MISS", "WRONG",
+                                              "BROKE", "OUTSIDE", "NO ANSWER", "BACKWARD", "FORWARD", "YES", "EXACT"}};
   for (const Query* q : settings_.queries) {
     bool first = true;
     for (const Subject* s : settings_.subjects) {

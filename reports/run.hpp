@@ -53,8 +53,7 @@ class Run {
   void examine(std::span<const Case> cases);
   /// Asks every subject that offers the query, whatever its scalar; a case that it cannot hold exactly
   /// is out of its domain. Calls `each` with every finding.
-  void examine_by_all(const Case& question,
-                      const std::function<void(const Subject&, const Finding&)>& each = {});
+  void examine_by_all(const Case& question, const std::function<void(const Subject&, const Finding&)>& each = {});
   /// Cases of the generator: `cases` for each query and subject, or without a number until the time is
   /// over. Queries take turns, so that each gets the same time as long as it has cases left.
   void generate(std::optional<std::uint64_t> cases);

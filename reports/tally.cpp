@@ -16,8 +16,8 @@ void Tally::count(const Finding& f) {
   if (f.verdict == Verdict::within_contract) ++within_contract[std::size_t(f.disagreement)];
   if (f.verdict == Verdict::violates_contract) ++violations[std::size_t(f.disagreement)];
   if (f.backward) worst_backward = std::max(worst_backward, f.backward->above);
-  const bool judged = f.verdict == Verdict::agrees || f.verdict == Verdict::within_contract ||
-                      f.verdict == Verdict::violates_contract;
+  const bool judged =
+      f.verdict == Verdict::agrees || f.verdict == Verdict::within_contract || f.verdict == Verdict::violates_contract;
   if (!judged || f.disagreement == Disagreement::not_finite) return;  // no truth was asked for
   ++(f.decided_by == Stage::interval ? decided_by_interval : decided_by_exact);
   if (f.truth_yes) ++truth_yes;

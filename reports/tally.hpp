@@ -23,9 +23,9 @@ struct Tally {
   std::array<std::uint64_t, disagreement_count> within_contract{};  ///< by disagreement
   std::array<std::uint64_t, disagreement_count> violations{};       ///< by disagreement
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
-  std::uint64_t truth_yes = 0;   ///< of the decided ones
-  double worst_backward = -1;    ///< the largest proved bound, in epsilon; negative: nothing was proved
-  double worst_forward = 0;      ///< in ulps, where the decision is right
+  std::uint64_t truth_yes = 0;  ///< of the decided ones
+  double worst_backward = -1;   ///< the largest proved bound, in epsilon; negative: nothing was proved
+  double worst_forward = 0;     ///< in ulps, where the decision is right
 
   void count(const Finding& f);
   std::uint64_t of(Verdict v) const { return verdicts[std::size_t(v)]; }

@@ -96,6 +96,23 @@ std::string list_text(std::span<const std::string> items) {
   return text;
 }
 
+std::string shell_quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789/._-+:=@") == std::string::npos;
+  if (plain) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      text.append("'\\''");
+    } else {
+      text.push_back(c);
+    }
+  }
+  text.push_back('\'');
+  return text;
+}
+
 std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (const std::string& w : words) {

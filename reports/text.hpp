@@ -26,6 +26,9 @@ std::string plural_text(std::uint64_t n, std::string_view noun);
 /// "a", "a and b", "a, b and c".
 std::string list_text(std::span<const std::string> items);
 
+/// For a shell's command line: in single quotes where it holds more than plain characters.
+std::string shell_quoted(const std::string& word);
+
 /// The words nearest to `word` in spelling, best first; at most three, none where all are far.
 std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words);
 

@@ -28,8 +28,8 @@ void Workers::send(const Subject& subject, std::span<const Case> cases) {
 std::span<const Answer> Workers::receive(const Subject& subject) { return of(subject).receive(); }
 
 std::optional<Case> in_scalar(const Case& question, Scalar scalar) {
-  const bool exact = std::all_of(question.values.begin(), question.values.end(),
-                                 [&](double x) { return representable(x, scalar); });
+  const bool exact =
+      std::all_of(question.values.begin(), question.values.end(), [&](double x) { return representable(x, scalar); });
   if (!exact) return std::nullopt;
   Case c = question;
   c.scalar = scalar;

@@ -25,14 +25,14 @@ echo "NEARMISS_QUERY($query)" >>"$copy/oracles/catalogue.def"
 mkdir -p "$copy/corpus/seeds/$query"
 cp "$here"/seeds/*.json "$copy/corpus/seeds/$query/"
 
-# Unchanged sources come from the compiler cache although the folder is another one.
-export CCACHE_BASEDIR=$copy CCACHE_NOHASHDIR=1
-cmake -S "$copy" -B "$copy/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF >"$copy/log" 2>&1 ||
+# The same depth as the presets' build folders: unchanged sources come from the compiler cache.
+build=$copy/build/release
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "cmake refuses the eighth query"; }
-cmake --build "$copy/build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||
+cmake --build "$build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||
   { tail -n 40 "$copy/log"; fail "the eighth query does not build"; }
 
-nearmiss=$copy/build/reports/nearmiss
+nearmiss=$build/reports/nearmiss
 export NEARMISS_CORPUS=$copy/corpus
 "$nearmiss" list --json >"$copy/list.json"
 grep -q "\"query\": *\"$query\"" "$copy/list.json" || fail "list --json does not know $query"
@@ -40,12 +40,12 @@ grep -q "\"fuzz_target\": *\"fuzz_$query\"" "$copy/list.json" || fail "list --js
 "$nearmiss" run --query "$query" --cases 20000 --seed 1 --out "$copy/run" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "run finds violations or cannot run"; }
 "$nearmiss" replay "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 || { cat "$copy/log"; fail "replay fails"; }
-"$copy/build/fuzz/fuzz_$query" "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 ||
+"$build/fuzz/fuzz_$query" "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "the fuzz target does not replay the seed"; }
 
 # Teeth: a wrong comparison in the new query must be found.
 sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/$query.hpp"
-cmake --build "$copy/build" --target nearmiss_cli >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
+cmake --build "$build" --target nearmiss_cli >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
 status=0
 "$nearmiss" run --query "$query" --cases 20000 --seed 1 --out "$copy/mutant" >"$copy/log" 2>&1 || status=$?
 [ "$status" = 1 ] || { cat "$copy/log"; fail "the mutant ends with exit code $status, not 1"; }

@@ -19,7 +19,8 @@ std::string option_words(const CLI::App& app) {
 }
 
 /// `@…@` are filled in below.
-constexpr std::string_view bash_script = R"bash(# Bash completion for nearmiss: source it, or put it into a folder of bash-completion.
+constexpr std::string_view bash_script =
+    R"bash(# Bash completion for nearmiss: source it, or put it into a folder of bash-completion.
 _nearmiss() {
   local program=${COMP_WORDS[0]} current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=
   local i
@@ -72,7 +73,10 @@ class CompletionCommand : public Command {
         ->required()
         ->type_name("")
         ->check(CLI::Validator(
-            [](const std::string& t) { return t == "bash" ? "" : "there is no completion for '" + t + "', only for bash"; }, ""));
+            [](const std::string& t) {
+              return t == "bash" ? "" : "there is no completion for '" + t + "', only for bash";
+            },
+            ""));
   }
   int run(const CLI::App& root) override {
     std::string commands, cases, script(bash_script);

@@ -65,7 +65,8 @@ class NyuCcd {
   std::string text() const;
   std::string summary() const;
   int exit_code() const {
-    const bool violated = std::any_of(scores_.begin(), scores_.end(), [](const Score& s) { return s.violations + s.broke > 0; });
+    const bool violated =
+        std::any_of(scores_.begin(), scores_.end(), [](const Score& s) { return s.violations + s.broke > 0; });
     return !oracle_wrong_.empty() || violated ? 1 : interrupted() ? 2 : 0;
   }
 
@@ -84,8 +85,8 @@ class NyuCcd {
     ++fit_;
     if (g.parallel) ++parallel_;
     if (exact == g.collides) return;
-    const std::string line = fmt::format("{}: the benchmark says that it {}, the oracle that it {}", g.where,
-                                         word(g.collides), word(exact));
+    const std::string line =
+        fmt::format("{}: the benchmark says that it {}, the oracle that it {}", g.where, word(g.collides), word(exact));
     (g.parallel ? parallel_wrong_ : oracle_wrong_).push_back(line);
   }
   void ask(Score& s, std::span<const GroundTruth> batch, const std::vector<bool>& truth) {
@@ -114,10 +115,10 @@ class NyuCcd {
       return;
     }
     ++(truth ? s.false_misses : s.false_hits);
-    s.wrong.push_back(fmt::format("{}: {} says {}, but it {} until time {:g} (verdict: {}{})", where, s.subject->name,
-                                  answer_text(*question.query, a, question.scalar), word(truth), end_of_time,
-                                  name_of(f.verdict),
-                                  f.backward ? ", backward error > " + epsilons_text(f.backward->above) + " epsilon" : ""));
+    s.wrong.push_back(
+        fmt::format("{}: {} says {}, but it {} until time {:g} (verdict: {}{})", where, s.subject->name,
+                    answer_text(*question.query, a, question.scalar), word(truth), end_of_time, name_of(f.verdict),
+                    f.backward ? ", backward error > " + epsilons_text(f.backward->above) + " epsilon" : ""));
   }
   void write(const GroundTruth& g) const {
     const std::size_t colon = g.where.rfind(':');  // "erleben-spikes/data_0_0.csv:1"
@@ -155,15 +156,17 @@ std::string NyuCcd::text() const {
     rows.push_back({s.subject->name, count_text(s.right), count_text(s.false_hits), count_text(s.false_misses),
                     count_text(s.outside), count_text(s.cannot_answer), count_text(s.broke), count_text(s.violations)});
   }
-  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar)\n" + table_text(rows, "", 1);
+  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar)\n" +
+          table_text(rows, "", 1);
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;
 }
 
 std::string NyuCcd::summary() const {
-  return fmt::format("{}{} queries, {} fit, {} skipped; the oracle contradicts the truth column on {}, and on {} parallel ones",
-                     interrupted() ? "interrupted: " : "", count_text(queries_), count_text(fit_), count_text(skipped_),
-                     count_text(oracle_wrong_.size()), count_text(parallel_wrong_.size()));
+  return fmt::format(
+      "{}{} queries, {} fit, {} skipped; the oracle contradicts the truth column on {}, and on {} parallel ones",
+      interrupted() ? "interrupted: " : "", count_text(queries_), count_text(fit_), count_text(skipped_),
+      count_text(oracle_wrong_.size()), count_text(parallel_wrong_.size()));
 }
 
 class ImportCommand : public Command {
@@ -189,7 +192,8 @@ class ImportCommand : public Command {
         ->required()
         ->type_name("")
         ->check(CLI::Validator(
-            [](const std::string& t) { return t == "nyu-ccd" ? "" : "unknown format '" + t + "'; known is nyu-ccd"; }, ""));
+            [](const std::string& t) { return t == "nyu-ccd" ? "" : "unknown format '" + t + "'; known is nyu-ccd"; },
+            ""));
     app.add_option("FILE", files_, "A file of the benchmark")->required()->type_name("");
     app.add_option("-o,--out", out_, "Write each case that fits as a JSON file into this folder")->type_name("DIR");
     selection_.declare_subjects(app);

@@ -101,7 +101,10 @@ class ListCommand : public Command {
     app.add_option("--names", names_, "Print only the names of all queries or of all subjects, one a line")
         ->type_name("queries|subjects")
         ->check(CLI::Validator(
-            [](const std::string& t) { return t == "queries" || t == "subjects" ? "" : "'" + t + "' is neither queries nor subjects"; }, ""))
+            [](const std::string& t) {
+              return t == "queries" || t == "subjects" ? "" : "'" + t + "' is neither queries nor subjects";
+            },
+            ""))
         ->excludes("--json")
         ->excludes("--why");
   }

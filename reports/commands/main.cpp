@@ -23,8 +23,9 @@ std::string& typed_command_line() {
 std::vector<Manual::Line> judging_exit_status() {
   return {{"0", "Nothing violated its contract, and nothing broke."},
           {"1", "Violations, or a subject that broke."},
-          {"2", "It could not run: wrong arguments, malformed input, an output that cannot be written; or it was "
-                "interrupted before it found a violation. One line on standard error says what and why."}};
+          {"2",
+           "It could not run: wrong arguments, malformed input, an output that cannot be written; or it was "
+           "interrupted before it found a violation. One line on standard error says what and why."}};
 }
 
 namespace {
@@ -32,7 +33,8 @@ namespace {
 /// All commands and the parser that knows them.
 class CommandLine {
  public:
-  CommandLine() : root_("find out where a collision-detection library is wrong, by how much, and prove it", "nearmiss") {
+  CommandLine()
+      : root_("find out where a collision-detection library is wrong, by how much, and prove it", "nearmiss") {
     root_.set_help_flag("-h,--help", "Print a manual and exit");
     root_.set_version_flag("--version", version_text(), "Print the version and exit");
     for (auto make : {list_command, run_command, nightly_command, replay_command, import_command, completion_command}) {
@@ -82,13 +84,15 @@ class CommandLine {
       return 0;
     }
     check_known(name);
-    const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.app->get_name() == name; });
+    const auto entry =
+        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.app->get_name() == name; });
     fmt::print("{}", manual_page(*entry->app, entry->command->manual()));
     return 0;
   }
   void check_known(const std::string& name) const {
     std::vector<std::string> names;
-    for (const CLI::App* c : root_.get_subcommands([](const CLI::App*) { return true; })) names.push_back(c->get_name());
+    for (const CLI::App* c : root_.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(c->get_name());
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
     const auto close = close_matches(name, names);
     throw BadInput(fmt::format("unknown command '{}'; {}", name,
@@ -107,8 +111,10 @@ class CommandLine {
 std::vector<std::string> with_negative_values(const std::vector<std::string>& arguments) {
   std::vector<std::string> joined;
   for (const std::string& a : arguments) {
-    const bool negative = a.size() > 1 && a[0] == '-' && (std::isdigit(static_cast<unsigned char>(a[1])) != 0 || a[1] == '.');
-    const bool after_option = !joined.empty() && joined.back().starts_with("--") && joined.back().find('=') == std::string::npos;
+    const bool negative =
+        a.size() > 1 && a[0] == '-' && (std::isdigit(static_cast<unsigned char>(a[1])) != 0 || a[1] == '.');
+    const bool after_option =
+        !joined.empty() && joined.back().starts_with("--") && joined.back().find('=') == std::string::npos;
     if (negative && after_option) {
       joined.back() += "=" + a;
     } else {
@@ -140,6 +146,7 @@ int run_or_complain(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  nearmiss::typed_command_line() = fmt::format("nearmiss {}", fmt::join(arguments, " "));
+  nearmiss::typed_command_line() = "nearmiss";
+  for (const std::string& a : arguments) nearmiss::typed_command_line() += " " + nearmiss::shell_quoted(a);
   return nearmiss::run_or_complain(arguments);
 }

@@ -57,7 +57,8 @@ std::string options_text(const CLI::App& app) {
   std::vector<Manual::Line> lines;
   for (const bool positional : {true, false}) {
     for (const CLI::Option* o : options_of(app, positional)) {
-      lines.push_back({option_name(*o), o->get_description() + (o->get_required() && !positional ? ". Required" : "") + "."});
+      lines.push_back(
+          {option_name(*o), o->get_description() + (o->get_required() && !positional ? ". Required" : "") + "."});
     }
   }
   return definitions(lines);
@@ -82,17 +83,19 @@ std::string overview_page(const CLI::App& root) {
   }
   std::string text = fmt::format("NAME\n{}nearmiss - {}\n", indent, root.get_description());
   text += heading("SYNOPSIS") + std::string(indent) + "nearmiss COMMAND [OPTION]...\n";
-  text += heading("DESCRIPTION") +
-          paragraphs({"Nearmiss asks a collision-detection library many questions, knows the exact answers, and reports "
-                      "where the library is wrong, by how much, and with what proof. A query is one operation with a "
-                      "fixed meaning, a subject is something that answers, a contract is what it promises, and a "
-                      "violation is a proved breach of it."});
+  text +=
+      heading("DESCRIPTION") +
+      paragraphs({"Nearmiss asks a collision-detection library many questions, knows the exact answers, and reports "
+                  "where the library is wrong, by how much, and with what proof. A query is one operation with a "
+                  "fixed meaning, a subject is something that answers, a contract is what it promises, and a "
+                  "violation is a proved breach of it."});
   text += heading("COMMANDS") + table_text(commands, indent);
   text += heading("OPTIONS") + options_text(root);
   text += heading("EXIT STATUS") + definitions(judging_exit_status());
-  text += heading("ENVIRONMENT") +
-          definitions({{"NEARMISS_RUNS", "The folder for runs without --out, instead of reports/runs of the source tree."},
-                       {"NEARMISS_CORPUS", "The folder of stored cases, instead of corpus of the source tree."}});
+  text +=
+      heading("ENVIRONMENT") +
+      definitions({{"NEARMISS_RUNS", "The folder for runs without --out, instead of reports/runs of the source tree."},
+                   {"NEARMISS_CORPUS", "The folder of stored cases, instead of corpus of the source tree."}});
   text += heading("EXAMPLES") +
           definitions({{"nearmiss list", "What can be asked, and who answers."},
                        {"nearmiss run --subject fcl --query moving_sphere_box", "Is FCL right about moving spheres?"},

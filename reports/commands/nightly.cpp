@@ -44,8 +44,8 @@ void replay_stored(Run& run) {
         for (const Expected& e : stored.expected) {
           if (e.subject != s.name) continue;
           ++expectations;
-          const bool same = e.verdict == name_of(f.verdict) &&
-                            (e.disagreement.empty() || e.disagreement == name_of(f.disagreement));
+          const bool same =
+              e.verdict == name_of(f.verdict) && (e.disagreement.empty() || e.disagreement == name_of(f.disagreement));
           if (same) continue;
           unexpected.push_back({{"file", stored.file.filename().string()},
                                 {"query", q->name},
@@ -60,7 +60,11 @@ void replay_stored(Run& run) {
 }
 
 Json outcome_json(const FuzzOutcome& o) {
-  return {{"query", o.query}, {"seconds", o.seconds}, {"executions", o.executions}, {"ended", o.ended}, {"failed", o.failed}};
+  return {{"query", o.query},
+          {"seconds", o.seconds},
+          {"executions", o.executions},
+          {"ended", o.ended},
+          {"failed", o.failed}};
 }
 
 /// Each target for the same time; at least a second, so the last ones may have none left.
@@ -84,8 +88,7 @@ std::optional<Case> fuzzed_case(const fs::path& file) {
   const Query* query = find_query(file.parent_path().filename().string());
   const std::string bytes = query == nullptr ? "" : read_file(file);
   if (bytes.empty()) return std::nullopt;
-  std::optional<Case> c =
-      case_from_bytes(*query, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  std::optional<Case> c = case_from_bytes(*query, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
   if (c) c->origin = "fuzz/" + std::string(query->name) + "/" + file.filename().string();
   return c;
 }
@@ -115,22 +118,23 @@ Json examine_fuzzed(Run& run) {
 class NightlyCommand : public Command {
  public:
   Manual manual() const override {
-    return {"nightly",
-            "examine every subject for a given time: stored cases, generated cases, fuzzing",
-            {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
-             "stored about it. Then new cases are generated for all queries and subjects. In the last third of the "
-             "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
-             "everything else. Where the fuzz targets are not built, the summary and the index say so, and the "
-             "generated cases get their time.",
-             "The run folder is that of 'nearmiss run', with corpus/QUERY/ for what the fuzz targets learned and "
-             "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
-            judging_exit_status(),
-            {{"nearmiss nightly --minutes 60", "One hour."},
-             {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
+    return {
+        "nightly",
+        "examine every subject for a given time: stored cases, generated cases, fuzzing",
+        {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
+         "stored about it. Then new cases are generated for all queries and subjects. In the last third of the "
+         "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
+         "everything else. Where the fuzz targets are not built, the summary and the index say so, and the "
+         "generated cases get their time.",
+         "The run folder is that of 'nearmiss run', with corpus/QUERY/ for what the fuzz targets learned and "
+         "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
+        judging_exit_status(),
+        {{"nearmiss nightly --minutes 60", "One hour."},
+         {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
   }
   void declare(CLI::App& app) override {
-    add_positive_number(app, "-m,--minutes", minutes_, fmt::format("How long, in all. Default: {}", default_minutes), "M",
-                        most_minutes);
+    add_positive_number(app, "-m,--minutes", minutes_, fmt::format("How long, in all. Default: {}", default_minutes),
+                        "M", most_minutes);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
                      std::numeric_limits<std::uint64_t>::max());
     app.add_option("-o,--out", out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree")
@@ -145,8 +149,8 @@ class NightlyCommand : public Command {
     const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
-    const FuzzTargets found = find_fuzz_targets(
-        targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());
+    const FuzzTargets found =
+        find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());
     catch_interrupts();
     Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), all.queries(), all.subjects(),
              seed, end});
@@ -167,8 +171,10 @@ class NightlyCommand : public Command {
  private:
   static std::string targets_text(const FuzzTargets& found) {
     if (found.targets.empty()) {
-      return fmt::format("The fuzz targets are not built (none with libFuzzer in {}): "
-                         "cmake --preset fuzz && cmake --build --preset fuzz builds them.", found.where);
+      return fmt::format(
+          "The fuzz targets are not built (none with libFuzzer in {}): "
+          "cmake --preset fuzz && cmake --build --preset fuzz builds them.",
+          found.where);
     }
     return fmt::format("{} of {} fuzz targets in {}", found.targets.size(), found.targets.size() + found.missing.size(),
                        found.where);
@@ -176,13 +182,18 @@ class NightlyCommand : public Command {
   /// Returns what the summary says.
   static std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end) {
     if (found.targets.empty()) {
-      run.note("fuzz", {{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}});
+      run.note(
+          "fuzz",
+          {{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}});
       return "not built";
     }
     const Json ran = run_targets(run, found, between(Clock::now(), end, 1 - judging_share));
     const Json examined = ran.empty() ? Json(nullptr) : examine_fuzzed(run);
-    run.note("fuzz", {{"state", ran.empty() ? "no time" : "ran"}, {"where", found.where}, {"missing", found.missing},
-                      {"targets", ran}, {"left", examined}});
+    run.note("fuzz", {{"state", ran.empty() ? "no time" : "ran"},
+                      {"where", found.where},
+                      {"missing", found.missing},
+                      {"targets", ran},
+                      {"left", examined}});
     if (ran.empty()) return "no time was left";
     std::uint64_t executions = 0;
     for (const Json& t : ran) executions += t["executions"].get<std::uint64_t>();

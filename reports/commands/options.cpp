@@ -60,8 +60,9 @@ std::vector<std::string> subject_names() {
 
 std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words) {
   const std::vector<std::string> close = close_matches(word, words);
-  return fmt::format("unknown {} '{}'; {}", what, word,
-                     close.empty() ? "'nearmiss list' shows all" : fmt::format("did you mean {}?", fmt::join(close, " or ")));
+  return fmt::format(
+      "unknown {} '{}'; {}", what, word,
+      close.empty() ? "'nearmiss list' shows all" : fmt::format("did you mean {}?", fmt::join(close, " or ")));
 }
 
 void Selection::declare_queries(CLI::App& app) {
@@ -105,15 +106,16 @@ CLI::Validator positive_number(double high) {
 
 void add_whole_number(CLI::App& app, const std::string& name, std::optional<std::uint64_t>& value,
                       const std::string& description, std::uint64_t low, std::uint64_t high) {
-  app.add_option_function<std::string>(name, [&value](const std::string& t) { value = parsed<std::uint64_t>(t); },
-                                       description)
+  app.add_option_function<std::string>(
+         name, [&value](const std::string& t) { value = parsed<std::uint64_t>(t); }, description)
       ->type_name("N")
       ->check(whole_number(low, high));
 }
 
 void add_positive_number(CLI::App& app, const std::string& name, std::optional<double>& value,
                          const std::string& description, const std::string& unit, double high) {
-  app.add_option_function<std::string>(name, [&value](const std::string& t) { value = parsed<double>(t); }, description)
+  app.add_option_function<std::string>(
+         name, [&value](const std::string& t) { value = parsed<double>(t); }, description)
       ->type_name(unit)
       ->check(positive_number(high));
 }

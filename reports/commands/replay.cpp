@@ -16,16 +16,17 @@ namespace {
 class ReplayCommand : public Command {
  public:
   Manual manual() const override {
-    return {"replay",
-            "ask subjects one case again, and show what is true",
-            {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again, "
-             "whatever the file says about answers. The page shows the inputs, the exact answer, and for each subject "
-             "its answer, the verdict and how far the inputs would have to move to excuse it.",
-             "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
-            judging_exit_status(),
-            {{"nearmiss replay reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings again."},
-             {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/tunnel.json", "One subject, a stored case."},
-             {"nearmiss replay --json case.json", "As a JSON array of reports."}}};
+    return {
+        "replay",
+        "ask subjects one case again, and show what is true",
+        {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again, "
+         "whatever the file says about answers. The page shows the inputs, the exact answer, and for each subject "
+         "its answer, the verdict and how far the inputs would have to move to excuse it.",
+         "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
+        judging_exit_status(),
+        {{"nearmiss replay reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings again."},
+         {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/tunnel.json", "One subject, a stored case."},
+         {"nearmiss replay --json case.json", "As a JSON array of reports."}}};
   }
   void declare(CLI::App& app) override {
     app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");

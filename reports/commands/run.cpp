@@ -30,28 +30,29 @@ void check_offered(const std::vector<const Query*>& queries, const std::vector<c
 class RunCommand : public Command {
  public:
   Manual manual() const override {
-    return {"run",
-            "ask subjects many generated cases and judge the answers",
-            {"Every chosen subject answers generated cases of every chosen query that it offers, each in a process of "
-             "its own. The exact oracle knows the truth, and the judge tells what is proved against each answer. "
-             "Subjects that compute in the same scalar get the same cases, and the same seed gives the same cases on "
-             "every machine.",
-             "The run folder receives index.json with all counts (written from the start, and also when the run is "
-             "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
-             "fault the first 8, then those that are at least twice as bad as any before. All others are counted. "
-             "A folder that exists is added to; its index.json then describes the newest run.",
-             "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
-             "against them. WITHIN: they differ, by no more than was promised. FALSE HIT, FALSE MISS, WRONG: violations, "
-             "by a wrong yes, a wrong no, or wrong numbers. OUTSIDE: the promise does not cover the input. BACKWARD: the "
-             "largest proved bound on how far inputs would have to move to make an answer right, in units of the "
-             "scalar's epsilon. FORWARD: the largest proved distance from an exact number, in units in the last place, "
-             "where the decision is right. YES: the share of cases whose exact answer is yes. EXACT: the share that "
-             "intervals could not decide. The last line is a summary."},
-            judging_exit_status(),
-            {{"nearmiss run", "10,000 cases for every query and subject."},
-             {"nearmiss run --subject fcl --query moving_sphere_box --cases 100000 --seed 1",
-              "One subject and one query, reproducibly."},
-             {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."}}};
+    return {
+        "run",
+        "ask subjects many generated cases and judge the answers",
+        {"Every chosen subject answers generated cases of every chosen query that it offers, each in a process of "
+         "its own. The exact oracle knows the truth, and the judge tells what is proved against each answer. "
+         "Subjects that compute in the same scalar get the same cases, and the same seed gives the same cases on "
+         "every machine.",
+         "The run folder receives index.json with all counts (written from the start, and also when the run is "
+         "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
+         "fault the first 8, then those that are at least twice as bad as any before. All others are counted. "
+         "A folder that exists is added to; its index.json then describes the newest run.",
+         "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
+         "against them. WITHIN: they differ, by no more than was promised. FALSE HIT, FALSE MISS, WRONG: violations, "
+         "by a wrong yes, a wrong no, or wrong numbers. OUTSIDE: the promise does not cover the input. BACKWARD: the "
+         "largest proved bound on how far inputs would have to move to make an answer right, in units of the "
+         "scalar's epsilon. FORWARD: the largest proved distance from an exact number, in units in the last place, "
+         "where the decision is right. YES: the share of cases whose exact answer is yes. EXACT: the share that "
+         "intervals could not decide. The last line is a summary."},
+        judging_exit_status(),
+        {{"nearmiss run", "10,000 cases for every query and subject."},
+         {"nearmiss run --subject fcl --query moving_sphere_box --cases 100000 --seed 1",
+          "One subject and one query, reproducibly."},
+         {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."}}};
   }
 
   void declare(CLI::App& app) override {
@@ -71,11 +72,15 @@ class RunCommand : public Command {
     check_offered(selection_.queries(), selection_.subjects());
     const std::uint64_t seed = seed_or_random(seed_);
     catch_interrupts();
-    RunSettings settings{typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
-                         selection_.queries(), selection_.subjects(), seed, std::nullopt};
+    RunSettings settings{typed_command_line(),
+                         out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
+                         selection_.queries(),
+                         selection_.subjects(),
+                         seed,
+                         std::nullopt};
     if (seconds_) {
-      settings.until = Run::Clock::now() + std::chrono::duration_cast<Run::Clock::duration>(
-                                               std::chrono::duration<double>(*seconds_));
+      settings.until = Run::Clock::now() +
+                       std::chrono::duration_cast<Run::Clock::duration>(std::chrono::duration<double>(*seconds_));
     }
     Run run(std::move(settings));
     fmt::print("seed {}, {}, into {}\n", seed,

@@ -26,12 +26,23 @@ constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions
 
 /// A ball of radius 1 that flies along x from -10 with speed 2, at the unit box around (0, y, 0).
 Case flight(double y) {
-  return {find_query("moving_sphere_box"), Scalar::float64, {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1},
-          "test", 0, 0, {}};
+  return {find_query("moving_sphere_box"),
+          Scalar::float64,
+          {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1},
+          "test",
+          0,
+          0,
+          {}};
 }
 /// A ball of radius 1 at x against the unit box around 0.
 Case overlap(double x) {
-  return {find_query("sphere_box_penetration"), Scalar::float64, {x, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1}, "test", 0, 0, {}};
+  return {find_query("sphere_box_penetration"),
+          Scalar::float64,
+          {x, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1},
+          "test",
+          0,
+          0,
+          {}};
 }
 Case nearest() {
   return {find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 4, 0, 0, 1, 2, 0}, "test", 0, 0, {}};
@@ -77,28 +88,43 @@ const Expectation expectations[] = {
     {"wrong_time", [] { return report(flight(0), hit(4.5)); }, Verdict::violates_contract, Disagreement::wrong_time,
      "stooge gives time 4.5. Exactly, it is 4: time is off by 0.5"},
     {"wrong_place", [] { return report(flight(0), hit(4, 0.5)); }, Verdict::violates_contract,
-     Disagreement::wrong_place, "stooge gives location (-1, 0.5, 0). Exactly, it is (-1, 0, 0): location.y is off by 0.5"},
-    {"wrong_point", [] { return report(nearest(), answer(true, {2, 0, 0})); }, Verdict::violates_contract,
-     Disagreement::wrong_place, "stooge gives point (2, 0, 0). Exactly, it is (1, 0, 0)"},
+     Disagreement::wrong_place,
+     "stooge gives location (-1, 0.5, 0). Exactly, it is (-1, 0, 0): location.y is off by 0.5"},
+    {"wrong_point",
+     [] {
+       return report(nearest(), answer(true, {2, 0, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_place, "stooge gives point (2, 0, 0). Exactly, it is (1, 0, 0)"},
     {"wrong_normal", [] { return report(flight(0), hit(4, 0, 0, 1)); }, Verdict::violates_contract,
      Disagreement::wrong_normal, "stooge gives normal (0, 1, 0). Exactly, it is (-1, 0, 0)"},
-    {"wrong_depth", [] { return report(overlap(1.5), answer(true, {0.25, -1, 0, 0, 1, 0, 0})); },
+    {"wrong_depth",
+     [] {
+       return report(overlap(1.5), answer(true, {0.25, -1, 0, 0, 1, 0, 0}));
+     },
      Verdict::violates_contract, Disagreement::wrong_depth, "stooge gives depth 0.25. Exactly, it is 0.5"},
-    {"false_miss_of_depth", [] { return report(overlap(1.5), answer(false, {-0.5, 0, 0, 0, 0, 0, 0})); },
+    {"false_miss_of_depth",
+     [] {
+       return report(overlap(1.5), answer(false, {-0.5, 0, 0, 0, 0, 0, 0}));
+     },
      Verdict::violates_contract, Disagreement::false_miss,
      "stooge says that the sphere and the box are apart, depth -0.5. Exactly, they touch or overlap, depth 0.5."},
     {"wrong_direction",
      [] {
-       const Case c{find_query("bounce_direction"), Scalar::float64,
-                    {0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1}, "test", 0, 0, {}};
+       const Case c{find_query("bounce_direction"),
+                    Scalar::float64,
+                    {0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1},
+                    "test",
+                    0,
+                    0,
+                    {}};
        return report(c, answer(true, {0, 1, 0}));
      },
      Verdict::violates_contract, Disagreement::wrong_direction,
      "stooge gives direction (0, 1, 0). Exactly, it is (0, 0, 1)"},
     {"not_finite", [] { return report(flight(0), hit(4, std::nan(""))); }, Verdict::violates_contract,
      Disagreement::not_finite, "stooge answers, but location.y is nan. Exactly, they touch at time 4."},
-    {"not_unit", [] { return report(flight(0), hit(4, 0, -1.25)); }, Verdict::violates_contract,
-     Disagreement::not_unit, "stooge gives a normal of length 1.25"},
+    {"not_unit", [] { return report(flight(0), hit(4, 0, -1.25)); }, Verdict::violates_contract, Disagreement::not_unit,
+     "stooge gives a normal of length 1.25"},
     {"within_contract", [] { return report(flight(0), hit(4.5), {}); }, Verdict::within_contract,
      Disagreement::wrong_time, "It promises nothing that this would break."},
     {"out_of_domain", [] { return report(flight(0), miss(), {.lowest = 10, .highest = 20}); }, Verdict::out_of_domain,
@@ -125,18 +151,18 @@ TEST_P(EveryKind, IsJudgedExplainedAndValid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Report, EveryKind, testing::ValuesIn(expectations),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Report, CoversEveryVerdictAndDisagreement) {
   for (int v = 0; v < verdict_count; ++v) {
-    EXPECT_TRUE(std::any_of(std::begin(expectations), std::end(expectations),
-                            [&](const Expectation& e) { return int(e.verdict) == v; }))
-        << name_of(Verdict(v));
+    EXPECT_TRUE(std::any_of(std::begin(expectations), std::end(expectations), [&](const Expectation& e) {
+      return int(e.verdict) == v;
+    })) << name_of(Verdict(v));
   }
   for (int d = 0; d <= int(Disagreement::not_unit); ++d) {
-    EXPECT_TRUE(std::any_of(std::begin(expectations), std::end(expectations),
-                            [&](const Expectation& e) { return int(e.disagreement) == d; }))
-        << name_of(Disagreement(d));
+    EXPECT_TRUE(std::any_of(std::begin(expectations), std::end(expectations), [&](const Expectation& e) {
+      return int(e.disagreement) == d;
+    })) << name_of(Disagreement(d));
   }
 }
 
@@ -179,7 +205,7 @@ TEST(ReportSchema, RejectsBrokenDocuments) {
     EXPECT_NE(complaints(broken, "report.schema.json"), "") << "without " << member.key();
     broken = good;
     broken[member.key()] = nlohmann::json::array({1.5});
-    if (member.key() != "referees") EXPECT_NE(complaints(broken, "report.schema.json"), "") << member.key() << " an array";
+    EXPECT_NE(complaints(broken, "report.schema.json"), "") << member.key() << " an array";
   }
   const auto reject = [&](const char* pointer, const nlohmann::json& value) {
     nlohmann::json broken = good;

@@ -49,7 +49,8 @@ TEST(Keeper, KeepsTheFirstFewThenOnlyTheMuchWorse) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   const Tally t = tally_of(s);
   Keeper keeper;
-  for (std::uint64_t i = 0; i < Keeper::first_few; ++i) EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_hit, 4)));
+  for (std::uint64_t i = 0; i < Keeper::first_few; ++i)
+    EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_hit, 4)));
   EXPECT_FALSE(keeper.keep(t, violation(Disagreement::false_hit, 4)));
   EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_hit, 8)));
   EXPECT_FALSE(keeper.keep(t, violation(Disagreement::false_hit, 8)));
@@ -71,7 +72,7 @@ TEST(Keeper, KeepsOnlyTheFirstFewThatBroke) {
 TEST(Text, ShowsTheShortestDecimalWithinTightBounds) {
   EXPECT_EQ(bounds_text({0.6625 - 1e-16, 0.6625 + 1e-16}), "0.6625");
   EXPECT_EQ(bounds_text({0.1, 0.1}), "0.1");
-  EXPECT_EQ(bounds_text({1.0 / 3, std::nextafter(1.0 / 3, 1)}), "0.33333333333333333");
+  EXPECT_EQ(bounds_text({1.0 / 3, std::nextafter(1.0 / 3, 1)}), "0.33333333333333334");
   EXPECT_EQ(bounds_text({1, 2}), "between 1 and 2");
 }
 

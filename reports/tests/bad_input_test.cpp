@@ -1,0 +1,137 @@
+/// Bad input: exit code 2, one line on standard error that says what and why, and nothing is written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "impl/subject/subject.hpp"
+#include "oracles/query.hpp"
+#include "reports/tests/program.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A good case, but for what `center`, `radius` and `query` say.
+std::string case_text(const std::string& center, const std::string& radius,
+                      const std::string& query = "sphere_box_penetration", const std::string& scalar = "double") {
+  return R"({"query": ")" + query + R"(", "scalar": ")" + scalar + R"(", "inputs": {"sphere": {"center": )" + center +
+         R"(, "radius": )" + radius + R"(}, "box": {"center": [0, 0, 0], "half": [1, 1, 1], )" +
+         R"("orientation": {"x": 0, "y": 0, "z": 0, "w": 1}}}})";
+}
+
+struct Bad {
+  const char* name;
+  std::vector<std::string> arguments;  ///< OUT becomes a folder that does not exist, FILE a file with `text`
+  std::vector<std::string> says;       ///< all of them in the one line
+  std::string text = "";
+};
+void PrintTo(const Bad& b, std::ostream* out) { *out << b.name; }
+
+const Bad bad_command_lines[] = {
+    {"no_command", {}, {"command"}},
+    {"unknown_command", {"rum"}, {"unknown command 'rum'", "run"}},
+    {"unknown_option", {"run", "--frobnicate", "--out", "OUT"}, {"--frobnicate"}},
+    {"surplus_word", {"run", "fast", "--out", "OUT"}, {"fast"}},
+    {"unknown_query",
+     {"run", "--query", "moving_spere_box", "--out", "OUT"},
+     {"--query", "moving_spere_box", "moving_sphere_box"}},
+    {"hopeless_query", {"run", "--query", "zzz", "--out", "OUT"}, {"zzz", "nearmiss list"}},
+    {"unknown_subject",
+     {"run", "--subject", "colide-fast-float", "--out", "OUT"},
+     {"--subject", "colide-fast-float", "collide-fast-float"}},
+    {"negative_cases", {"run", "--cases", "-5", "--out", "OUT"}, {"--cases", "-5"}},
+    {"zero_cases", {"run", "--cases", "0", "--out", "OUT"}, {"--cases", "'0'"}},
+    {"cases_in_words", {"run", "--cases", "many", "--out", "OUT"}, {"--cases", "many"}},
+    {"fractional_cases", {"run", "--cases", "1.5", "--out", "OUT"}, {"--cases", "1.5"}},
+    {"too_many_cases",
+     {"run", "--cases", "99999999999999999999999", "--out", "OUT"},
+     {"--cases", "99999999999999999999999"}},
+    {"missing_cases", {"run", "--out", "OUT", "--cases"}, {"--cases"}},
+    {"negative_seed", {"run", "--seed", "-1", "--out", "OUT"}, {"--seed", "-1"}},
+    {"negative_seconds", {"run", "--seconds", "-1", "--out", "OUT"}, {"--seconds", "-1"}},
+    {"seconds_that_are_no_number", {"run", "--seconds", "nan", "--out", "OUT"}, {"--seconds", "nan"}},
+    {"cases_and_seconds", {"run", "--cases", "5", "--seconds", "5", "--out", "OUT"}, {"--cases", "--seconds"}},
+    {"unwritable_output", {"run", "--cases", "5", "--out", "/dev/null/run"}, {"/dev/null/run"}},
+    {"output_is_a_file", {"run", "--cases", "5", "--out", "FILE"}, {"FILE"}},
+    {"zero_minutes", {"nightly", "--minutes", "0", "--out", "OUT"}, {"--minutes"}},
+    {"unwritable_nightly", {"nightly", "--minutes", "0.01", "--out", "/dev/null/run"}, {"/dev/null/run"}},
+    {"no_folder_of_fuzz_targets", {"nightly", "--fuzz-targets", "OUT", "--out", "OUT"}, {"--fuzz-targets"}},
+    {"nothing_to_replay", {"replay"}, {"required"}},
+    {"missing_file", {"replay", "OUT"}, {"OUT"}},
+    {"a_folder", {"replay", "/"}, {"/"}},
+    {"not_json", {"replay", "FILE"}, {"FILE"}, "{\"query\": "},
+    {"empty_file", {"replay", "FILE"}, {"FILE"}, ""},
+    {"an_array", {"replay", "FILE"}, {"FILE"}, "[1, 2]"},
+    {"no_query", {"replay", "FILE"}, {"FILE", "query"}, "{\"scalar\": \"double\"}"},
+    {"case_of_an_unknown_query", {"replay", "FILE"}, {"FILE", "juggling"}, case_text("[0, 0, 0]", "1", "juggling")},
+    {"case_with_nan", {"replay", "FILE"}, {"FILE"}, case_text("[NaN, 0, 0]", "1")},
+    {"case_with_nan_in_words", {"replay", "FILE"}, {"FILE", "sphere.center"}, case_text("[\"NaN\", 0, 0]", "1")},
+    {"case_beyond_double", {"replay", "FILE"}, {"FILE"}, case_text("[1e999, 0, 0]", "1")},
+    {"case_with_a_negative_radius", {"replay", "FILE"}, {"FILE", "sphere.radius", "-1"}, case_text("[0, 0, 0]", "-1")},
+    {"case_with_two_coordinates", {"replay", "FILE"}, {"FILE", "sphere.center"}, case_text("[0, 0]", "1")},
+    {"case_that_float_cannot_hold",
+     {"replay", "FILE"},
+     {"FILE", "0.1"},
+     case_text("[0.1, 0, 0]", "1", "sphere_box_penetration", "float")},
+    {"second_file_is_malformed", {"replay", "CASE", "FILE"}, {"FILE"}, "{}"},
+    {"unknown_format", {"import", "bullet", "FILE", "--out", "OUT"}, {"bullet", "nyu-ccd"}},
+    {"missing_benchmark", {"import", "nyu-ccd", "OUT"}, {"OUT"}},
+    {"malformed_benchmark", {"import", "nyu-ccd", "FILE", "--out", "OUT"}, {"FILE", "1"}, "1,2,3\n"},
+    {"unwritable_cases", {"import", "nyu-ccd", "FILE", "--out", "/dev/null/x"}, {"/dev/null/x"}},
+    {"unknown_shell", {"completion", "zsh"}, {"zsh", "bash"}},
+    {"unknown_names", {"list", "--names", "cats"}, {"--names", "cats"}},
+    {"unknown_help", {"help", "rum"}, {"rum", "run"}},
+};
+
+class BadCommandLine : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadCommandLine, SaysWhyInOneLineAndWritesNothing) {
+  const Bad& bad = GetParam();
+  const TemporaryFolder folder;
+  const std::string file = folder.file("input", bad.text), good = folder.file("good.json", case_text("[0, 0, 0]", "1"));
+  const auto filled = [&](std::string word) {
+    return word == "OUT" ? (folder / "out").string() : word == "FILE" ? file : word == "CASE" ? good : word;
+  };
+  std::vector<std::string> arguments;
+  for (const std::string& a : bad.arguments) arguments.push_back(filled(a));
+  const Ran ran = nearmiss(arguments, {"NEARMISS_RUNS=" + (folder / "runs").string()});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_EQ(ran.err.find("nearmiss: "), 0u) << ran.err;
+  for (const std::string& part : bad.says) EXPECT_NE(ran.err.find(filled(part)), std::string::npos) << ran.err;
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    const fs::path name = entry.path().filename();
+    const bool empty_folder = entry.is_directory() && fs::is_empty(entry.path());  // import makes it before it reads
+    if (name != "input" && name != "good.json" && !empty_folder) left.push_back(name.string());
+  }
+  EXPECT_TRUE(left.empty()) << left[0];
+}
+
+INSTANTIATE_TEST_SUITE_P(Cli, BadCommandLine, testing::ValuesIn(bad_command_lines),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Cli, SaysWhyASubjectCannotBeRunOnAQuery) {
+  for (const Subject& s : subjects()) {
+    for (const Query& q : catalogue()) {
+      if (s.offering(q.name).answer != nullptr) continue;
+      const Ran ran = nearmiss({"run", "--subject", s.name, "--query", std::string(q.name), "--out", "/dev/null/x"});
+      EXPECT_EQ(ran.exit_code, 2);
+      EXPECT_NE(ran.err.find(s.offering(q.name).how), std::string::npos) << ran.err;
+      return;
+    }
+  }
+  GTEST_SKIP() << "every subject of this build offers every query";
+}
+
+TEST(Cli, SaysWhenItsOutputCannotBeWritten) {
+  const Ran ran = run_program("sh", {"-c", std::string(NEARMISS_PROGRAM) + " list > /dev/full"});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");
+}
+
+}  // namespace
+}  // namespace nearmiss

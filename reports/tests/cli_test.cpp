@@ -1,0 +1,360 @@
+/// The command line does what its manual says.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "corpus/codec.hpp"
+#include "corpus/store.hpp"
+#include "impl/subject/subject.hpp"
+#include "reports/properties.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json index_of(const fs::path& run) { return json::parse(read_file(run / "index.json")); }
+
+/// A subject and a query for which violations are easy to find.
+bool has_fcl() { return find_subject("fcl") != nullptr; }
+
+TEST(List, PrintsTheAgreedJson) {
+  const Ran ran = nearmiss({"list", "--json"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const json queries = json::parse(ran.out).at("queries");
+  ASSERT_EQ(queries.size(), catalogue().size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Query& q = catalogue()[i];
+    const json& j = queries[i];
+    EXPECT_EQ(j.at("query"), q.name);
+    EXPECT_EQ(j.at("kind"), name_of(q.kind));
+    EXPECT_EQ(j.at("fuzz_target"), "fuzz_" + std::string(q.name));
+    EXPECT_EQ(j.at("seeds"), count_seeds(q));
+    EXPECT_FALSE(j.at("properties").empty());
+    ASSERT_EQ(j.at("subjects").size(), subjects().size());
+    for (const Subject& s : subjects()) {
+      EXPECT_EQ(j.at("subjects").at(s.name), name_of(s.offering(q.name).offer));
+      EXPECT_EQ(j.at("referees").contains(s.name), s.referee);
+    }
+  }
+}
+
+TEST(List, ShowsEveryQueryAndSubject) {
+  const Ran table = nearmiss({"list"}), why = nearmiss({"list", "--why"});
+  for (const Query& q : catalogue()) {
+    EXPECT_NE(table.out.find(q.name), std::string::npos);
+    EXPECT_NE(why.out.find(q.name), std::string::npos);
+  }
+  for (const Subject& s : subjects()) EXPECT_NE(table.out.find(s.name), std::string::npos);
+  EXPECT_NE(why.out.find("not offered"), std::string::npos);
+}
+
+/// "SUITE.TEST" of each test that properties/ has for the query.
+std::map<std::string, std::set<std::string>> tests_by_query() {
+  const Ran ran = run_program(NEARMISS_PROPERTIES_PROGRAM, {"--gtest_list_tests"});
+  std::map<std::string, std::set<std::string>> tests;
+  std::istringstream lines(ran.out);
+  std::string suite;
+  for (std::string line; std::getline(lines, line);) {
+    line = line.substr(0, line.find("  #"));
+    if (!line.starts_with("  ")) {
+      suite = line.substr(line.find('/') + 1);  // "Every/Codec."
+      continue;
+    }
+    const std::size_t slash = line.find('/');
+    if (slash == std::string::npos) continue;
+    const std::string test = line.substr(2, slash - 2), parameter = line.substr(slash + 1);
+    for (const Query& q : catalogue()) {
+      const std::string name(q.name);
+      if (parameter == name || parameter.starts_with(name + "__")) tests[name].insert(suite + test);
+    }
+  }
+  return tests;
+}
+
+/// The independent derivations are written for some queries; nothing makes them run for a new one.
+bool written_by_query(const std::string& test) { return test.starts_with("OracleOnLattice."); }
+
+TEST(List, NamesThePropertiesThatRunForEveryQuery) {
+  const auto tests = tests_by_query();
+  ASSERT_EQ(tests.size(), catalogue().size());
+  std::set<std::string> everywhere = tests.begin()->second;
+  for (const auto& [query, own] : tests) {
+    std::erase_if(everywhere, [&](const std::string& t) { return !own.contains(t) || written_by_query(t); });
+  }
+  for (const Query& q : catalogue()) {
+    const std::vector<std::string> listed = properties_of(q);
+    EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), everywhere)
+        << "reports/properties.cpp lists other tests than properties/ has";
+  }
+}
+
+TEST(Run, IsTheSameForTheSameSeed) {
+  const TemporaryFolder folder;
+  std::vector<json> tallies;
+  for (const char* name : {"a", "b"}) {
+    const Ran ran = nearmiss({"run", "--cases", "300", "--seed", "7", "--out", (folder / name).string()});
+    ASSERT_NE(ran.exit_code, 2) << ran.err;
+    tallies.push_back(index_of(folder / name).at("tallies"));
+  }
+  EXPECT_EQ(tallies[0], tallies[1]);
+}
+
+TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
+  const TemporaryFolder folder;
+  const Ran ran =
+      nearmiss({"run", "--cases", "700", "--seed", "18446744073709551615", "--out", (folder / "r").string()});
+  ASSERT_NE(ran.exit_code, 2) << ran.err;
+  const json index = index_of(folder / "r");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["state"], "finished");
+  EXPECT_EQ(index["seed"], 18446744073709551615u);
+  EXPECT_EQ(index["tallies"].size() + index["not_offered"].size(), catalogue().size() * subjects().size());
+  for (const json& t : index["tallies"]) {
+    EXPECT_EQ(t["cases"], 700u);
+    std::uint64_t sum = 0;
+    for (const auto& v : t["verdicts"].items()) sum += v.value().get<std::uint64_t>();
+    EXPECT_EQ(sum, 700u);
+  }
+  EXPECT_EQ(index["summary"].get<std::string>().substr(0, 10), last_line(ran.out).substr(0, 10));
+}
+
+TEST(Run, TakesOnlyWhatWasChosen) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-q", "bounce_direction", "-n",
+                            "100", "--out", (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  EXPECT_EQ(index_of(folder / "r")["tallies"].size(), 2u);
+}
+
+TEST(Run, StopsWhenTheTimeIsOver) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "--seconds", "0.5", "--out", (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  const json index = index_of(folder / "r");
+  for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0) << t["query"] << ": every query gets its turn";
+}
+
+TEST(Run, PutsNewFoldersBelowTheNamedOne) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-n", "10", "--seed", "5"},
+                           {"NEARMISS_RUNS=" + (folder / "runs").string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  std::vector<fs::path> made;
+  for (const auto& e : fs::directory_iterator(folder / "runs")) made.push_back(e.path());
+  ASSERT_EQ(made.size(), 1u);
+  EXPECT_TRUE(made[0].string().ends_with("Z-5")) << made[0];
+}
+
+/// Starts a long run, interrupts it when its first index is there, and waits for it.
+TEST(Run, StopsCleanlyWhenInterrupted) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "r").string();
+  const std::string script = "'" NEARMISS_PROGRAM "' run -s collide-fast-double --seconds 100 --out '" + out +
+                             "' & run=$!; " + "while [ ! -e '" + out + "/index.json' ]; do sleep 0.05; done; " +
+                             "kill -TERM $run; wait $run";
+  const Ran ran = run_program("bash", {"-c", script});
+  EXPECT_EQ(ran.exit_code, 2) << ran.out << ran.err;
+  const json index = index_of(folder / "r");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["state"], "interrupted");
+  EXPECT_TRUE(last_line(ran.out).starts_with("interrupted: ")) << ran.out;
+}
+
+TEST(Run, ReportsTheTunnellingOfFcl) {
+  if (!has_fcl()) GTEST_SKIP() << "FCL is not part of this build";
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss(
+      {"run", "-s", "fcl", "-q", "moving_sphere_box", "-n", "3000", "--seed", "1", "--out", (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const json index = index_of(folder / "r");
+  ASSERT_GT(index["tallies"][0]["disagreements"]["false miss"]["violations"], 0);
+  std::set<std::string> files;
+  for (const json& listed : index["reports"]) {
+    const fs::path file = folder / "r" / listed["file"].get<std::string>();
+    const json report = json::parse(read_file(file));
+    EXPECT_EQ(complaints(report, "report.schema.json"), "") << file;
+    EXPECT_EQ(report["id"], listed["id"]);
+    EXPECT_EQ(report["finding"]["verdict"], "violates contract");
+    files.insert(file.filename().string());
+    const Ran again = nearmiss({"replay", "-s", "fcl", file.string(), "--json"});
+    EXPECT_EQ(again.exit_code, 1);
+    const json replayed = json::parse(again.out);
+    ASSERT_EQ(replayed.size(), 1u);
+    EXPECT_EQ(replayed[0]["id"], report["id"]);
+    EXPECT_EQ(replayed[0]["finding"], report["finding"]);
+  }
+  for (const auto& f : fs::directory_iterator(folder / "r" / "findings" / "moving_sphere_box")) {
+    EXPECT_TRUE(files.contains(f.path().filename().string())) << f.path();
+  }
+}
+
+TEST(Run, TellsProgressOnStandardErrorOnly) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "-n", "200", "--out", (folder / "r").string()});
+  EXPECT_EQ(ran.out.find('\r'), std::string::npos);
+  EXPECT_EQ(ran.err, "") << "short work says nothing";
+}
+
+TEST(Replay, ShowsInputsTruthAndEverySubject) {
+  const StoredCase seed = stored_cases(*find_query("moving_sphere_box")).front();
+  const Ran ran = nearmiss({"replay", seed.file.string()});
+  EXPECT_NE(ran.exit_code, 2) << ran.err;
+  for (const char* part : {"moving_sphere_box", "Inputs", "sphere.center", "Truth: ", "SUBJECT", "VERDICT"}) {
+    EXPECT_NE(ran.out.find(part), std::string::npos) << ran.out;
+  }
+  for (const Subject& s : subjects()) EXPECT_NE(ran.out.find(s.name), std::string::npos) << ran.out;
+}
+
+TEST(Replay, JudgesEveryStoredCase) {
+  for (const Query& q : catalogue()) {
+    std::vector<std::string> arguments{"replay", "--json"};
+    for (const StoredCase& s : stored_cases(q)) arguments.push_back(s.file.string());
+    const Ran ran = nearmiss(arguments);
+    ASSERT_NE(ran.exit_code, 2) << ran.err;
+    for (const json& report : json::parse(ran.out)) EXPECT_EQ(complaints(report, "report.schema.json"), "");
+  }
+}
+
+TEST(Import, ComparesTheShippedSample) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"import", "nyu-ccd", (corpus_folder() / "nyu-ccd" / "sample.csv").string(), "--out",
+                            (folder / "cases").string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  EXPECT_NE(last_line(ran.out).find("contradicts the truth column on 0"), std::string::npos) << ran.out;
+  std::size_t cases = 0;
+  for (const auto& e : fs::directory_iterator(folder / "cases")) {
+    EXPECT_EQ(read_case(e.path()).query->name, "moving_point_triangle");
+    ++cases;
+  }
+  EXPECT_GT(cases, 0u);
+}
+
+/// The sample with every truth turned around.
+TEST(Import, ListsWhatContradictsTheTruthColumn) {
+  std::string text = read_file(corpus_folder() / "nyu-ccd" / "sample.csv");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at) text[at - 1] ^= 1;
+  const TemporaryFolder folder;
+  const std::string file = folder.file("turned.csv", text);
+  const Ran ran = nearmiss({"import", "nyu-ccd", file});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  EXPECT_NE(ran.out.find("The oracle contradicts the truth column:\n  " + file + ":1: "), std::string::npos) << ran.out;
+}
+
+/// Like libFuzzer, as far as the command line can tell: it leaves a case file, an artifact and statistics.
+std::string fuzz_target(const StoredCase& c, const std::string& artifact) {
+  return "#!/bin/sh\n"
+         "cp '" +
+         c.file.string() +
+         "' \"$NEARMISS_FUZZ_REPORTS/found.json\"\n"
+         "for a in \"$@\"; do case $a in -artifact_prefix=*) cp '" +
+         artifact +
+         "' \"${a#*=}crash-1\";; esac; done\n"
+         "ls \"$1\" >&2\n"
+         "echo 'stat::number_of_executed_units: 1234'\n"
+         "exit 0\n" +
+         std::string("\0max_total_time\0", 16);
+}
+
+TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
+  const TemporaryFolder folder;
+  const StoredCase seed = stored_cases(*find_query("moving_sphere_box")).front();
+  const std::vector<std::uint8_t> bytes = case_to_bytes(seed.question);
+  const std::string artifact = folder.file("artifact", std::string(bytes.begin(), bytes.end()));
+  fs::create_directory(folder / "targets");
+  const fs::path target = folder.file("targets/fuzz_moving_sphere_box", fuzz_target(seed, artifact));
+  fs::permissions(target, fs::perms::owner_all);
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.1", "--seed", "3", "--fuzz-targets",
+                            (folder / "targets").string(), "--out", (folder / "r").string()});
+  ASSERT_NE(ran.exit_code, 2) << ran.err;
+  const json index = index_of(folder / "r");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["state"], "finished");
+  EXPECT_GT(index["stored"]["cases"], 0);
+  EXPECT_EQ(index["stored"]["unexpected"], json::array());
+  EXPECT_EQ(index["fuzz"]["state"], "ran") << index["fuzz"];
+  ASSERT_EQ(index["fuzz"]["targets"].size(), 1u);
+  EXPECT_EQ(index["fuzz"]["targets"][0]["executions"], 1234u);
+  EXPECT_EQ(index["fuzz"]["missing"].size(), catalogue().size() - 1);
+  EXPECT_EQ(index["fuzz"]["left"]["examined"], 2u);
+  const std::string log = read_file(folder / "r" / "fuzz" / "moving_sphere_box.log");
+  EXPECT_NE(log.find("seed-" + seed.file.stem().string()), std::string::npos) << log;
+  for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0);
+}
+
+TEST(Nightly, SaysThatFuzzTargetsAreNotBuilt) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "targets");
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.02", "--fuzz-targets", (folder / "targets").string(), "--out",
+                            (folder / "r").string()});
+  ASSERT_NE(ran.exit_code, 2) << ran.err;
+  EXPECT_TRUE(last_line(ran.out).ends_with("fuzzing: not built")) << ran.out;
+  const json index = index_of(folder / "r");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["fuzz"]["state"], "not built");
+}
+
+TEST(RunSchema, RejectsBrokenDocuments) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(nearmiss({"run", "-s", "collide-fast-double", "-n", "10", "--out", (folder / "r").string()}).exit_code, 0);
+  const json good = index_of(folder / "r");
+  ASSERT_EQ(complaints(good, "run.schema.json"), "");
+  for (const auto& member : good.items()) {
+    json broken = good;
+    broken.erase(member.key());
+    EXPECT_NE(complaints(broken, "run.schema.json"), "") << "without " << member.key();
+    broken = good;
+    broken[member.key()] = json::array({1.5});
+    EXPECT_NE(complaints(broken, "run.schema.json"), "") << member.key() << " an array";
+  }
+}
+
+TEST(Help, IsAManualForEveryCommand) {
+  const Ran overview = nearmiss({"help"});
+  EXPECT_EQ(overview.exit_code, 0);
+  EXPECT_EQ(nearmiss({"--help"}).out, overview.out);
+  for (const char* command : {"list", "run", "nightly", "replay", "import", "completion"}) {
+    EXPECT_NE(overview.out.find(std::string("\n    ") + command + " "), std::string::npos);
+    const Ran page = nearmiss({"help", command});
+    EXPECT_EQ(page.exit_code, 0);
+    for (const char* part :
+         {"NAME\n", "\nSYNOPSIS\n", "\nDESCRIPTION\n", "\nOPTIONS\n", "\nEXIT STATUS\n", "\nEXAMPLES\n"}) {
+      EXPECT_NE(page.out.find(part), std::string::npos) << command << part;
+    }
+    EXPECT_EQ(nearmiss({command, "--help"}).out, page.out);
+  }
+}
+
+TEST(Version, IsTold) {
+  const Ran ran = nearmiss({"--version"});
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_TRUE(ran.out.starts_with("nearmiss ")) << ran.out;
+}
+
+/// What bash offers at the end of `words`.
+std::string completions(const std::string& words) {
+  const std::string script = "source <('" NEARMISS_PROGRAM "' completion bash); COMP_WORDS=('" NEARMISS_PROGRAM "' " +
+                             words +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _nearmiss; printf '%s ' \"${COMPREPLY[@]}\"";
+  const Ran ran = run_program("bash", {"-c", script});
+  EXPECT_EQ(ran.err, "");
+  return ran.out;
+}
+
+TEST(Completion, KnowsCommandsOptionsAndNames) {
+  EXPECT_EQ(completions("rep"), "replay ");
+  EXPECT_EQ(completions("run --sec"), "--seconds ");
+  EXPECT_EQ(completions("run --query moving_sphere_b"), "moving_sphere_box ");
+  EXPECT_EQ(completions("replay --subject collide-fast-d"), "collide-fast-double ");
+  EXPECT_EQ(completions("help nig"), "nightly ");
+  EXPECT_EQ(completions("import ny"), "nyu-ccd ");
+}
+
+}  // namespace
+}  // namespace nearmiss
