@@ -36,34 +36,6 @@ Enclosure at_rung(const Case& c, const Answer& about, int k) {
   return c.query->oracle.interval(c.values, widening(*c.query, c.values, c.scalar, rung(k)), about, c.scalar);
 }
 
-/// "" when `outer` excludes nothing that `inner` allows: what the judge's search of the ladder rests on.
-std::string excluded(const Enclosure& inner, const Enclosure& outer) {
-  if (inner.may_be_yes && !outer.may_be_yes) return "may_be_yes is lost";
-  if (inner.may_be_no && !outer.may_be_no) return "may_be_no is lost";
-  if (inner.may_match && !outer.may_match) return "may_match is lost";
-  return {};
-}
-
-TEST_P(Oracles, ExcludeNoMoreWhenTheInputIsWidened) {
-  const Query& query = *GetParam().query;
-  const auto shrinking = [&](std::uint64_t stream) -> std::string {
-    for (Scalar scalar : scalars) {
-      const Case c = generate(query, scalar, stream, 0);
-      for (const Answer& about : answers_about(c)) {
-        Enclosure before = at_rung(c, about, 0);
-        for (int k = 1; k < rungs; ++k) {
-          const Enclosure now = at_rung(c, about, k);
-          const std::string lost = excluded(before, now);
-          if (!lost.empty()) return fmt::format("from rung {} to {}: {}\n{}", k - 1, k, lost, case_to_json(c).dump(2));
-          before = now;
-        }
-      }
-    }
-    return {};
-  };
-  EXPECT_TRUE(holds_for_streams("a wider input excludes nothing that a narrower one allows", shrinking));
-}
-
 /// Both enclose the same number, so they share at least one.
 bool share(const Bounds& a, const Bounds& b) { return a.low <= b.high && b.low <= a.high; }
 
@@ -81,22 +53,46 @@ std::string contradiction(const Query& query, const Enclosure& interval, const E
   return {};
 }
 
-TEST_P(Oracles, DecideExactlyWhatTheIntervalLeavesOpen) {
+/// Every input within a widening has its answers in the enclosure, the given input too: whatever a rung
+/// excludes, the exact stage must exclude.
+TEST_P(Oracles, ExcludeOnNoRungWhatTheExactStageFinds) {
   const Query& query = *GetParam().query;
   const auto contradicted = [&](std::uint64_t stream) -> std::string {
     for (Scalar scalar : scalars) {
-      for (std::uint64_t i = 0; i < 4; ++i) {
-        const Case c = generate(query, scalar, stream, i);
-        for (const Answer& about : answers_about(c)) {
-          const std::string what =
-              contradiction(query, at_rung(c, about, 0), query.oracle.exact(c.values, about, scalar, nullptr));
-          if (!what.empty()) return what + '\n' + case_to_json(c).dump(2);
+      const Case c = generate(query, scalar, stream, 0);
+      for (const Answer& about : answers_about(c)) {
+        const Enclosure exact = query.oracle.exact(c.values, about, scalar, nullptr);
+        for (int k = 0; k < rungs; ++k) {
+          const std::string what = contradiction(query, at_rung(c, about, k), exact);
+          if (!what.empty()) return fmt::format("rung {}: {}\n{}", k, what, case_to_json(c).dump(2));
         }
       }
     }
     return {};
   };
-  EXPECT_TRUE(holds_for_streams("the exact stage decides within what the interval leaves open", contradicted));
+  EXPECT_TRUE(holds_for_streams("the exact stage decides within what every rung leaves open", contradicted));
+}
+
+/// True when the rung after excludes something that this rung allows.
+bool excludes_more(const Enclosure& now, const Enclosure& next) {
+  return now.may_be_yes > next.may_be_yes || now.may_be_no > next.may_be_no || now.may_match > next.may_match;
+}
+
+/// Each rung is a proof of its own, so the judge is right even where a wider input happens to have the
+/// tighter enclosure. Its search for the highest rung finds that one only if this is rare.
+TEST_P(Oracles, ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases) {
+  const Query& query = *GetParam().query;
+  constexpr int cases = 400;
+  int strange = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const Case c = generate(query, scalars[i % 2], 1, i);
+    bool more = false;
+    for (const Answer& about : answers_about(c)) {
+      for (int k = 0; k + 1 < rungs; ++k) more = more || excludes_more(at_rung(c, about, k), at_rung(c, about, k + 1));
+    }
+    strange += more;
+  }
+  EXPECT_LT(strange, cases / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Oracles, testing::ValuesIn(every_query()), testing::PrintToStringParamName());

@@ -46,8 +46,8 @@ std::string_view name_of(RunState s) {
 std::string_view noun_of(Disagreement d) {
   switch (d) {
     case Disagreement::none: return "other violation";
-    case Disagreement::not_finite: return "number that is not finite";
-    case Disagreement::not_unit: return "normal that is not unit";
+    case Disagreement::not_finite: return "non-finite number";
+    case Disagreement::not_unit: return "non-unit normal";
     default: return nearmiss::name_of(d);
   }
 }

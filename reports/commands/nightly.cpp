@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
@@ -67,19 +68,38 @@ Json outcome_json(const FuzzOutcome& o) {
           {"failed", o.failed}};
 }
 
-/// Each target for the same time; at least a second, so the last ones may have none left.
-Json run_targets(Run& run, const FuzzTargets& found, Clock::time_point until) {
-  Json ran = Json::array();
-  for (std::size_t i = 0; i < found.targets.size(); ++i) {
-    const double left = seconds_until(until);
-    if (left < 1 || run.should_stop()) break;
-    const FuzzTarget& target = found.targets[i];
-    run.doing(fmt::format("fuzzing {}", target.query->name));
-    const double share = left / double(found.targets.size() - i);
-    ran.push_back(outcome_json(fuzz(target, {run.settings().folder, unsigned(std::max(1.0, share)), [&] { run.tick(); },
-                                             [&] { return run.should_stop(); }})));
+/// What came of the fuzz targets.
+struct Fuzzing {
+  std::vector<FuzzOutcome> ran;
+  std::vector<std::string> no_time;  ///< queries whose target's turn did not come
+
+  std::size_t failed() const {
+    return std::size_t(std::count_if(ran.begin(), ran.end(), [](const FuzzOutcome& o) { return o.failed; }));
   }
-  return ran;
+  std::uint64_t executions() const {
+    return std::accumulate(ran.begin(), ran.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const FuzzOutcome& o) { return sum + o.executions; });
+  }
+};
+
+/// Each target for the same time; at least a second, so the last ones may have none left. The seed says
+/// which is the first, so that it is not always the same ones that have none.
+Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point until) {
+  std::rotate(targets.begin(), targets.begin() + std::ptrdiff_t(run.settings().seed % targets.size()), targets.end());
+  Fuzzing all;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const std::string query(targets[i].query->name);
+    const double left = seconds_until(until);
+    if (left < 1 || run.should_stop()) {
+      all.no_time.push_back(query);
+      continue;
+    }
+    run.doing(fmt::format("fuzzing {}", query));
+    const double share = left / double(targets.size() - i);
+    all.ran.push_back(fuzz(targets[i], {run.settings().folder, unsigned(std::max(1.0, share)), [&] { run.tick(); },
+                                        [&] { return run.should_stop(); }}));
+  }
+  return all;
 }
 
 /// The case in a file that a fuzz target left: JSON, or an artifact of libFuzzer in its query's folder.
@@ -125,7 +145,7 @@ class NightlyCommand : public Command {
          "stored about it. Then new cases are generated for all queries and subjects. In the last third of the "
          "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
          "everything else. Where the fuzz targets are not built, the summary and the index say so, and the "
-         "generated cases get their time.",
+         "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1.",
          "The run folder is that of 'nearmiss run', with corpus/QUERY/ for what the fuzz targets learned and "
          "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
         judging_exit_status(),
@@ -162,10 +182,11 @@ class NightlyCommand : public Command {
     run.doing("generated cases");
     run.generate(std::nullopt);
     run.set_until(end);
-    const std::string fuzzing = fuzz_all(run, found, end);
+    bool failed = false;
+    const std::string fuzzing = fuzz_all(run, found, end, failed);
     run.finish();
     fmt::print("\n{}\n{}{}; fuzzing: {}\n", run.table(), run.worst_findings(), run.summary(), fuzzing);
-    return run.exit_code();
+    return failed ? 1 : run.exit_code();
   }
 
  private:
@@ -179,27 +200,26 @@ class NightlyCommand : public Command {
     return fmt::format("{} of {} fuzz targets in {}", found.targets.size(), found.targets.size() + found.missing.size(),
                        found.where);
   }
-  /// Returns what the summary says.
-  static std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end) {
+  /// Notes all in the index. A target that ended with an error makes `failed` true; returns what the
+  /// summary says.
+  static std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end, bool& failed) {
+    Json note{{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}};
     if (found.targets.empty()) {
-      run.note(
-          "fuzz",
-          {{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}});
+      run.note("fuzz", note);
       return "not built";
     }
-    const Json ran = run_targets(run, found, between(Clock::now(), end, 1 - judging_share));
-    const Json examined = ran.empty() ? Json(nullptr) : examine_fuzzed(run);
-    run.note("fuzz", {{"state", ran.empty() ? "no time" : "ran"},
-                      {"where", found.where},
-                      {"missing", found.missing},
-                      {"targets", ran},
-                      {"left", examined}});
-    if (ran.empty()) return "no time was left";
-    std::uint64_t executions = 0;
-    for (const Json& t : ran) executions += t["executions"].get<std::uint64_t>();
-    return fmt::format("{} of {} targets, {} executions, {} case files", ran.size(),
-                       found.targets.size() + found.missing.size(), count_text(executions),
-                       count_text(examined["files"].get<std::uint64_t>()));
+    const Fuzzing all = run_targets(run, found.targets, between(Clock::now(), end, 1 - judging_share));
+    for (const FuzzOutcome& o : all.ran) note["targets"].push_back(outcome_json(o));
+    note["no_time"] = all.no_time;
+    note["state"] = all.ran.empty() ? "no time" : "ran";
+    if (!all.ran.empty()) note["left"] = examine_fuzzed(run);
+    run.note("fuzz", note);
+    if (all.ran.empty()) return "no time was left";
+    failed = all.failed() > 0;
+    return fmt::format("{} of {} targets, {}, {}{}", all.ran.size(), found.targets.size() + found.missing.size(),
+                       plural_text(all.executions(), "execution"),
+                       plural_text(note["left"]["files"].get<std::uint64_t>(), "case file"),
+                       failed ? fmt::format(", {} ended with an error, see fuzz/*.log", all.failed()) : "");
   }
 
   std::optional<double> minutes_;

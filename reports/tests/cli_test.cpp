@@ -288,6 +288,22 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0);
 }
 
+TEST(Nightly, FailsWithATargetThatEndsWithAnError) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "targets");
+  const std::string query(catalogue().front().name);
+  const fs::path target =
+      folder.file("targets/fuzz_" + query, "#!/bin/sh\nexit 77\n" + std::string("\0max_total_time\0", 16));
+  fs::permissions(target, fs::perms::owner_all);
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.1", "--fuzz-targets", (folder / "targets").string(), "--out",
+                            (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const json index = index_of(folder / "r");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "exit code 77");
+  EXPECT_NE(last_line(ran.out).find("1 ended with an error"), std::string::npos) << ran.out;
+}
+
 TEST(Nightly, SaysThatFuzzTargetsAreNotBuilt) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "targets");

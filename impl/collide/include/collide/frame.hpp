@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -40,6 +41,19 @@ Vec3<T> out_of_frame(const Axes<T>& axes, const std::array<T, 3>& local) noexcep
 template <class T>
 std::array<T, 3> components(const Vec3<T>& v) noexcept {
   return {v.x, v.y, v.z};
+}
+
+/// The length of a vector; squares that underflow do not make it zero.
+template <class T>
+T length(const std::array<T, 3>& v) noexcept {
+  using std::abs, std::sqrt;
+  constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+  const T length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (!(length2 < least)) return sqrt(length2);
+  const T largest = std::max({abs(v[0]), abs(v[1]), abs(v[2])});
+  if (largest == T(0)) return largest;
+  const T x = v[0] / largest, y = v[1] / largest, z = v[2] / largest;
+  return largest * sqrt(x * x + y * y + z * z);
 }
 
 /// How far a coordinate lies beyond [-half, half]: signed, zero within, NaN where either is.

@@ -128,23 +128,21 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
   const auto contact = [&](T time, int face) -> Impact<T> {
     if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
     std::array<T, 3> nearest, away{};
-    T length2(0);
     for (int i = 0; i < 3; ++i) {
       nearest[i] = std::clamp(path.at[i], -half[i], half[i]);
       away[i] = path.at[i] - nearest[i];
-      length2 += away[i] * away[i];
     }
-    if (!(length2 > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
+    T distance = length(away);
+    if (!(distance > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
       const NearestFace<T> at_face = nearest_face(path.at, half);
       const int axis = face >= 0 ? face : at_face.axis;
       const T side = face >= 0 ? (path.step[axis] > T(0) ? T(-1) : T(1)) : at_face.side;
       away = {};
       away[axis] = side;
       nearest[axis] = side * half[axis];
-      length2 = T(1);
+      distance = T(1);
     }
-    const T length = sqrt(length2);
-    for (T& component : away) component /= length;
+    for (T& component : away) component /= distance;
     return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, away)};
   };
 

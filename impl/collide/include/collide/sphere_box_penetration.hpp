@@ -20,18 +20,12 @@ namespace collide {
 /// 2. moving the sphere by -depth * normal makes them touch
 template <class Tier = Fast, class T>
 Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) noexcept {
-  using std::sqrt;
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);
   const std::array<T, 3> local = into_frame<Tier>(axes, sphere.center - box.center);
   std::array<T, 3> away;
-  T distance2(0);
-  for (int i = 0; i < 3; ++i) {
-    away[i] = excess(local[i], half[i]);
-    distance2 += away[i] * away[i];
-  }
-  if (!(distance2 <= T(0))) {
-    const T distance = sqrt(distance2);
+  for (int i = 0; i < 3; ++i) away[i] = excess(local[i], half[i]);
+  if (const T distance = length(away); !(distance <= T(0))) {
     const T depth = sphere.radius - distance;
     if (!(depth >= T(0))) return {depth};
     std::array<T, 3> nearest;
