@@ -120,6 +120,35 @@ TEST_P(Generator, MutatesIntoAnotherValidCase) {
 
 INSTANTIATE_TEST_SUITE_P(Every, Generator, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
+/// A query that the catalogue does not have: a rule between two positions, as of a box by its corners.
+const Query& corners_query() {
+  static const Query made_up = [] {
+    Query q{"corners", Kind::decision, {}, {}, nullptr, {}};
+    for (const char* name : {"box.min.x", "box.min.y", "box.min.z", "box.max.x", "box.max.y", "box.max.z"}) {
+      q.inputs.push_back({name, Role::position});
+    }
+    q.broken = [](std::span<const double> v) -> std::optional<Invalid> {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (v[i] > v[i + 3]) return Invalid{"box.min", v[i], "at most max"};
+      }
+      return std::nullopt;
+    };
+    return q;
+  }();
+  return made_up;
+}
+
+TEST(GeneratorOfAnyQuery, TriesAgainUntilTheRulesHold) {
+  for (Scalar scalar : scalars) {
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+      Case c = generate(corners_query(), scalar, 1, i);
+      ASSERT_FALSE(corners_query().broken(c.values)) << "case " << i;
+      mutate(c, i);
+      ASSERT_FALSE(corners_query().broken(c.values)) << "case " << i << ", mutated";
+    }
+  }
+}
+
 TEST(Moves, AreNamedOnceAndKnownByTheirNames) {
   std::set<std::string_view> names;
   for (const MoveName& m : move_names()) {
