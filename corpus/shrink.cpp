@@ -29,8 +29,9 @@ long cost(const Case& c) {
   return 4 * sum + long(distinct.size());
 }
 
-/// Simpler numbers than x, the simplest first.
-std::vector<double> simpler(double x, Scalar scalar) {
+/// Simpler numbers than x, the simplest first. They have no more bits than x and an exponent nearer to 0,
+/// so they are exact in every scalar in which x is.
+std::vector<double> simpler(double x) {
   std::vector<double> all{0, 1, -1, 2, -2, 3, std::trunc(x), std::round(x), std::abs(x)};
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
@@ -39,7 +40,7 @@ std::vector<double> simpler(double x, Scalar scalar) {
     all.push_back(std::ldexp(std::trunc(std::ldexp(fraction, bits)), exponent - bits));
   }
   for (int nearer : {0, exponent / 2, exponent - 1, exponent + 1}) all.push_back(std::ldexp(fraction, nearer));
-  std::erase_if(all, [&](double y) { return !std::isfinite(y) || !representable(y, scalar) || cost(y) >= cost(x); });
+  std::erase_if(all, [&](double y) { return !std::isfinite(y) || cost(y) >= cost(x); });
   std::stable_sort(all.begin(), all.end(), [](double a, double b) { return cost(a) < cost(b); });
   return all;
 }
@@ -83,7 +84,7 @@ class Shrinker {
     return accept(values);
   }
   void simplify(std::size_t i) {
-    for (double x : simpler(best_.values[i], best_.scalar)) {
+    for (double x : simpler(best_.values[i])) {
       if (accept(i, x)) return;
     }
   }
