@@ -71,7 +71,7 @@ struct moving_point_sphere {
   /// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
   /// location 2 eps of 4 G.
   static constexpr Contract contract(Fast) {
-    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
   }
 };
 }  // namespace inputs

@@ -132,18 +132,16 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
       nearest[i] = std::clamp(path.at[i], -half[i], half[i]);
       away[i] = path.at[i] - nearest[i];
     }
-    T distance = length(away);
-    if (!(distance > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
+    if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
       const NearestFace<T> at_face = nearest_face(path.at, half);
       const int axis = face >= 0 ? face : at_face.axis;
       const T side = face >= 0 ? (path.step[axis] > T(0) ? T(-1) : T(1)) : at_face.side;
       away = {};
       away[axis] = side;
       nearest[axis] = side * half[axis];
-      distance = T(1);
     }
-    for (T& component : away) component /= distance;
-    return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, away)};
+    const Vec3<T> outward = unit<Tier>(Vec3<T>{away[0], away[1], away[2]});
+    return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, components(outward))};
   };
 
   T distance2(0), closing(0);
@@ -216,7 +214,7 @@ struct moving_sphere_box {
   /// most 4 G; the walk to the contact and the way back to the world add as much as 12 eps of 4 G. Unit:
   /// the axes are combined by a unit vector.
   static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+    return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
   }
 };
 }  // namespace inputs
