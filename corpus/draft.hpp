@@ -65,6 +65,7 @@ struct Plan {
   std::vector<VectorField> vectors;
   std::vector<std::size_t> rotations;  ///< where each quaternion x, y, z, w begins
   std::vector<std::size_t> sizes;      ///< each number
+  std::vector<std::size_t> upper;      ///< each number of an axis-aligned box's upper corner
   std::vector<std::size_t> lone;       ///< numbers of no vector, size or rotation: times, flags, indices
   std::vector<Thing> things;           ///< those with a position, in order
   std::vector<std::size_t> positions, velocities, directions, movable;  ///< into vectors; movable: all three
@@ -115,7 +116,7 @@ class Draft {
     const std::size_t second = (first + 1 + random.below(list.size() - 1)) % list.size();
     return {list[first], list[second]};
   }
-  /// Directions and rotations that became zero get one number back.
+  /// Directions and rotations that became zero get one number back; corners of a box change places.
   void repair();
 
  private:

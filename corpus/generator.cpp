@@ -111,6 +111,7 @@ Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
         thing.sizes.push_back(k);
       }
     } else if (n == 3 && is_movable(role)) {
+      if (role == Role::position && fields[i].name.ends_with(".max.x")) upper.insert(upper.end(), {i, i + 1, i + 2});
       const std::size_t v = vectors.size();
       vectors.push_back({i, role});
       movable.push_back(v);
@@ -147,6 +148,10 @@ void Draft::repair() {
   }
   for (std::size_t begin : plan.rotations) {
     if (all_zero(begin, 4)) set(begin + 3, 1);
+  }
+  for (std::size_t i : plan.upper) {  // an axis-aligned box: its lower corner are the three numbers before
+    const double lower = values_[i - 3], upper = values_[i];
+    if (upper < lower) set(i - 3, upper), set(i, lower);
   }
 }
 

@@ -108,11 +108,19 @@ double draw_index(Draft& d) {
   return double(d.random.below(choices));
 }
 
-double draw_lone(Draft& d, Role role) {
-  switch (role) {
+/// Of a plane, whose normal are the three numbers before: it passes near a position of the scene.
+double draw_offset(Draft& d, std::size_t i) {
+  Numbers near = d.random_vector(2 * d.unit);
+  if (!d.plan.positions.empty()) near = plus(near, d.vector(d.random.pick(d.plan.positions)));
+  return -(d[i - 3] * near[0] + d[i - 2] * near[1] + d[i - 1] * near[2]);
+}
+
+double draw_lone(Draft& d, std::size_t i) {
+  switch (d.plan.query->inputs[i].role) {
     case Role::flag: return double(d.random.below(2));
     case Role::index: return draw_index(d);
     case Role::time: return d.random.uniform(0, 2);
+    case Role::offset: return draw_offset(d, i);
     default: return d.unit * d.random.uniform(-4, 4);
   }
 }
@@ -125,7 +133,7 @@ void draw_scene(Draft& d) {
   for (std::size_t v : d.plan.velocities) aim(d, v, placed);
   for (std::size_t v : d.plan.directions) d.set_vector(v, d.random.one_in(2) ? draw_direction(d) : d.random_vector(2));
   for (std::size_t begin : d.plan.rotations) draw_rotation(d, begin);
-  for (std::size_t i : d.plan.lone) d.set(i, draw_lone(d, d.plan.query->inputs[i].role));
+  for (std::size_t i : d.plan.lone) d.set(i, draw_lone(d, i));
   d.repair();
 }
 

@@ -71,6 +71,7 @@ std::string_view name_of(Kind kind) {
     case Kind::points: return "points";
     case Kind::depth: return "depth";
     case Kind::direction: return "direction";
+    case Kind::measure: return "measure";
   }
   return "?";
 }
@@ -84,6 +85,7 @@ std::string_view name_of(Role role) {
     case Role::direction: return "direction";
     case Role::rotation: return "rotation";
     case Role::time: return "time";
+    case Role::offset: return "offset";
     case Role::normal: return "normal";
     case Role::depth: return "depth";
     case Role::weight: return "weight";

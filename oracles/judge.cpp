@@ -17,7 +17,8 @@ bool moves(Role role) {
     case Role::size:
     case Role::direction:
     case Role::rotation:
-    case Role::time: return true;
+    case Role::time:
+    case Role::offset: return true;
     default: return false;
   }
 }
@@ -114,16 +115,20 @@ Disagreement disagreement_of(const Query& query, const Answer& answer, bool deci
     case Role::depth: return Disagreement::wrong_depth;
     case Role::normal: return Disagreement::wrong_normal;
     case Role::position: return Disagreement::wrong_place;
+    case Role::flag: return Disagreement::wrong_flag;
+    case Role::index: return Disagreement::wrong_index;
+    case Role::weight: return query.kind == Kind::direction ? Disagreement::wrong_direction : Disagreement::wrong_weight;
     default: return Disagreement::wrong_direction;
   }
 }
 
 /// The first given number that is not finite, if any; a miss has an infinite time by definition.
 int not_finite(const Query& query, const Answer& answer) {
-  if (query.kind == Kind::impact && !answer.yes) {
-    return std::isnan(answer.values[0]) || answer.values[0] < 0 ? 0 : -1;
-  }
+  const bool miss = query.kind == Kind::impact && !answer.yes;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (miss && query.outputs[i].role == Role::time) {  // what follows the time belongs to a hit
+      return std::isnan(answer.values[i]) || answer.values[i] < 0 ? int(i) : -1;
+    }
     if (answer.gives(i) && !std::isfinite(answer.values[i])) return int(i);
   }
   return -1;
@@ -266,6 +271,9 @@ std::string_view name_of(Disagreement d) {
     case Disagreement::wrong_normal: return "wrong normal";
     case Disagreement::wrong_depth: return "wrong depth";
     case Disagreement::wrong_direction: return "wrong direction";
+    case Disagreement::wrong_weight: return "wrong weight";
+    case Disagreement::wrong_flag: return "wrong flag";
+    case Disagreement::wrong_index: return "wrong index";
     case Disagreement::not_finite: return "not finite";
     case Disagreement::not_unit: return "not unit";
   }

@@ -31,6 +31,9 @@ enum class Disagreement {
   wrong_normal,
   wrong_depth,
   wrong_direction,
+  wrong_weight,  ///< barycentric weights, cosines
+  wrong_flag,    ///< a yes or no beside the decision
+  wrong_index,   ///< an edge, an axis
   not_finite,  ///< NaN or infinity in a given number
   not_unit,    ///< a normal whose length is not 1
 };

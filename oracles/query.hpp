@@ -19,6 +19,8 @@ using collide::Kind;
 using collide::Role;
 
 std::string_view name_of(Kind kind);
+/// True where an answer of the kind is yes or no; otherwise it is always yes.
+constexpr bool decides(Kind kind) { return kind == Kind::decision || kind == Kind::impact || kind == Kind::depth; }
 std::string_view name_of(Role role);
 
 /// One number of an input or an answer.

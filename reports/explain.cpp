@@ -79,7 +79,6 @@ std::string member_text(const Query& query, std::size_t output, const std::funct
   return parts.size() == 1 ? parts[0] : fmt::format("({})", fmt::join(parts, ", "));
 }
 
-bool kind_decides(Kind kind) { return kind == Kind::decision || kind == Kind::impact || kind == Kind::depth; }
 
 /// The sentences of one report.
 class Explanation {
@@ -145,7 +144,7 @@ class Explanation {
   }
   std::string decision() const {
     const Answer& a = r_.answer;
-    if (!kind_decides(query_.kind))
+    if (!decides(query_.kind))
       return worst_member() + " is " + member_text(query_, worst(), [&](auto i) { return given(i); });
     const int measure = index_of(query_.outputs, query_.kind == Kind::depth ? Role::depth : Role::time);
     const bool measured = measure >= 0 && is_part(query_, a, std::size_t(measure));
@@ -258,7 +257,7 @@ std::string truth_text(const Query& query, const Truth& truth) {
   const auto number = [&](std::size_t i) {
     return right != nullptr && i < right->count ? bounds_text(right->values[i]) : std::string("?");
   };
-  if (!kind_decides(query.kind)) {
+  if (!decides(query.kind)) {
     return top_member(query.outputs[0].name) + " is " + member_text(query, 0, number);
   }
   const Phrases p = phrases(query);

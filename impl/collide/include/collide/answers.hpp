@@ -1,6 +1,7 @@
 /// What the queries return: a small closed set of kinds, each one plain struct.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,7 +10,14 @@
 namespace collide {
 
 /// The kinds of answer. Judging depends on the kind, never on the query.
-enum class Kind { decision, impact, points, depth, direction };
+enum class Kind {
+  decision,   ///< yes or no, perhaps with what explains a yes
+  impact,     ///< a time of contact or a miss
+  points,     ///< points that always exist
+  depth,      ///< an overlap or a separation
+  direction,  ///< a vector that always exists
+  measure,    ///< other numbers that always exist
+};
 
 /// Yes or no. Touching is yes.
 template <class T>
@@ -18,7 +26,65 @@ struct Decision {
   bool answer = false;
 
   bool yes() const noexcept { return answer; }
+  static constexpr auto decision() { return &Decision::answer; }
   static constexpr auto members() { return std::tuple<>(); }
+};
+
+/// Whether a point lies in a triangle, seen along an axis.
+template <class T>
+struct Containment {
+  static constexpr Kind kind = Kind::decision;
+  bool inside = false;
+  Vec3<T> weights{};  ///< x, y, z are the weights of v0, v1, v2; their sum is 1; zero outside
+
+  bool yes() const noexcept { return inside; }
+  static constexpr auto decision() { return &Containment::inside; }
+  static constexpr auto members() {
+    return std::tuple(member("weights", &Containment::weights, Role::weight));
+  }
+};
+
+/// Whether a ray meets a solid, and where.
+template <class T>
+struct RayHit {
+  static constexpr Kind kind = Kind::decision;
+  bool hit = false;
+  bool inside = false;   ///< the ray starts in the solid
+  Vec3<T> location{};    ///< where the ray enters, its origin for a start inside; zero for a miss
+
+  bool yes() const noexcept { return hit; }
+  static constexpr auto decision() { return &RayHit::hit; }
+  static constexpr auto members() {
+    return std::tuple(member("inside", &RayHit::inside, Role::flag),
+                      member("location", &RayHit::location, Role::position));
+  }
+};
+
+/// Whether two boxes overlap, and what keeps them apart.
+template <class T>
+struct BoxOverlap {
+  static constexpr Kind kind = Kind::decision;
+  bool overlap = false;
+  int axis = -1;  ///< an axis 0..14 that separates them, the hint for the next time; -1 where they overlap
+
+  bool yes() const noexcept { return overlap; }
+  static constexpr auto decision() { return &BoxOverlap::overlap; }
+  static constexpr auto members() { return std::tuple(member("axis", &BoxOverlap::axis, Role::index)); }
+};
+
+/// Which axes of two boxes are parallel.
+template <class T>
+struct ParallelAxes {
+  static constexpr Kind kind = Kind::decision;
+  bool parallel = false;
+  int axis1 = -1, axis2 = -1;  ///< 0..2, of box 1 and of box 2; -1 where none are
+
+  bool yes() const noexcept { return parallel; }
+  static constexpr auto decision() { return &ParallelAxes::parallel; }
+  static constexpr auto members() {
+    return std::tuple(member("axis1", &ParallelAxes::axis1, Role::index),
+                      member("axis2", &ParallelAxes::axis2, Role::index));
+  }
 };
 
 /// The first contact of a moving thing with a fixed one.
@@ -38,6 +104,44 @@ struct Impact {
   }
 };
 
+/// The first contact of a moving thing with a triangle.
+template <class T>
+struct TriangleImpact {
+  static constexpr Kind kind = Kind::impact;
+  T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
+  Vec3<T> location{};                           ///< contact on the triangle; zero for a miss
+  Vec3<T> normal{};                             ///< unit, from the triangle to the moving thing; zero for a miss
+  Vec3<T> weights{};                            ///< location = x v0 + y v1 + z v2, x + y + z = 1; zero for a miss
+
+  static constexpr TriangleImpact miss() noexcept { return {}; }
+  bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
+  static constexpr auto members() {
+    return std::tuple(member("time", &TriangleImpact::time, Role::time),
+                      member("location", &TriangleImpact::location, Role::position),
+                      member("normal", &TriangleImpact::normal, Role::normal),
+                      member("weights", &TriangleImpact::weights, Role::weight));
+  }
+};
+
+/// The first contact of a moving point with a solid that it must enter from outside.
+template <class T>
+struct Entry {
+  static constexpr Kind kind = Kind::impact;
+  bool inside = false;                          ///< starts in the solid: a miss
+  Vec3<T> location{};                           ///< where it enters; the start, for a start inside; else zero
+  T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
+  Vec3<T> normal{};                             ///< unit, outward; zero for a miss
+
+  static constexpr Entry miss() noexcept { return {}; }
+  bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
+  static constexpr auto members() {
+    return std::tuple(member("inside", &Entry::inside, Role::flag),
+                      member("location", &Entry::location, Role::position),
+                      member("time", &Entry::time, Role::time),
+                      member("normal", &Entry::normal, Role::normal));
+  }
+};
+
 /// One point of the fixed object, nearest to the given one.
 template <class T>
 struct ClosestPoint {
@@ -47,6 +151,34 @@ struct ClosestPoint {
   static bool yes() noexcept { return true; }
   static constexpr auto members() {
     return std::tuple(member("point", &ClosestPoint::point, Role::position));
+  }
+};
+
+/// The point of a triangle's perimeter nearest to the given one, and the edge that it lies on.
+template <class T>
+struct EdgePoint {
+  static constexpr Kind kind = Kind::points;
+  Vec3<T> point{};
+  int edge = 0;  ///< edge i runs from v[i] to v[(i + 1) % 3]
+
+  static bool yes() noexcept { return true; }
+  static constexpr auto members() {
+    return std::tuple(member("point", &EdgePoint::point, Role::position),
+                      member("edge", &EdgePoint::edge, Role::index));
+  }
+};
+
+/// The nearest points of two fixed objects.
+template <class T>
+struct ClosestPoints {
+  static constexpr Kind kind = Kind::points;
+  Vec3<T> point1{};  ///< of the first
+  Vec3<T> point2{};  ///< of the second
+
+  static bool yes() noexcept { return true; }
+  static constexpr auto members() {
+    return std::tuple(member("point1", &ClosestPoints::point1, Role::position),
+                      member("point2", &ClosestPoints::point2, Role::position));
   }
 };
 
@@ -63,6 +195,85 @@ struct Penetration {
     return std::tuple(member("depth", &Penetration::depth, Role::depth),
                       member("normal", &Penetration::normal, Role::normal),
                       member("contact", &Penetration::contact, Role::position));
+  }
+};
+
+/// How deep two boxes overlap, or how far they are apart, along one of fifteen axes.
+template <class T>
+struct BoxPenetration {
+  static constexpr Kind kind = Kind::depth;
+  T depth{};          ///< length; 0 when touching; apart: minus the separation along `axis`
+  int axis = 0;       ///< 0..14, along which depth is measured; the hint for the next time
+  Vec3<T> normal{};   ///< unit, from box 1 into box 2; zero when apart
+  Vec3<T> contact{};  ///< zero when apart
+
+  bool yes() const noexcept { return depth >= T(0); }
+  static constexpr auto members() {
+    return std::tuple(member("depth", &BoxPenetration::depth, Role::depth),
+                      member("axis", &BoxPenetration::axis, Role::index),
+                      member("normal", &BoxPenetration::normal, Role::normal),
+                      member("contact", &BoxPenetration::contact, Role::position));
+  }
+};
+
+/// A corner of a box that may lie behind a plane.
+template <class T>
+struct Corner {
+  T behind{};       ///< 1: on the plane or behind it, a contact; 0: in front
+  Vec3<T> point{};  ///< zero in front
+
+  static constexpr auto members() {
+    return std::tuple(member("behind", &Corner::behind, Role::flag),
+                      member("point", &Corner::point, Role::position));
+  }
+};
+
+/// How deep a box reaches behind a plane, with every corner that does.
+template <class T>
+struct CornerContacts {
+  static constexpr Kind kind = Kind::depth;
+  T depth{};         ///< of the deepest corner; 0 when touching, negative when apart
+  Vec3<T> normal{};  ///< unit, the plane's; zero when apart
+  /// Corner i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k.
+  std::array<Corner<T>, 8> corners{};
+
+  bool yes() const noexcept { return depth >= T(0); }
+  static constexpr auto members() {
+    return std::tuple(member("depth", &CornerContacts::depth, Role::depth),
+                      member("normal", &CornerContacts::normal, Role::normal),
+                      member("corners", &CornerContacts::corners));
+  }
+};
+
+/// A number that always exists.
+template <class T>
+struct Measure {
+  static constexpr Kind kind = Kind::measure;
+  T value{};
+
+  static bool yes() noexcept { return true; }
+  static constexpr auto members() { return std::tuple(member("value", &Measure::value, Role::depth)); }
+};
+
+/// What the tools for pairs of boxes share: computed once for a pair.
+template <class T>
+struct BoxBoxInfo {
+  static constexpr Kind kind = Kind::measure;
+  Vec3<T> half1{}, half2{};               ///< half extents: from each center to a corner, in its own frame
+  Vec3<T> between{};                      ///< center 2 - center 1
+  std::array<Vec3<T>, 3> cosine{};        ///< cosine[i].x, .y, .z: axis i of box 1 . axis 0, 1, 2 of box 2
+  std::array<Vec3<T>, 3> abs_cosine{};    ///< their absolute values
+  Vec3<T> between1{}, between2{};         ///< `between` along the axes of box 1, of box 2
+
+  static bool yes() noexcept { return true; }
+  static constexpr auto members() {
+    return std::tuple(member("half1", &BoxBoxInfo::half1, Role::position),
+                      member("half2", &BoxBoxInfo::half2, Role::position),
+                      member("between", &BoxBoxInfo::between, Role::position),
+                      member("cosine", &BoxBoxInfo::cosine, Role::weight),
+                      member("abs_cosine", &BoxBoxInfo::abs_cosine, Role::weight),
+                      member("between1", &BoxBoxInfo::between1, Role::position),
+                      member("between2", &BoxBoxInfo::between2, Role::position));
   }
 };
 

@@ -112,6 +112,9 @@ Separation<N> separation(const BoxPair<N>& p, int axis) noexcept {
 /// within its error bound is asked again in twice the precision instead of being believed or dropped.
 template <class Tier = Fast, class T>
 Decision<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint = -1) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return box_box_overlap<Fast>(a...); }, box1, box2, hint);
+  }
   // Each cosine is a polynomial of degree 4 in the quaternions; with its rotation it carries at most
   // 16 eps of |q1|^2 |q2|^2, each product and sum after it 1 eps: 32 eps of the largest terms.
   constexpr T error = 32 * (std::numeric_limits<T>::epsilon() / 2);

@@ -16,6 +16,9 @@ namespace collide {
 /// Units: lengths. Never fails. Source: orthogonal projection, clamped to the segment.
 template <class Tier = Fast, class T>
 ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return closest_point_segment<Fast>(a...); }, segment, point);
+  }
   const Vec3<T> along = segment.v1 - segment.v0;
   const T projection = Tier::dot(point - segment.v0, along);
   const T length2 = Tier::dot(along, along);

@@ -1,7 +1,6 @@
 /// The frame of a box: its axes in world coordinates.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -47,21 +46,23 @@ std::array<T, 3> components(const Vec3<T>& v) noexcept {
 template <class T>
 T length(const std::array<T, 3>& v) noexcept {
   using std::abs, std::sqrt;
-  constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
   const T length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  if (!(length2 < least)) return sqrt(length2);
-  const T largest = std::max({abs(v[0]), abs(v[1]), abs(v[2])});
-  if (largest == T(0)) return largest;
-  const T x = v[0] / largest, y = v[1] / largest, z = v[2] / largest;
-  return largest * sqrt(x * x + y * y + z * z);
+  if constexpr (MachineNumber<T>) {
+    constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+    if (length2 < least) {
+      const T largest = larger(larger(abs(v[0]), abs(v[1])), abs(v[2]));
+      if (largest == T(0)) return largest;
+      const T x = v[0] / largest, y = v[1] / largest, z = v[2] / largest;
+      return largest * sqrt(x * x + y * y + z * z);
+    }
+  }
+  return sqrt(length2);
 }
 
 /// How far a coordinate lies beyond [-half, half]: signed, zero within, NaN where either is.
 template <class T>
 T excess(T coordinate, T half) noexcept {
-  if (!(coordinate <= half)) return coordinate - half;
-  if (!(coordinate >= -half)) return coordinate + half;
-  return T(0);
+  return larger(coordinate - half, T(0)) + smaller(coordinate + half, T(0));
 }
 
 /// The face of a box nearest to a point inside it.

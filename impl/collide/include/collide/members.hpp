@@ -14,8 +14,8 @@
 
 namespace collide {
 
-/// What a number stands for. Positions, velocities, sizes, directions and times of an input are also
-/// the groups within which a perturbation is measured (docs/semantics.md, "Backward error").
+/// What a number stands for. Positions, velocities, sizes, directions, rotations, times and
+/// offsets of an input are also the groups within which a perturbation is measured (docs/semantics.md, "Backward error").
 enum class Role {
   inherited,  ///< the role of the enclosing member
   position,   ///< length, from the origin
@@ -24,6 +24,7 @@ enum class Role {
   direction,  ///< any length, not zero
   rotation,   ///< a quaternion x, y, z, w of any length, not zero
   time,       ///< displacement = velocity * time
+  offset,     ///< of a plane: the length of its normal times a length, signed
   normal,     ///< a unit vector
   depth,      ///< length, negative when apart
   weight,     ///< dimensionless, barycentric

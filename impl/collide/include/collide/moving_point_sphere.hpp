@@ -23,6 +23,9 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                               bool solid) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return moving_point_sphere<Fast>(a...); }, point, velocity, sphere, solid);
+  }
   using std::sqrt;
   const auto outward = [](const Vec3<T>& from_center) {
     const Vec3<T> n = unit<Tier>(from_center);

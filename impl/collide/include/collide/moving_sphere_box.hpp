@@ -120,6 +120,9 @@ struct PointPastBox {
 /// time; its first root is found piece by piece (at most seven).
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return moving_sphere_box<Fast>(a...); }, sphere, velocity, box);
+  }
   using std::sqrt, std::abs;
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);
@@ -129,7 +132,7 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
     if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
     std::array<T, 3> nearest, away{};
     for (int i = 0; i < 3; ++i) {
-      nearest[i] = std::clamp(path.at[i], -half[i], half[i]);
+      nearest[i] = clamped(path.at[i], -half[i], half[i]);
       away[i] = path.at[i] - nearest[i];
     }
     if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or on the way to one face

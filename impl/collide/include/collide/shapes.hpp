@@ -25,6 +25,42 @@ struct Segment {
   }
 };
 
+/// The line through point along direction, a vector of any length but zero.
+template <class T>
+struct Line {
+  Vec3<T> point{};
+  Vec3<T> direction{T(0), T(0), T(1)};
+
+  static constexpr auto members() {
+    return std::tuple(member("point", &Line::point, Role::position),
+                      member("direction", &Line::direction, Role::direction));
+  }
+};
+
+/// The points origin + direction * t, t >= 0; direction is of any length but zero.
+template <class T>
+struct Ray {
+  Vec3<T> origin{};
+  Vec3<T> direction{T(0), T(0), T(1)};
+
+  static constexpr auto members() {
+    return std::tuple(member("origin", &Ray::origin, Role::position),
+                      member("direction", &Ray::direction, Role::direction));
+  }
+};
+
+/// { x : normal . x + offset = 0 }, normal of any length but zero; in front, normal . x + offset > 0.
+template <class T>
+struct Plane {
+  Vec3<T> normal{T(0), T(0), T(1)};
+  T offset{};
+
+  static constexpr auto members() {
+    return std::tuple(member("normal", &Plane::normal, Role::direction),
+                      member("offset", &Plane::offset, Role::offset));
+  }
+};
+
 /// The convex hull of three points, seen from the side to which (v1 - v0) x (v2 - v0) points.
 template <class T>
 struct Triangle {
@@ -34,6 +70,18 @@ struct Triangle {
     return std::tuple(member("v0", &Triangle::v0, Role::position),
                       member("v1", &Triangle::v1, Role::position),
                       member("v2", &Triangle::v2, Role::position));
+  }
+};
+
+/// The union of the triangles v0, v1, v2 and v0, v2, v3: a rectangle where the four are its corners in
+/// order. Its perimeter is the four segments v0 v1, v1 v2, v2 v3, v3 v0.
+template <class T>
+struct Rectangle {
+  Vec3<T> v0{}, v1{}, v2{}, v3{};
+
+  static constexpr auto members() {
+    return std::tuple(member("v0", &Rectangle::v0, Role::position), member("v1", &Rectangle::v1, Role::position),
+                      member("v2", &Rectangle::v2, Role::position), member("v3", &Rectangle::v3, Role::position));
   }
 };
 
@@ -49,6 +97,38 @@ struct Sphere {
   }
   std::optional<Broken> broken() const {
     if (radius < T(0)) return Broken{"radius", "not negative", double(radius)};
+    return std::nullopt;
+  }
+};
+
+/// All points within radius of the segment from p0 to p1; p0 == p1 is a sphere.
+template <class T>
+struct Capsule {
+  Vec3<T> p0{}, p1{};
+  T radius{};
+
+  static constexpr auto members() {
+    return std::tuple(member("p0", &Capsule::p0, Role::position), member("p1", &Capsule::p1, Role::position),
+                      member("radius", &Capsule::radius, Role::size));
+  }
+  std::optional<Broken> broken() const {
+    if (radius < T(0)) return Broken{"radius", "not negative", double(radius)};
+    return std::nullopt;
+  }
+};
+
+/// The axis-aligned box { x : min <= x <= max in each coordinate }.
+template <class T>
+struct AABox {
+  Vec3<T> min{}, max{};
+
+  static constexpr auto members() {
+    return std::tuple(member("min", &AABox::min, Role::position), member("max", &AABox::max, Role::position));
+  }
+  std::optional<Broken> broken() const {
+    if (max.x < min.x) return Broken{"max.x", "not below min.x", double(max.x)};
+    if (max.y < min.y) return Broken{"max.y", "not below min.y", double(max.y)};
+    if (max.z < min.z) return Broken{"max.z", "not below min.z", double(max.z)};
     return std::nullopt;
   }
 };

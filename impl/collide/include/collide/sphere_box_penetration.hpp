@@ -20,6 +20,9 @@ namespace collide {
 /// 2. moving the sphere by -depth * normal makes them touch
 template <class Tier = Fast, class T>
 Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return sphere_box_penetration<Fast>(a...); }, sphere, box);
+  }
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);
   const std::array<T, 3> local = into_frame<Tier>(axes, sphere.center - box.center);
@@ -29,7 +32,7 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
     const T depth = sphere.radius - distance;
     if (!(depth >= T(0))) return {depth};
     std::array<T, 3> nearest;
-    for (int i = 0; i < 3; ++i) nearest[i] = std::clamp(local[i], -half[i], half[i]);
+    for (int i = 0; i < 3; ++i) nearest[i] = clamped(local[i], -half[i], half[i]);
     const Vec3<T> inward = -unit<Tier>(Vec3<T>{away[0], away[1], away[2]});
     const Vec3<T> normal = out_of_frame(axes, components(inward));
     return {depth, normal, box.center + out_of_frame(axes, nearest)};
