@@ -20,12 +20,13 @@ struct Collide {
   }
   template <class Q>
   static collide::Contract contract() {
-    if constexpr (requires { Q::contract(Tier{}); }) return Q::contract(Tier{});
-    return {};
+    return Tier::template contract<T>(Q::contract(collide::Fast{}));
   }
 };
 
 using CollideFastFloat = Collide<collide::Fast, float>;
 using CollideFastDouble = Collide<collide::Fast, double>;
+using CollideAccurateFloat = Collide<collide::Accurate, float>;
+using CollideAccurateDouble = Collide<collide::Accurate, double>;
 
 }  // namespace nearmiss::adapters

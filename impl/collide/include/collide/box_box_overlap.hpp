@@ -38,12 +38,15 @@ std::array<std::array<N, 3>, 3> scaled_axes(const std::array<N, 4>& q) noexcept 
 template <class N, class T>
 BoxPair<N> pair_of(const Box<T>& box1, const Box<T>& box2) noexcept {
   const auto wide = [](const Quaternion<T>& q) {
+    if constexpr (!MachineNumber<T>) return std::array<N, 4>{q.x, q.y, q.z, q.w};
+    else {
     const T largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
     // A power of two, so that nothing is rounded; most quaternions are of moderate length already.
     const bool moderate = largest >= T(0.0625) && largest <= T(16);
     const bool usable = largest > T(0) && largest <= std::numeric_limits<T>::max();
     const T scale = moderate || !usable ? T(1) : std::ldexp(T(1), -std::ilogb(largest));
     return std::array<N, 4>{N(q.x * scale), N(q.y * scale), N(q.z * scale), N(q.w * scale)};
+    }
   };
   const std::array<N, 4> a = wide(box1.orientation), b = wide(box2.orientation);
   // conj(a) * b: the rotation of box 2 seen from box 1
@@ -115,6 +118,13 @@ Decision<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint = -
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](const auto&... a) { return box_box_overlap<Fast>(a...); }, box1, box2, hint);
   }
+  if constexpr (!MachineNumber<T>) {
+    const detail::BoxPair<T> pair = detail::pair_of<T>(box1, box2);
+    for (int axis = 0; axis < 15; ++axis) {
+      if (detail::separation(pair, axis).gap > T(0)) return {false};
+    }
+    return {true};
+  } else {
   // Each cosine is a polynomial of degree 4 in the quaternions; with its rotation it carries at most
   // 16 eps of |q1|^2 |q2|^2, each product and sum after it 1 eps: 32 eps of the largest terms.
   constexpr T error = 32 * (std::numeric_limits<T>::epsilon() / 2);
@@ -142,6 +152,7 @@ Decision<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint = -
     if ((unsure >> axis & 1u) != 0 && detail::separation(wide, axis).gap > bound) return {false};
   }
   return {true};
+  }
 }
 
 namespace inputs {

@@ -1,7 +1,9 @@
 /// A number as the unevaluated sum of two: about twice the precision of its scalar.
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace collide {
 
@@ -29,8 +31,14 @@ struct DoubleWord {
     const T b_part = s - a;
     return {s, (a - (s - b_part)) + (b - b_part)};
   }
-  /// Dekker's product: exact without a fused multiply-add, for |a|, |b| below 2^(emax - digits/2).
+  /// Exact: by a fused multiply-add where the machine has one, else Dekker's product, for |a|, |b| below 2^(emax - digits/2).
   static constexpr DoubleWord two_product(T a, T b) noexcept {
+#if defined(__FMA__)
+    if (!std::is_constant_evaluated()) {
+      const T product = a * b;
+      return {product, std::fma(a, b, -product)};
+    }
+#endif
     constexpr T splitter = T(1LL << ((std::numeric_limits<T>::digits + 1) / 2)) + T(1);
     const T ca = splitter * a, cb = splitter * b;
     const T ah = ca - (ca - a), bh = cb - (cb - b);
@@ -50,6 +58,25 @@ struct DoubleWord {
     const DoubleWord p = two_product(a.high, b.high);
     return fast_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
   }
+  /// Two steps of long division; the relative error is below 2^7 u^2: two digits of quotient of 53 bits each,
+  /// the rest of the first known to 8 u^2 |a|, that of the second dropped.
+  friend constexpr DoubleWord operator/(const DoubleWord& a, const DoubleWord& b) noexcept {
+    const T first = a.high / b.high;
+    const DoubleWord rest = a - b * DoubleWord(first);
+    return fast_two_sum(first, rest.high / b.high);
+  }
+  /// One step of Newton's iteration from the root of the high part: relative error below 2^7 u^2.
+  friend DoubleWord sqrt(const DoubleWord& a) noexcept {
+    if (!(a.high > T(0))) return {std::sqrt(a.high), T(0)};
+    const T first = std::sqrt(a.high);
+    const DoubleWord rest = a - two_product(first, first);
+    return fast_two_sum(first, rest.high / (T(2) * first));
+  }
+  friend constexpr bool operator==(const DoubleWord& a, const DoubleWord& b) noexcept {
+    return a.high == b.high && a.low == b.low;
+  }
+  friend constexpr bool operator<=(const DoubleWord& a, const DoubleWord& b) noexcept { return !(b < a); }
+  friend constexpr bool operator>=(const DoubleWord& a, const DoubleWord& b) noexcept { return !(a < b); }
   friend constexpr bool operator>(const DoubleWord& a, const DoubleWord& b) noexcept {
     return a.high > b.high || (a.high == b.high && a.low > b.low);
   }

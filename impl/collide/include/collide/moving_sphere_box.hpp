@@ -43,14 +43,12 @@ struct PointPastBox {
     Crossing next;
     for (int i = 0; i < 3; ++i) {
       if (step[i] == T(0)) continue;
-      const T toward = step[i] > T(0) ? T(1) : T(-1);
-      for (const T plane : {-toward * half[i], toward * half[i]}) {
-        const T distance = (plane - at[i]) * toward;
-        if (!(distance > T(0))) continue;
-        const T time = distance / (step[i] * toward);
-        if (time < next.time) next = {i, plane, time};
-        break;
-      }
+      const bool up = step[i] > T(0);
+      const T near = up ? -half[i] : half[i];
+      const T plane = (up ? near > at[i] : near < at[i]) ? near : -near;
+      if (!(up ? plane > at[i] : plane < at[i])) continue;
+      const T time = (plane - at[i]) / step[i];
+      if (time < next.time) next = {i, plane, time};
     }
     return next;
   }
@@ -130,10 +128,10 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
                                      into_frame<Tier>(axes, velocity), half};
   const auto contact = [&](T time, int face) -> Impact<T> {
     if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-    std::array<T, 3> nearest, away{};
+    std::array<T, 3> nearest, away;
     for (int i = 0; i < 3; ++i) {
       nearest[i] = clamped(path.at[i], -half[i], half[i]);
-      away[i] = path.at[i] - nearest[i];
+      away[i] = excess(path.at[i], half[i]);
     }
     if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
       const NearestFace<T> at_face = nearest_face(path.at, half);

@@ -12,6 +12,7 @@
 #include <limits>
 #include <utility>
 
+#include <collide/contract.hpp>
 #include <collide/number.hpp>
 #include <collide/vec3.hpp>
 
@@ -22,6 +23,12 @@ struct Fast {
   /// Whether the tier has a text with arguments of T computed in other numbers, by its `lift`.
   template <class T>
   static constexpr bool lifts = false;
+
+  /// What the tier promises of a query in T whose fast tier promises `fast`.
+  template <class T>
+  static constexpr Contract contract(const Contract& fast) {
+    return fast;
+  }
 
   template <class T>
   static constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) noexcept {
@@ -38,11 +45,28 @@ struct Fast {
   }
 };
 
+/// After rounding: a depth that became zero keeps its sign, for it decides.
+template <class A>
+void keep_apart(bool yes, A& answer) noexcept {
+  if constexpr (requires { answer.depth; }) {
+    if (!yes && answer.yes()) answer.depth = -std::numeric_limits<decltype(answer.depth)>::denorm_min();
+  }
+}
+
 /// Float: the text in double, its answer rounded once. Double: plain arithmetic with sums of products that
 /// cancel computed again in twice the precision.
 struct Accurate : Fast {
   template <class T>
   static constexpr bool lifts = std::same_as<T, float>;
+
+  /// In float, the text's own errors are those of the fast tier in double, 2^-29 of a float's: what
+  /// remains is the last rounding, and decisions on a knife's edge. No product of eight floats leaves the
+  /// range of double.
+  template <class T>
+  static constexpr Contract contract(const Contract& fast) {
+    if constexpr (lifts<T>) return {.backward = 1, .unit = 4};
+    return fast;
+  }
 
   /// Calls `text`, a query of the fast tier, with the arguments in double.
   template <class F, class... Args>
@@ -55,8 +79,9 @@ struct Accurate : Fast {
     const auto wide = text(widened(args)...);
     Rebound<std::remove_cvref_t<decltype(wide)>, float> answer{};
     convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
-    if constexpr (requires { answer.miss(); }) {  // a time beyond the largest finite float
-      if (wide.yes() && !answer.yes()) return decltype(answer)::miss();
+    keep_apart(wide.yes(), answer);
+    if constexpr (requires { answer.miss(); }) {
+      if (wide.yes() && wide.time > double(std::numeric_limits<float>::max())) return decltype(answer)::miss();
     }
     return answer;
   }

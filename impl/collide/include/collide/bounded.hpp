@@ -1,0 +1,221 @@
+/// Numbers that know how far they may be from the exact ones: the filters of the certified tier.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <collide/double_word.hpp>
+#include <collide/number.hpp>
+
+namespace collide {
+
+/// Set by a comparison that its operands' errors leave open, or by an operation whose error has no bound;
+/// everything computed since then may be wrong.
+struct Doubt {
+  static inline constinit thread_local bool any = false;
+};
+
+/// A double with a bound of its distance from the exact number. `Scalar` is the one whose largest finite
+/// number is the limit of times.
+///
+/// The bound of a result is that of the operation's own rounding, 2^-53 |result|, and what the operands'
+/// errors contribute, with magnitudes taken of the exact operands (|value| + error). So it holds, multiplied
+/// by u / 2^-53, for the same operations in any arithmetic with a unit roundoff u below 2^-53: by
+/// induction, each term of the sums below is linear in u or smaller. Bounds are sums of products of
+/// numbers that are not negative, each known to 2^-50; `slack` covers more than a million such steps.
+/// Operations that underflow or overflow have no bound: the caller looks at the flags of the machine.
+template <class Scalar>
+struct Bounded {
+  double value = 0, error = 0;
+
+  static constexpr double u = 0x1p-53, slack = 1 + 0x1p-30;
+
+  constexpr Bounded() = default;
+  constexpr Bounded(double v) noexcept : value(v) {}
+  constexpr explicit Bounded(float v) noexcept : value(v) {}
+  constexpr explicit Bounded(int v) noexcept : value(v) {}
+  constexpr Bounded(double v, double e) noexcept : value(v), error(e) {}
+
+  static double magnitude(double x) noexcept { return std::abs(x); }
+
+  friend Bounded operator-(const Bounded& a) noexcept { return {-a.value, a.error}; }
+  friend Bounded operator+(const Bounded& a, const Bounded& b) noexcept {
+    const double sum = a.value + b.value;
+    return {sum, (a.error + b.error) * (1 + 2 * u) + u * magnitude(sum)};
+  }
+  friend Bounded operator-(const Bounded& a, const Bounded& b) noexcept {
+    const double difference = a.value - b.value;
+    return {difference, (a.error + b.error) * (1 + 2 * u) + u * magnitude(difference)};
+  }
+  friend Bounded operator*(const Bounded& a, const Bounded& b) noexcept {
+    const double product = a.value * b.value;
+    return {product, (magnitude(a.value) + a.error) * b.error + (magnitude(b.value) + 2 * b.error) * a.error +
+                         u * magnitude(product)};
+  }
+  friend Bounded operator/(const Bounded& a, const Bounded& b) noexcept {
+    const double quotient = a.value / b.value;
+    const double least = magnitude(b.value) - 2 * b.error;
+    if (!(least > 0)) Doubt::any = true;
+    return {quotient, (a.error + magnitude(quotient) * b.error) / least * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
+  }
+  Bounded& operator+=(const Bounded& b) noexcept { return *this = *this + b; }
+  Bounded& operator-=(const Bounded& b) noexcept { return *this = *this - b; }
+  Bounded& operator*=(const Bounded& b) noexcept { return *this = *this * b; }
+
+  friend Bounded sqrt(const Bounded& a) noexcept {
+    const double root = std::sqrt(a.value);
+    if (a.error == 0) return {root, u * root};
+    if (!(a.value > 4 * a.error)) {
+      Doubt::any = true;
+      return {root, root};
+    }
+    return {root, a.error / root + 2 * u * root};
+  }
+  friend Bounded abs(const Bounded& a) noexcept { return {std::abs(a.value), a.error}; }
+
+  /// The sum of two errors within which a comparison is open; NaN where one is.
+  static double open(const Bounded& a, const Bounded& b) noexcept { return (a.error + b.error) * slack; }
+
+  friend bool operator<(const Bounded& a, const Bounded& b) noexcept {
+    const double within = open(a, b);
+    if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
+    return a.value < b.value;
+  }
+  friend bool operator>(const Bounded& a, const Bounded& b) noexcept { return b < a; }
+  friend bool operator<=(const Bounded& a, const Bounded& b) noexcept {
+    const double within = open(a, b);
+    if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
+    return a.value <= b.value;
+  }
+  friend bool operator>=(const Bounded& a, const Bounded& b) noexcept { return b <= a; }
+  friend bool operator==(const Bounded& a, const Bounded& b) noexcept {
+    const double within = open(a, b);
+    if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
+    return a.value == b.value;
+  }
+
+  /// Of two numbers whose order is open, either is within both errors of the larger.
+  friend Bounded larger(const Bounded& a, const Bounded& b) noexcept {
+    const double value = a.value < b.value ? b.value : a.value;
+    if (magnitude(b.value - a.value) > open(a, b)) return {value, a.value < b.value ? b.error : a.error};
+    return {value, std::max(a.error, b.error)};
+  }
+  friend Bounded smaller(const Bounded& a, const Bounded& b) noexcept { return -larger(-a, -b); }
+};
+
+/// The same with a value of twice the precision. It sees when an operation is exact, so that decisions
+/// on knife's edges made of few bits are certain.
+template <class Scalar>
+struct WideBounded {
+  using Value = DoubleWord<double>;
+  Value value{};
+  double error = 0;
+
+  static constexpr double u = 0x1p-53, slack = 1 + 0x1p-30;
+
+  constexpr WideBounded() = default;
+  constexpr WideBounded(double v) noexcept : value(v) {}
+  constexpr explicit WideBounded(float v) noexcept : value(double(v)) {}
+  constexpr explicit WideBounded(int v) noexcept : value(double(v)) {}
+  constexpr WideBounded(const Value& v, double e) noexcept : value(v), error(e) {}
+
+  static double magnitude(double x) noexcept { return std::abs(x); }
+
+  friend WideBounded operator-(const WideBounded& a) noexcept { return {-a.value, a.error}; }
+  friend WideBounded operator+(const WideBounded& a, const WideBounded& b) noexcept {
+    const Value high = Value::two_sum(a.value.high, b.value.high), low = Value::two_sum(a.value.low, b.value.low);
+    const Value rest = Value::two_sum(high.low, low.high);
+    const Value first = Value::two_sum(high.high, rest.high);
+    const Value second = Value::two_sum(first.low, rest.low);
+    const Value third = Value::two_sum(second.high, low.low);
+    const Value sum = Value::fast_two_sum(first.high, third.high);
+    return {sum, (a.error + b.error) + (magnitude(second.low) + magnitude(third.low))};
+  }
+  friend WideBounded operator-(const WideBounded& a, const WideBounded& b) noexcept { return a + -b; }
+  friend WideBounded operator*(const WideBounded& a, const WideBounded& b) noexcept {
+    const Value p = Value::two_product(a.value.high, b.value.high);
+    const double inherited = (magnitude(a.value.high) * (1 + 2 * u) + a.error) * b.error +
+                             (magnitude(b.value.high) * (1 + 2 * u) + b.error) * a.error;
+    if (a.value.low == 0 && b.value.low == 0) return {p, inherited};
+    const Value q = Value::two_product(a.value.high, b.value.low), r = Value::two_product(a.value.low, b.value.high);
+    // p.high + (p.low + q + r) and what is left out
+    const Value s = Value::two_sum(q.high, r.high), t = Value::two_sum(p.low, s.high);
+    const Value product = Value::fast_two_sum(p.high, t.high);
+    const double left = magnitude(t.low) + magnitude(s.low) + magnitude(q.low) + magnitude(r.low) +
+                        magnitude(a.value.low * b.value.low);
+    return {product, inherited + left};
+  }
+  friend WideBounded operator/(const WideBounded& a, const WideBounded& b) noexcept {
+    const double least = magnitude(b.value.high) * (1 - 2 * u) - b.error;
+    if (!(least > 0)) Doubt::any = true;
+    // Two steps of long division, and the exact rest of the second.
+    const double first = a.value.high / b.value.high;
+    const WideBounded rest = WideBounded(a.value, 0) - WideBounded(b.value, 0) * WideBounded(first);
+    const double second = rest.value.high / b.value.high;
+    const WideBounded last = rest - WideBounded(b.value, 0) * WideBounded(second);
+    const Value quotient = Value::fast_two_sum(first, second);
+    const double left = magnitude(last.value.high) * (1 + 2 * u) + last.error;
+    return {quotient, (left + a.error + (magnitude(quotient.high) * (1 + 4 * u)) * b.error) / least * (1 + 0x1p-40)};
+  }
+  WideBounded& operator+=(const WideBounded& b) noexcept { return *this = *this + b; }
+  WideBounded& operator-=(const WideBounded& b) noexcept { return *this = *this - b; }
+  WideBounded& operator*=(const WideBounded& b) noexcept { return *this = *this * b; }
+
+  friend WideBounded sqrt(const WideBounded& a) noexcept {
+    if (a.value.high == 0 && a.error == 0) return a;
+    if (!(a.value.high * (1 - 2 * u) > a.error)) {
+      Doubt::any = true;
+      return a;
+    }
+    const double first = std::sqrt(a.value.high);
+    const WideBounded rest = WideBounded(a.value, 0) - WideBounded(first) * WideBounded(first);
+    const double second = rest.value.high / (2 * first);
+    const Value root = Value::fast_two_sum(first, second);
+    // |a - root^2| / (sqrt(a) + root) is the distance from the exact root of the value.
+    const WideBounded last = WideBounded(a.value, 0) - WideBounded(root, 0) * WideBounded(root, 0);
+    const double left = magnitude(last.value.high) * (1 + 2 * u) + last.error;
+    return {root, (left + a.error) / (first * (1 - 0x1p-40)) * (1 + 0x1p-40)};
+  }
+  friend WideBounded abs(const WideBounded& a) noexcept { return a.value.high < 0 ? -a : a; }
+
+  /// -1, 0 or 1: how a compares with b; records a doubt where their errors leave it open.
+  static int order(const WideBounded& a, const WideBounded& b) noexcept {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (magnitude(a.value.high) == infinity || magnitude(b.value.high) == infinity) {
+      return a.value.high < b.value.high ? -1 : a.value.high > b.value.high ? 1 : 0;
+    }
+    const WideBounded apart = a - b;
+    const double d = apart.value.high;
+    if (!(magnitude(d) * (1 - 4 * u) > apart.error * slack) && apart.error != 0) Doubt::any = true;
+    return d < 0 ? -1 : d > 0 ? 1 : 0;
+  }
+  friend bool operator<(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) < 0; }
+  friend bool operator>(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) > 0; }
+  friend bool operator<=(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) <= 0; }
+  friend bool operator>=(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) >= 0; }
+  friend bool operator==(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) == 0; }
+
+  friend WideBounded larger(const WideBounded& a, const WideBounded& b) noexcept {
+    const bool doubt = Doubt::any;
+    Doubt::any = false;
+    WideBounded result = order(a, b) < 0 ? b : a;
+    if (Doubt::any) result.error = std::max(a.error, b.error);
+    Doubt::any = doubt;
+    return result;
+  }
+  friend WideBounded smaller(const WideBounded& a, const WideBounded& b) noexcept { return -larger(-a, -b); }
+};
+
+}  // namespace collide
+
+template <class Scalar>
+struct std::numeric_limits<collide::Bounded<Scalar>> : std::numeric_limits<double> {
+  static constexpr collide::Bounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr collide::Bounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
+};
+template <class Scalar>
+struct std::numeric_limits<collide::WideBounded<Scalar>> : std::numeric_limits<double> {
+  static constexpr collide::WideBounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr collide::WideBounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
+};

@@ -1,0 +1,277 @@
+/// The certified tier: every decision is the exact one, for all finite inputs, and every number lies within
+/// two units in the last place of the exact one. Needs MPFR and GMP (target collide::certified).
+///
+/// The text of a query is computed up to three times: in doubles with error bounds (bounded.hpp), in
+/// double-words with error bounds, in exact real numbers (real.hpp). A computation counts when no
+/// comparison was in doubt and each number of the answer is known well enough; the last one always is.
+#pragma once
+
+#if defined(__FAST_MATH__)
+#error "collide/certified.hpp: its error bounds do not hold under -ffast-math"
+#endif
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include <cfenv>
+#include <cstdint>
+
+#include <collide/bounded.hpp>
+#include <collide/contract.hpp>
+#include <collide/real.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// How many answers each stage gave.
+struct StageCounts {
+  std::uint64_t filter = 0;    ///< doubles with error bounds
+  std::uint64_t extended = 0;  ///< double-words with error bounds
+  std::uint64_t exact = 0;     ///< exact real numbers
+  std::uint64_t invalid = 0;   ///< an input that is not finite: answered by the fast tier
+};
+
+namespace detail {
+
+/// Whether any operation since the construction overflowed or underflowed: then the bounds mean nothing.
+class RangeFlags {
+ public:
+#if defined(__SSE2__)
+  RangeFlags() noexcept {
+    const unsigned state = _mm_getcsr();
+    if ((state & mask) != 0) _mm_setcsr(state & ~mask);
+  }
+  bool raised() const noexcept { return (_mm_getcsr() & mask) != 0; }
+
+ private:
+  static constexpr unsigned mask = 0x08 | 0x10;  // overflow, underflow
+#else
+  RangeFlags() noexcept { std::feclearexcept(FE_OVERFLOW | FE_UNDERFLOW); }
+  bool raised() const noexcept { return std::fetestexcept(FE_OVERFLOW | FE_UNDERFLOW) != 0; }
+#endif
+};
+
+/// The operations of a text in more digits, without bounds: those of Bounded hold for them too, times the
+/// ratio of the unit roundoffs. `M` is the machine's long double where that has 64 digits, or a double-word.
+template <class Scalar, class M>
+struct Longer {
+  M value{};
+
+  constexpr Longer() = default;
+  constexpr Longer(double v) noexcept : value(v) {}
+  constexpr explicit Longer(float v) noexcept : value(double(v)) {}
+  constexpr explicit Longer(int v) noexcept : value(double(v)) {}
+  static constexpr Longer of(const M& v) noexcept {
+    Longer x;
+    x.value = v;
+    return x;
+  }
+
+  friend Longer operator-(const Longer& a) noexcept { return of(-a.value); }
+  friend Longer operator+(const Longer& a, const Longer& b) noexcept { return of(a.value + b.value); }
+  friend Longer operator-(const Longer& a, const Longer& b) noexcept { return of(a.value - b.value); }
+  friend Longer operator*(const Longer& a, const Longer& b) noexcept { return of(a.value * b.value); }
+  friend Longer operator/(const Longer& a, const Longer& b) noexcept { return of(a.value / b.value); }
+  Longer& operator+=(const Longer& b) noexcept { return *this = *this + b; }
+  Longer& operator-=(const Longer& b) noexcept { return *this = *this - b; }
+  Longer& operator*=(const Longer& b) noexcept { return *this = *this * b; }
+  friend Longer sqrt(const Longer& a) noexcept {
+    using std::sqrt;
+    return of(sqrt(a.value));
+  }
+  friend Longer abs(const Longer& a) noexcept {
+    using std::abs;
+    return of(abs(a.value));
+  }
+  friend bool operator<(const Longer& a, const Longer& b) noexcept { return a.value < b.value; }
+  friend bool operator>(const Longer& a, const Longer& b) noexcept { return a.value > b.value; }
+  friend bool operator<=(const Longer& a, const Longer& b) noexcept { return a.value <= b.value; }
+  friend bool operator>=(const Longer& a, const Longer& b) noexcept { return a.value >= b.value; }
+  friend bool operator==(const Longer& a, const Longer& b) noexcept { return a.value == b.value; }
+  friend Longer larger(const Longer& a, const Longer& b) noexcept { return a.value < b.value ? b : a; }
+  friend Longer smaller(const Longer& a, const Longer& b) noexcept { return b.value < a.value ? b : a; }
+};
+
+inline constexpr bool has_long_double = std::numeric_limits<long double>::digits == 64;
+inline constexpr double long_double_ratio = 0x1p-11;  // 2^-64 against 2^-53
+inline constexpr double double_word_ratio = 0x1p-46;  // 2^-99 against 2^-53
+inline double rounded(long double x) { return double(x); }
+inline double rounded(const DoubleWord<double>& x) { return x.high; }
+
+template <class S>
+struct AnswerOver;
+template <template <class> class S, class T>
+struct AnswerOver<S<T>> {
+  using Scalar = T;
+  template <class N>
+  using with = S<N>;
+};
+
+/// The argument in numbers of type N.
+template <class N, class Argument>
+auto raised(const Argument& argument) {
+  Rebound<Argument, N> wide{};
+  convert(argument, wide, [](const auto& from, N& to) { to = N(double(from)); });
+  return wide;
+}
+
+/// A time beyond the largest finite scalar is a miss.
+template <class N, class A>
+void miss_beyond_range(A& answer) {
+  if constexpr (requires { A::miss(); answer.time; }) {
+    if (answer.time < std::numeric_limits<N>::infinity() && answer.time > std::numeric_limits<N>::max()) {
+      answer = A::miss();
+    }
+  }
+}
+
+/// Tells whether an answer has numbers that need to be known: not where they are all zero or infinite.
+template <class T>
+bool settled(double value, double error) {
+  return error == 0 && (double(T(value)) == value || std::isinf(value));
+}
+
+/// The largest distance that one number of a member may have from the exact one: half a unit in the last
+/// place of the member's largest number, which leaves another half for rounding.
+template <class T>
+double allowed(double largest) {
+  constexpr double least = std::numeric_limits<T>::min();
+  return std::max(largest, least) * (double(std::numeric_limits<T>::epsilon()) / 4);
+}
+
+/// Checks the members of an answer over Bounded or WideBounded: errors times `ratio` small enough for T.
+template <class T, class A>
+bool known(const A& answer, double ratio) {
+  bool all = true;
+  for_each_member(answer, [&](std::string_view, const auto& member, Role) {
+    double largest = 0, error = 0;
+    bool settled_all = true;
+    for_each_leaf(member, [&](const auto& leaf, Role) {
+      if constexpr (requires { leaf.error; }) {
+        const double value = [&] {
+          if constexpr (requires { leaf.value.high; }) return leaf.value.high;
+          else return leaf.value;
+        }();
+        settled_all = settled_all && settled<T>(value, leaf.error);
+        largest = std::max(largest, std::abs(value));
+        if (!(leaf.error <= error)) error = leaf.error;
+      }
+    });
+    if (!settled_all && !(error * ratio * (1 + 0x1p-20) <= allowed<T>(largest) )) all = false;
+  });
+  return all;
+}
+
+}  // namespace detail
+
+/// Every decision exact over all finite inputs, every number within two units in the last place of its
+/// scalar (of a vector: of its largest number). The machine must round to nearest.
+struct Certified : Fast {
+  template <class T>
+  static constexpr bool lifts = MachineNumber<T>;
+
+  /// The same for every query and scalar, without a bound of magnitudes.
+  template <class T>
+  static constexpr Contract contract(const Contract&) {
+    return {.forward = 2, .exact_decisions = true, .unit = 4};
+  }
+
+  /// How many answers each stage gave on this thread.
+  static StageCounts& counts() noexcept {
+    static constinit thread_local StageCounts all;
+    return all;
+  }
+
+  template <class F, class... Args>
+  static auto lift(F&& text, const Args&... args) noexcept {
+    using Answer = decltype(text(args...));
+    using T = typename detail::AnswerOver<Answer>::Scalar;
+    Answer answer{};
+    if (filtered<T>(answer, text, args...)) {
+      ++counts().filter;
+    } else if (extended<T>(answer, text, args...)) {
+      ++counts().extended;
+    } else {
+      exact<T>(answer, text, args...);
+    }
+    return answer;
+  }
+
+ private:
+  template <class T, class F, class... Args>
+  [[gnu::noinline]] static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
+    using N = Bounded<T>;
+    const detail::RangeFlags range;
+    Doubt::any = false;
+    auto wide = text(detail::raised<N>(args)...);
+    detail::miss_beyond_range<N>(wide);
+    if (Doubt::any || range.raised()) return false;
+    if (detail::known<T>(wide, 1)) {
+      convert(wide, answer, [](const N& from, T& to) { to = T(from.value); });
+      keep_apart(wide.yes(), answer);
+      return true;
+    }
+    if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
+      if constexpr (detail::has_long_double) {
+        if (detail::known<T>(wide, detail::long_double_ratio)) {
+          return longer<T, detail::Longer<T, long double>>(wide.yes(), answer, text, args...);
+        }
+      }
+      if (detail::known<T>(wide, detail::double_word_ratio)) {
+        return longer<T, detail::Longer<T, DoubleWord<double>>>(wide.yes(), answer, text, args...) && !range.raised();
+      }
+    }
+    return false;
+  }
+
+  template <class T, class N, class F, class... Args>
+  static bool longer(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+    const auto wide = text(detail::raised<N>(args)...);
+    convert(wide, answer, [](const N& from, T& to) { to = detail::rounded(from.value); });
+    keep_apart(yes, answer);
+    return true;
+  }
+
+  template <class T, class F, class... Args>
+  [[gnu::noinline]] static bool extended(auto& answer, F& text, const Args&... args) noexcept {
+    using N = WideBounded<T>;
+    const detail::RangeFlags range;
+    Doubt::any = false;
+    auto wide = text(detail::raised<N>(args)...);
+    detail::miss_beyond_range<N>(wide);
+    if (Doubt::any || range.raised() || !detail::known<T>(wide, 1)) return false;
+    convert(wide, answer, [](const N& from, T& to) { to = T(from.value.high); });
+    keep_apart(wide.yes(), answer);
+    return true;
+  }
+
+  template <class T, class F, class... Args>
+  [[gnu::noinline]] static void exact(auto& answer, F& text, const Args&... args) noexcept {
+    using N = Real<T>;
+    bool number = true;
+    (for_each_leaf(args, [&](const auto& leaf, Role) { number = number && leaf == leaf; }), ...);
+    if (!number) {
+      ++counts().invalid;
+      answer = text(args...);
+      return;
+    }
+    ++counts().exact;
+    {
+      auto wide = text(detail::raised<N>(args)...);
+      detail::miss_beyond_range<N>(wide);
+      convert(wide, answer, [](const N& from, T& to) { to = from.rounded(); });
+      keep_apart(wide.yes(), answer);
+    }
+    detail::Expressions::here().clear();
+  }
+};
+
+}  // namespace collide
+
+template <class Scalar, class M>
+struct std::numeric_limits<collide::detail::Longer<Scalar, M>> : std::numeric_limits<double> {
+  using Number = collide::detail::Longer<Scalar, M>;
+  static constexpr Number infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr Number max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
+};

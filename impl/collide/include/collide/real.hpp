@@ -1,0 +1,351 @@
+/// Exact real numbers made of machine numbers by + - * / and square roots: every comparison is right.
+/// Needs MPFR and GMP (target collide::certified).
+#pragma once
+
+#include <mpfr.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <vector>
+
+#include <collide/number.hpp>
+
+namespace collide::detail {
+
+/// A closed interval of multiple precision.
+class BigInterval {
+ public:
+  BigInterval() = default;
+  ~BigInterval() {
+    if (precision_ != 0) mpfr_clears(low, high, static_cast<mpfr_ptr>(nullptr));
+  }
+  BigInterval(const BigInterval&) = delete;
+  BigInterval& operator=(const BigInterval&) = delete;
+
+  /// Forgets the value.
+  void set_precision(mpfr_prec_t precision) {
+    if (precision_ == 0) {
+      mpfr_inits2(precision, low, high, static_cast<mpfr_ptr>(nullptr));
+    } else {
+      mpfr_set_prec(low, precision);
+      mpfr_set_prec(high, precision);
+    }
+    precision_ = precision;
+  }
+  mpfr_prec_t precision() const { return precision_; }
+  /// -1 or 1 where that is the sign of all its numbers; 2 where it is not known, 0 for [0, 0].
+  int sign() const {
+    const int l = mpfr_sgn(low), h = mpfr_sgn(high);
+    return l > 0 ? 1 : h < 0 ? -1 : l == 0 && h == 0 ? 0 : 2;
+  }
+
+  mpfr_t low, high;
+
+ private:
+  mpfr_prec_t precision_ = 0;
+};
+
+/// A node of an expression. Its sign is decided by evaluating in intervals of rising precision until zero
+/// lies outside, or until the interval is so small that only zero fits: an expression that is not zero is
+/// at least 2^twos / (u^(degree - 1) l) in magnitude. Source: Burnikel, Funke, Mehlhorn, Schirra, Schmitt, A
+/// Separation Bound for Real Algebraic Expressions (2001); powers of two apart as in Pion, Yap,
+/// Constructive Root Bound for k-Ary Rational Input Numbers (2003).
+struct Expression {
+  enum class Kind : std::uint8_t { leaf, sum, difference, product, quotient, root, infinite, invalid };
+
+  Kind kind = Kind::invalid;
+  std::int8_t known_sign = 2;  // 2: not known yet
+  double leaf = 0;
+  Expression *a = nullptr, *b = nullptr;
+  BigInterval value;
+  double u = 0, l = 0, twos = 0;     // binary logarithms, rounded to be safe
+  std::vector<std::uint32_t> roots;  // the square roots below, and itself: sorted numbers
+  std::uint32_t number = 0;
+
+  int degree_bits() const { return int(roots.size()); }
+  /// log2 of a bound below which only zero lies.
+  double separation() const {
+    const double degree = std::exp2(double(degree_bits()));
+    return twos - (degree - 1) * u - l - 4 - 1e-9 * (std::abs(twos) + degree * u + l);
+  }
+};
+
+/// The expressions of one evaluation: they live until the outermost one ends.
+class Expressions {
+ public:
+  static Expressions& here() {
+    static thread_local Expressions all;
+    return all;
+  }
+  Expression& make(Expression::Kind kind, Expression* a = nullptr, Expression* b = nullptr) {
+    Expression& e = nodes_.emplace_back();
+    e.kind = kind;
+    e.a = a;
+    e.b = b;
+    e.number = std::uint32_t(nodes_.size());
+    return e;
+  }
+  void clear() { nodes_.clear(); }
+
+ private:
+  std::deque<Expression> nodes_;
+};
+
+using ExpressionKind = Expression::Kind;
+
+inline bool proper(const Expression& e) { return e.kind != ExpressionKind::invalid && e.kind != ExpressionKind::infinite; }
+int sign_of(Expression& e);
+
+/// log2(2^x + 2^y), rounded up.
+inline double log2_sum(double x, double y) {
+  const double most = std::max(x, y), least = std::min(x, y);
+  return most + std::log2(1 + std::exp2(least - most)) + 1e-12 * (std::abs(most) + 1);
+}
+
+inline Expression& leaf_of(double x) {
+  if (x != x) return Expressions::here().make(ExpressionKind::invalid);
+  if (std::isinf(x)) {
+    Expression& e = Expressions::here().make(ExpressionKind::infinite);
+    e.leaf = x;
+    return e;
+  }
+  Expression& e = Expressions::here().make(ExpressionKind::leaf);
+  e.leaf = x;
+  e.known_sign = x > 0 ? 1 : x < 0 ? -1 : 0;
+  if (x != 0) {
+    int exponent;
+    double mantissa = std::abs(std::frexp(x, &exponent)) * 0x1p53;  // an integer
+    exponent -= 53;
+    while (mantissa == 2 * std::floor(mantissa / 2)) mantissa /= 2, ++exponent;
+    e.u = std::log2(mantissa) * (1 + 1e-14) + 1e-14;
+    e.twos = exponent;
+  }
+  return e;
+}
+
+inline Expression& binary(ExpressionKind kind, Expression& a, Expression& b) {
+  Expressions& all = Expressions::here();
+  if (!proper(a) || !proper(b)) return all.make(ExpressionKind::invalid);
+  const bool sum = kind == ExpressionKind::sum, difference = kind == ExpressionKind::difference;
+  if ((sum || difference) && b.known_sign == 0) return a;
+  if (sum && a.known_sign == 0) return b;
+  if (kind == ExpressionKind::product && (a.known_sign == 0 || b.known_sign == 0)) return leaf_of(0);
+  if (kind == ExpressionKind::product && a.kind == ExpressionKind::leaf && a.leaf == 1) return b;
+  if (kind == ExpressionKind::product && b.kind == ExpressionKind::leaf && b.leaf == 1) return a;
+  if (kind == ExpressionKind::quotient) {
+    if (sign_of(b) == 0) return all.make(ExpressionKind::invalid);
+    if (a.known_sign == 0) return a;
+  }
+  Expression& e = all.make(kind, &a, &b);
+  if (kind == ExpressionKind::product) {
+    e.u = a.u + b.u, e.l = a.l + b.l, e.twos = a.twos + b.twos;
+    if (a.known_sign != 2 && b.known_sign != 2) e.known_sign = std::int8_t(a.known_sign * b.known_sign);
+  } else if (kind == ExpressionKind::quotient) {
+    e.u = a.u + b.l, e.l = a.l + b.u, e.twos = a.twos - b.twos;
+    if (a.known_sign != 2) e.known_sign = std::int8_t(a.known_sign * b.known_sign);
+  } else {
+    e.twos = std::min(a.twos, b.twos);
+    if (a.known_sign == 0) e.twos = b.twos;
+    const double from_b = b.twos - e.twos + b.u + a.l;
+    e.u = a.known_sign == 0 ? from_b : log2_sum(a.twos - e.twos + a.u + b.l, from_b);
+    e.l = a.l + b.l;
+    const int sign_b = difference ? -b.known_sign : b.known_sign;
+    if (a.known_sign != 2 && b.known_sign != 2 && (a.known_sign == sign_b || a.known_sign == 0)) {
+      e.known_sign = std::int8_t(sign_b);
+    }
+  }
+  std::set_union(a.roots.begin(), a.roots.end(), b.roots.begin(), b.roots.end(), std::back_inserter(e.roots));
+  return e;
+}
+
+inline Expression& root_of(Expression& a) {
+  Expressions& all = Expressions::here();
+  if (a.kind == ExpressionKind::infinite && a.leaf > 0) return a;
+  if (!proper(a)) return all.make(ExpressionKind::invalid);
+  const int sign = sign_of(a);
+  if (sign == 0) return a;
+  if (sign < 0) return all.make(ExpressionKind::invalid);
+  Expression& e = all.make(ExpressionKind::root, &a);
+  e.known_sign = 1;
+  e.twos = std::floor(a.twos / 2);
+  const double u = a.u + (a.twos - 2 * e.twos);
+  e.u = u >= a.l ? (u + a.l) / 2 : u;
+  e.l = u >= a.l ? a.l : (u + a.l) / 2;
+  e.roots = a.roots;
+  e.roots.push_back(e.number);  // numbers rise, so the list stays sorted
+  return e;
+}
+
+/// Evaluates e and everything below it, at least to `precision`.
+inline void evaluate(Expression& e, mpfr_prec_t precision) {
+  if (e.value.precision() >= precision) return;
+  if (e.a != nullptr) evaluate(*e.a, precision);
+  if (e.b != nullptr) evaluate(*e.b, precision);
+  if (e.kind == ExpressionKind::quotient) {  // b is not zero: its interval tells so at some precision
+    for (mpfr_prec_t p = precision; e.b->value.sign() == 2;) evaluate(*e.b, p *= 2);
+  }
+  e.value.set_precision(precision);
+  mpfr_t &low = e.value.low, &high = e.value.high;
+  switch (e.kind) {
+    case ExpressionKind::leaf:
+      mpfr_set_d(low, e.leaf, MPFR_RNDD);
+      mpfr_set_d(high, e.leaf, MPFR_RNDU);
+      break;
+    case ExpressionKind::sum:
+      mpfr_add(low, e.a->value.low, e.b->value.low, MPFR_RNDD);
+      mpfr_add(high, e.a->value.high, e.b->value.high, MPFR_RNDU);
+      break;
+    case ExpressionKind::difference:
+      mpfr_sub(low, e.a->value.low, e.b->value.high, MPFR_RNDD);
+      mpfr_sub(high, e.a->value.high, e.b->value.low, MPFR_RNDU);
+      break;
+    case ExpressionKind::product:
+    case ExpressionKind::quotient: {
+      const auto apply = e.kind == ExpressionKind::product ? mpfr_mul : mpfr_div;
+      const BigInterval &x = e.a->value, &y = e.b->value;
+      mpfr_t corner;
+      mpfr_init2(corner, precision);
+      bool first = true;
+      for (const auto* p : {&x.low, &x.high}) {
+        for (const auto* q : {&y.low, &y.high}) {
+          apply(corner, *p, *q, MPFR_RNDD);
+          if (first || mpfr_less_p(corner, low)) mpfr_set(low, corner, MPFR_RNDD);
+          apply(corner, *p, *q, MPFR_RNDU);
+          if (first || mpfr_greater_p(corner, high)) mpfr_set(high, corner, MPFR_RNDU);
+          first = false;
+        }
+      }
+      mpfr_clear(corner);
+      break;
+    }
+    case ExpressionKind::root:
+      if (mpfr_sgn(e.a->value.low) > 0) {
+        mpfr_sqrt(low, e.a->value.low, MPFR_RNDD);
+      } else {
+        mpfr_set_zero(low, 1);  // the operand is positive, though not known to be at this precision
+      }
+      mpfr_sqrt(high, e.a->value.high, MPFR_RNDU);
+      break;
+    default: break;
+  }
+}
+
+/// -1, 0 or 1. Of a proper expression.
+inline int sign_of(Expression& e) {
+  if (e.known_sign != 2) return e.known_sign;
+  if (e.kind == ExpressionKind::product || e.kind == ExpressionKind::quotient) {
+    return e.known_sign = std::int8_t(sign_of(*e.a) * sign_of(*e.b));
+  }
+  const double separation = e.separation();
+  for (mpfr_prec_t precision = 128;; precision *= 2) {
+    evaluate(e, precision);
+    const int sign = e.value.sign();
+    if (sign != 2) return e.known_sign = std::int8_t(sign);
+    // Both ends within 2^separation: mpfr numbers are below 2^exponent.
+    const double largest = double(std::max(mpfr_zero_p(e.value.low) ? -0x1p60 : double(mpfr_get_exp(e.value.low)),
+                                           mpfr_zero_p(e.value.high) ? -0x1p60 : double(mpfr_get_exp(e.value.high))));
+    if (largest < separation) return e.known_sign = 0;
+  }
+}
+
+}  // namespace collide::detail
+
+namespace collide {
+
+/// An exact real number, infinity, or invalid, which compares with nothing. `Scalar` is the one whose
+/// largest finite number is the limit of times. Lives as long as the evaluation that made it.
+template <class Scalar>
+class Real {
+ public:
+  Real() : Real(0.0) {}
+  Real(double x) : e_(&detail::leaf_of(x)) {}
+  explicit Real(float x) : Real(double(x)) {}
+  explicit Real(int x) : Real(double(x)) {}
+
+  friend Real operator-(const Real& a) {
+    if (a.e_->kind == detail::ExpressionKind::infinite) return Real(-a.e_->leaf);
+    if (a.e_->kind == detail::ExpressionKind::leaf) return Real(-a.e_->leaf);
+    return Real(0.0) - a;
+  }
+  friend Real operator+(const Real& a, const Real& b) { return of(detail::ExpressionKind::sum, a, b); }
+  friend Real operator-(const Real& a, const Real& b) { return of(detail::ExpressionKind::difference, a, b); }
+  friend Real operator*(const Real& a, const Real& b) { return of(detail::ExpressionKind::product, a, b); }
+  friend Real operator/(const Real& a, const Real& b) { return of(detail::ExpressionKind::quotient, a, b); }
+  Real& operator+=(const Real& b) { return *this = *this + b; }
+  Real& operator-=(const Real& b) { return *this = *this - b; }
+  Real& operator*=(const Real& b) { return *this = *this * b; }
+  friend Real sqrt(const Real& a) { return Real(detail::root_of(*a.e_)); }
+  friend Real abs(const Real& a) { return a < Real() ? -a : a; }
+
+  friend bool operator<(const Real& a, const Real& b) { return order(a, b) == -1; }
+  friend bool operator>(const Real& a, const Real& b) { return order(a, b) == 1; }
+  friend bool operator==(const Real& a, const Real& b) { return order(a, b) == 0; }
+  friend bool operator<=(const Real& a, const Real& b) { const int o = order(a, b); return o == -1 || o == 0; }
+  friend bool operator>=(const Real& a, const Real& b) { const int o = order(a, b); return o == 1 || o == 0; }
+
+  friend Real larger(const Real& a, const Real& b) { return a < b ? b : a; }
+  friend Real smaller(const Real& a, const Real& b) { return b < a ? b : a; }
+
+  /// The number, rounded with an error below one unit in the last place, or below the least number of Scalar.
+  Scalar rounded() const {
+    using detail::ExpressionKind;
+    if (e_->kind == ExpressionKind::infinite || e_->kind == ExpressionKind::leaf) return Scalar(e_->leaf);
+    if (e_->kind == ExpressionKind::invalid) return std::numeric_limits<Scalar>::quiet_NaN();
+    constexpr int digits = std::numeric_limits<Scalar>::digits;
+    constexpr double least = std::numeric_limits<Scalar>::min_exponent - digits - 3;  // log2
+    mpfr_t middle, width;
+    mpfr_inits2(64, middle, width, static_cast<mpfr_ptr>(nullptr));
+    double result = 0;
+    for (mpfr_prec_t precision = 128;; precision *= 2) {
+      detail::evaluate(*e_, precision);
+      const auto &low = e_->value.low, &high = e_->value.high;
+      mpfr_sub(width, high, low, MPFR_RNDU);
+      mpfr_add(middle, low, high, MPFR_RNDN);
+      mpfr_div_2ui(middle, middle, 1, MPFR_RNDN);
+      const bool narrow = mpfr_zero_p(width) || double(mpfr_get_exp(width)) < least ||
+                          (!mpfr_zero_p(middle) && mpfr_get_exp(width) < mpfr_get_exp(middle) - digits - 4);
+      if (!narrow) continue;
+      result = mpfr_get_d(middle, MPFR_RNDN);
+      break;
+    }
+    mpfr_clears(middle, width, static_cast<mpfr_ptr>(nullptr));
+    return Scalar(result);
+  }
+
+ private:
+  explicit Real(detail::Expression& e) : e_(&e) {}
+  static Real of(detail::ExpressionKind kind, const Real& a, const Real& b) {
+    return Real(detail::binary(kind, *a.e_, *b.e_));
+  }
+  /// -1, 0, 1; 2 where one is invalid.
+  static int order(const Real& a, const Real& b) {
+    using detail::ExpressionKind;
+    if (a.e_->kind == ExpressionKind::invalid || b.e_->kind == ExpressionKind::invalid) return 2;
+    const bool a_infinite = a.e_->kind == ExpressionKind::infinite, b_infinite = b.e_->kind == ExpressionKind::infinite;
+    if (a_infinite || b_infinite) {
+      const double x = a_infinite ? a.e_->leaf : 0, y = b_infinite ? b.e_->leaf : 0;
+      return x < y ? -1 : x > y ? 1 : 0;
+    }
+    if (a.e_ == b.e_) return 0;
+    if (a.e_->kind == ExpressionKind::leaf && b.e_->kind == ExpressionKind::leaf) {
+      return a.e_->leaf < b.e_->leaf ? -1 : a.e_->leaf > b.e_->leaf ? 1 : 0;
+    }
+    if (b.e_->known_sign == 0) return detail::sign_of(*a.e_);
+    if (a.e_->known_sign == 0) return -detail::sign_of(*b.e_);
+    return detail::sign_of(detail::binary(ExpressionKind::difference, *a.e_, *b.e_));
+  }
+
+  detail::Expression* e_;
+};
+
+}  // namespace collide
+
+template <class Scalar>
+struct std::numeric_limits<collide::Real<Scalar>> {
+  static constexpr bool is_specialized = true;
+  static collide::Real<Scalar> infinity() { return std::numeric_limits<double>::infinity(); }
+  static collide::Real<Scalar> max() { return double(std::numeric_limits<Scalar>::max()); }
+};
