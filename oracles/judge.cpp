@@ -122,14 +122,23 @@ Disagreement disagreement_of(const Query& query, const Answer& answer, bool deci
   }
 }
 
-/// The first given number that is not finite, if any; a miss has an infinite time by definition.
-int not_finite(const Query& query, const Answer& answer) {
+/// The first given number that is NaN, if any; a miss has an infinite time by definition.
+int not_a_number(const Query& query, const Answer& answer) {
   const bool miss = query.kind == Kind::impact && !answer.yes;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     if (miss && query.outputs[i].role == Role::time) {  // what follows the time belongs to a hit
       return std::isnan(answer.values[i]) || answer.values[i] < 0 ? int(i) : -1;
     }
-    if (answer.gives(i) && !std::isfinite(answer.values[i])) return int(i);
+    if (answer.gives(i) && std::isnan(answer.values[i])) return int(i);
+  }
+  return -1;
+}
+
+/// The first given number that is infinite, which is right only for a number beyond the largest finite one.
+int infinite(const Query& query, const Answer& answer) {
+  if (query.kind == Kind::impact && !answer.yes) return -1;
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (answer.gives(i) && std::isinf(answer.values[i])) return int(i);
   }
   return -1;
 }
@@ -166,7 +175,7 @@ void take_forward(const Enclosure& e, Finding& f) {
 
 Finding violation(Finding f, Disagreement d, std::string clause) {
   f.verdict = Verdict::violates_contract;
-  if (f.disagreement == Disagreement::none) f.disagreement = d;
+  if (f.disagreement == Disagreement::none || d == Disagreement::not_unit) f.disagreement = d;
   f.clause = std::move(clause);
   return f;
 }
@@ -199,10 +208,14 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
     f.verdict = Verdict::out_of_domain;
     return f;
   }
-  if (const int bad = not_finite(query, answer); bad >= 0) {
+  const auto not_finite = [&](int bad) {
     f.worst = bad;
     return violation(f, Disagreement::not_finite,
                      fmt::format("{} is {}", query.outputs[std::size_t(bad)].name, answer.values[std::size_t(bad)]));
+  };
+  if (const int bad = not_a_number(query, answer); bad >= 0) {
+    f.truth_yes = x.exactly().may_be_yes;
+    return not_finite(bad);
   }
 
   // The decision: interval first, exact where it cannot tell.
@@ -213,6 +226,7 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
   }
   f.truth_yes = here.may_be_yes;
   const bool decision_differs = f.truth_yes != answer.yes;
+  if (const int bad = infinite(query, answer); bad >= 0 && !x.exactly().may_match) return not_finite(bad);
   if (!decision_differs) take_forward(here, f);
   if (here.may_match) {
     f.verdict = Verdict::agrees;

@@ -47,7 +47,7 @@ double unit_of(const Answer& about, const Layout::Part& part, std::span<const Bo
     largest = std::max(largest, std::abs(about.values[i]));
     largest = std::max({largest, about.values[i] + errors[i].high, -(about.values[i] + errors[i].low)});
   }
-  return ulp(largest, scalar) * (part.role == Role::normal ? 2 : 1);
+  return ulp(std::min(largest, largest_finite(scalar)), scalar) * (part.role == Role::normal ? 2 : 1);
 }
 
 }  // namespace

@@ -117,7 +117,16 @@ std::size_t Outcomes<N, A>::errors_of(const A& a, bool many_normals, std::size_t
         errors[i] = {-1 - std::abs(given), 1 + std::abs(given)};
       } else {
         const N exact = role == Role::normal ? N(assume_within(leaf, -1.0, 1.0)) : leaf;
-        errors[i] = given == 0 ? bounds(exact) : bounds(N(exact - N(given)));
+        if (std::isnan(given)) {
+          errors[i] = {-HUGE_VAL, HUGE_VAL};
+        } else if (std::isinf(given)) {  // right for every number beyond the largest finite one
+          const double largest = std::copysign(largest_finite(scalar_), given);
+          const Bounds short_of = bounds(N(exact - N(largest)));
+          errors[i] = given > 0 ? Bounds{std::min(short_of.low, 0.0), std::min(short_of.high, 0.0)}
+                                : Bounds{std::max(short_of.low, 0.0), std::max(short_of.high, 0.0)};
+        } else {
+          errors[i] = given == 0 ? bounds(exact) : bounds(N(exact - N(given)));
+        }
       }
     } else {
       errors[i] = {double(leaf) - given, double(leaf) - given};
@@ -134,6 +143,7 @@ Bounds Outcomes<N, A>::turn_of(const Normals<N>& normals) const {
   for (const Layout::Part& part : layout_.parts) {
     if (part.role != Role::normal) continue;
     const double* n = &about_.values[part.begin];
+    if (!std::isfinite(n[0] + n[1] + n[2])) return {1, HUGE_VAL};  // no unit vector
     for (const Facing<N>& f : normals.facing) {
       const N component = inner(f.direction, Vector<N>{N(n[0]), N(n[1]), N(n[2])});
       const Bounds up = bounds(N(f.low - component)), down = bounds(N(f.high - component));
@@ -151,9 +161,9 @@ template <class N, class A>
 void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves) {
   if constexpr (A::kind == Kind::impact) {
     if (yes) {  // a time beyond the largest finite number is a miss
-      const Bounds time = bounds(a.time);
-      if (!(time.high <= largest_finite(scalar_))) no();
-      if (time.low > largest_finite(scalar_)) return;
+      const N beyond = a.time - N(largest_finite(scalar_));
+      if (may_be_positive(beyond)) no();
+      if (!may_be_at_most_zero(beyond)) return;
     }
   }
   if (list_ != nullptr) {
