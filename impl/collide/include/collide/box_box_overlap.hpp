@@ -116,7 +116,7 @@ Separation<N> separation(const BoxPair<N>& p, int axis) noexcept {
 template <class Tier = Fast, class T>
 Decision<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint = -1) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return box_box_overlap<Fast>(a...); }, box1, box2, hint);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_overlap<decltype(by)>(a...); }, box1, box2, hint);
   }
   if constexpr (!MachineNumber<T>) {
     const detail::BoxPair<T> pair = detail::pair_of<T>(box1, box2);

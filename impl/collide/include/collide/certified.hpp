@@ -167,7 +167,7 @@ bool known(const A& answer, double ratio) {
 
 /// Every decision exact over all finite inputs, every number within two units in the last place of its
 /// scalar (of a vector: of its largest number). The machine must round to nearest.
-struct Certified : Fast {
+struct Certified : Plain {
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
 
@@ -185,7 +185,7 @@ struct Certified : Fast {
 
   template <class F, class... Args>
   static auto lift(F&& text, const Args&... args) noexcept {
-    using Answer = decltype(text(args...));
+    using Answer = decltype(text(Plain{}, args...));
     using T = typename detail::AnswerOver<Answer>::Scalar;
     Answer answer{};
     if (filtered<T>(answer, text, args...)) {
@@ -195,7 +195,7 @@ struct Certified : Fast {
     } else {
       exact<T>(answer, text, args...);
     }
-    return answer;
+    return unless_invalid(answer, args...);
   }
 
  private:
@@ -204,7 +204,7 @@ struct Certified : Fast {
     using N = Bounded<T>;
     const detail::RangeFlags range;
     Doubt::any = false;
-    auto wide = text(detail::raised<N>(args)...);
+    auto wide = text(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     if (Doubt::any || range.raised()) return false;
     if (detail::known<T>(wide, 1)) {
@@ -227,7 +227,7 @@ struct Certified : Fast {
 
   template <class T, class N, class F, class... Args>
   static bool longer(bool yes, auto& answer, F& text, const Args&... args) noexcept {
-    const auto wide = text(detail::raised<N>(args)...);
+    const auto wide = text(Plain{}, detail::raised<N>(args)...);
     convert(wide, answer, [](const N& from, T& to) { to = detail::rounded(from.value); });
     keep_apart(yes, answer);
     return true;
@@ -238,7 +238,7 @@ struct Certified : Fast {
     using N = WideBounded<T>;
     const detail::RangeFlags range;
     Doubt::any = false;
-    auto wide = text(detail::raised<N>(args)...);
+    auto wide = text(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     if (Doubt::any || range.raised() || !detail::known<T>(wide, 1)) return false;
     convert(wide, answer, [](const N& from, T& to) { to = T(from.value.high); });
@@ -249,16 +249,14 @@ struct Certified : Fast {
   template <class T, class F, class... Args>
   [[gnu::noinline]] static void exact(auto& answer, F& text, const Args&... args) noexcept {
     using N = Real<T>;
-    bool number = true;
-    (for_each_leaf(args, [&](const auto& leaf, Role) { number = number && leaf == leaf; }), ...);
-    if (!number) {
+    if (!all_finite(args...)) {
       ++counts().invalid;
-      answer = text(args...);
+      answer = text(Plain{}, args...);
       return;
     }
     ++counts().exact;
     {
-      auto wide = text(detail::raised<N>(args)...);
+      auto wide = text(Plain{}, detail::raised<N>(args)...);
       detail::miss_beyond_range<N>(wide);
       convert(wide, answer, [](const N& from, T& to) { to = from.rounded(); });
       keep_apart(wide.yes(), answer);

@@ -24,7 +24,7 @@ template <class Tier = Fast, class T>
 Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                               bool solid) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_point_sphere<Fast>(a...); }, point, velocity, sphere, solid);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); }, point, velocity, sphere, solid);
   }
   using std::sqrt;
   const auto outward = [](const Vec3<T>& from_center) {
@@ -32,7 +32,7 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
     return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
   };
   const Vec3<T> m = point - sphere.center;
-  const T outside = Tier::difference_of_products(T(1), Tier::dot(m, m), sphere.radius, sphere.radius);
+  const T outside = Tier::beyond_radius(m, sphere.radius);
   const bool starts_in = outside <= T(0);
   if (starts_in && solid) return {T(0), point, outward(m)};
   const T speed2 = Tier::dot(velocity, velocity);
@@ -40,7 +40,7 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
   if (!starts_in && !(nearest > T(0))) return Impact<T>::miss();
   const Vec3<T> offset = m + velocity * nearest;
-  const T chord2 = Tier::difference_of_products(sphere.radius, sphere.radius, T(1), Tier::dot(offset, offset));
+  const T chord2 = -Tier::beyond_radius(offset, sphere.radius);
   if (!(chord2 >= T(0)) && !starts_in) return Impact<T>::miss();
   const T half_chord = sqrt(chord2 > T(0) ? chord2 / speed2 : T(0));  // in units of time
   // Near a tangent the quotient of the textbooks, outside / (nearest + half_chord), loses what the

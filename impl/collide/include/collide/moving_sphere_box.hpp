@@ -56,28 +56,28 @@ struct PointPastBox {
   /// when the piece never comes that near.
   T time_at_distance(T radius) const noexcept {
     using std::sqrt, std::abs;
-    T speed2(0), closing(0), distance2(0);
+    T speed2(0), closing(0);
     int axes = 0, last = 0;
     for (int i = 0; i < 3; ++i) {
       if (!is_beyond(i)) continue;
       const T e = beyond(i);
       speed2 += step[i] * step[i];
       closing -= step[i] * e;
-      distance2 += e * e;
       ++axes, last = i;
     }
     if (!(closing > T(0))) return T(-1);
     if (axes == 1) return not_negative((abs(beyond(last)) - radius) / abs(step[last]));
     const T nearest = closing / speed2;
-    T offset2(0);
+    Vec3<T> offset{}, from_box{};
+    const auto set = [](Vec3<T>& v, int i, const T& x) { (i == 0 ? v.x : i == 1 ? v.y : v.z) = x; };
     for (int i = 0; i < 3; ++i) {
       if (!is_beyond(i)) continue;
-      const T offset = beyond(i) + step[i] * nearest;
-      offset2 += offset * offset;
+      set(from_box, i, beyond(i));
+      set(offset, i, beyond(i) + step[i] * nearest);
     }
-    const T chord2 = Tier::difference_of_products(radius, radius, T(1), offset2);
+    const T chord2 = -Tier::beyond_radius(offset, radius);
     if (!(chord2 >= T(0))) return T(-1);
-    const T outside = Tier::difference_of_products(T(1), distance2, radius, radius);
+    const T outside = Tier::beyond_radius(from_box, radius);
     if (outside <= T(0)) return T(0);  // rounding put the contact just before this piece
     return not_negative(nearest - sqrt(chord2 / speed2));
   }
@@ -119,7 +119,7 @@ struct PointPastBox {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_sphere_box<Fast>(a...); }, sphere, velocity, box);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_box<decltype(by)>(a...); }, sphere, velocity, box);
   }
   using std::sqrt, std::abs;
   const Axes<T> axes = axes_of(box.orientation);
@@ -145,17 +145,19 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
     return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, components(outward))};
   };
 
-  T distance2(0), closing(0);
+  T closing(0);
   bool inside = true;
+  std::array<T, 3> away;
   for (int i = 0; i < 3; ++i) {
-    const T e = excess(path.at[i], half[i]);
-    distance2 += e * e;
-    closing -= e * path.step[i];
+    away[i] = excess(path.at[i], half[i]);
+    closing -= away[i] * path.step[i];
     inside = inside && abs(path.at[i]) < half[i];
   }
-  const T outside = Tier::difference_of_products(T(1), distance2, sphere.radius, sphere.radius);
+  const Vec3<T> from_box{away[0], away[1], away[2]};
+  const bool on_box = from_box == Vec3<T>{};
+  const T outside = Tier::beyond_radius(from_box, sphere.radius);
   if (outside < T(0)) return contact(T(0), -1);
-  if (outside == T(0) && distance2 == T(0)) {  // a point on the surface or inside
+  if (outside == T(0) && on_box) {  // a point on the surface or inside
     if (inside) return Impact<T>::miss();
     for (int i = 0; i < 3; ++i) {
       for (const T side : {T(-1), T(1)}) {

@@ -21,7 +21,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return sphere_box_penetration<Fast>(a...); }, sphere, box);
+    return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); }, sphere, box);
   }
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);

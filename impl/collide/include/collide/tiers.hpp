@@ -12,23 +12,20 @@
 #include <limits>
 #include <utility>
 
+#include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/double_word.hpp>
 #include <collide/number.hpp>
 #include <collide/vec3.hpp>
 
 namespace collide {
 
-/// Plain arithmetic of the scalar.
-struct Fast {
-  /// Whether the tier has a text with arguments of T computed in other numbers, by its `lift`.
+/// Plain arithmetic: what a text computes with unless its tier has something better. Not a tier itself: it
+/// lifts nothing, so a query called with it is nothing but its text.
+struct Plain {
+  /// Whether the tier has a text with arguments of T computed by its `lift`.
   template <class T>
   static constexpr bool lifts = false;
-
-  /// What the tier promises of a query in T whose fast tier promises `fast`.
-  template <class T>
-  static constexpr Contract contract(const Contract& fast) {
-    return fast;
-  }
 
   template <class T>
   static constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) noexcept {
@@ -43,47 +40,153 @@ struct Fast {
     return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
             difference_of_products(a.x, b.y, a.y, b.x)};
   }
+  /// |a|^2 - r^2
+  template <class T>
+  static constexpr T beyond_radius(const Vec3<T>& a, const T& r) noexcept {
+    return dot(a, a) - r * r;
+  }
+};
+
+/// The same with sums of products that cancel computed again in twice the precision: their relative error
+/// is at most 8 units of roundoff where nothing underflows, against any amount. A sum that keeps a quarter
+/// of its terms' magnitude is good enough as it is.
+struct Compensated : Plain {
+  template <class T>
+  static constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) noexcept {
+    using std::abs;
+    const T p = a * b, q = c * d, difference = p - q;
+    if (4 * abs(difference) >= abs(p) + abs(q)) return difference;
+    return sum(DoubleWord<T>::two_product(a, b), DoubleWord<T>::two_product(-c, d), difference);
+  }
+  template <class T>
+  static constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) noexcept {
+    using std::abs;
+    const T x = a.x * b.x, y = a.y * b.y, z = a.z * b.z, plain = x + y + z;
+    if (4 * abs(plain) >= abs(x) + abs(y) + abs(z)) return plain;
+    const DoubleWord<T> xy = DoubleWord<T>::two_product(a.x, b.x) + DoubleWord<T>::two_product(a.y, b.y);
+    return sum(xy, DoubleWord<T>::two_product(a.z, b.z), plain);
+  }
+  template <class T>
+  static constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) noexcept {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+  }
+  template <class T>
+  static constexpr T beyond_radius(const Vec3<T>& a, const T& r) noexcept {
+    using std::abs;
+    const T length2 = Plain::dot(a, a), r2 = r * r, plain = length2 - r2;
+    if (4 * abs(plain) >= length2 + r2) return plain;
+    const DoubleWord<T> xy = DoubleWord<T>::two_product(a.x, a.x) + DoubleWord<T>::two_product(a.y, a.y);
+    return sum(xy + DoubleWord<T>::two_product(a.z, a.z), DoubleWord<T>::two_product(-r, r), plain);
+  }
+
+ private:
+  /// a + b, or `plain` where a product overflowed on the way.
+  template <class T>
+  static constexpr T sum(const DoubleWord<T>& a, const DoubleWord<T>& b, const T& plain) noexcept {
+    const T sum = (a + b).high;
+    return sum - sum == T(0) ? sum : plain;
+  }
+};
+
+/// True where every number of the arguments is finite, but for a bare number, which may be +infinity.
+template <class... Args>
+constexpr bool all_finite(const Args&... args) noexcept {
+  bool finite = true;
+  const auto look = [&](const auto& argument) {
+    using Argument = std::remove_cvref_t<decltype(argument)>;
+    for_each_leaf(argument, [&](const auto& leaf, Role) {
+      using Leaf = std::remove_cvref_t<decltype(leaf)>;
+      if constexpr (MachineNumber<Leaf>) {
+        constexpr Leaf most = std::numeric_limits<Leaf>::max();
+        finite = finite & (leaf >= -most) & (leaf <= (MachineNumber<Argument> ? std::numeric_limits<Leaf>::infinity() : most));
+      }
+    });
+  };
+  (look(args), ...);
+  return finite;
+}
+
+/// No, a miss, or a depth that is NaN.
+template <class A>
+constexpr A nothing() noexcept {
+  if constexpr (requires(A a) { a.depth; }) {
+    A answer{};
+    answer.depth = std::numeric_limits<decltype(answer.depth)>::quiet_NaN();
+    return answer;
+  } else {
+    return A{};
+  }
+}
+
+/// A hit with arguments that are not finite is none.
+template <class A, class... Args>
+constexpr A unless_invalid(const A& answer, const Args&... args) noexcept {
+  if constexpr (A::kind == Kind::decision || A::kind == Kind::impact || A::kind == Kind::depth) {
+    if (answer.yes() && !all_finite(args...)) return nothing<A>();
+  }
+  return answer;
+}
+
+/// Plain arithmetic of the scalar.
+struct Fast : Plain {
+  template <class T>
+  static constexpr bool lifts = MachineNumber<T>;
+
+  /// Calls `text(operations, arguments...)`, the query itself.
+  template <class F, class... Args>
+  static constexpr auto lift(F&& text, const Args&... args) noexcept {
+    return unless_invalid(text(Plain{}, args...), args...);
+  }
+  /// What the tier promises of a query in T whose fast tier promises `fast`.
+  template <class T>
+  static constexpr Contract contract(const Contract& fast) {
+    return fast;
+  }
 };
 
 /// After rounding: a depth that became zero keeps its sign, for it decides.
 template <class A>
-void keep_apart(bool yes, A& answer) noexcept {
+constexpr void keep_apart(bool yes, A& answer) noexcept {
   if constexpr (requires { answer.depth; }) {
     if (!yes && answer.yes()) answer.depth = -std::numeric_limits<decltype(answer.depth)>::denorm_min();
   }
 }
 
-/// Float: the text in double, its answer rounded once. Double: plain arithmetic with sums of products that
-/// cancel computed again in twice the precision.
-struct Accurate : Fast {
+/// Float: the text in double, its answer rounded once. Double: the text with compensated sums of products.
+struct Accurate : Compensated {
   template <class T>
-  static constexpr bool lifts = std::same_as<T, float>;
+  static constexpr bool lifts = MachineNumber<T>;
+
+  template <class F, class... Args>
+  static constexpr auto lift(F&& text, const Args&... args) noexcept {
+    using A = decltype(text(Plain{}, args...));
+    if constexpr (std::same_as<A, Rebound<A, float>>) {
+      const auto widened = [](const auto& argument) {
+        Rebound<std::remove_cvref_t<decltype(argument)>, double> wide{};
+        convert(argument, wide, [](float from, double& to) { to = from; });
+        return wide;
+      };
+      const auto wide = unless_invalid(text(Plain{}, widened(args)...), args...);
+      A answer{};
+      convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
+      keep_apart(wide.yes(), answer);
+      if constexpr (requires { answer.time; A::miss(); }) {
+        if (wide.yes() && wide.time > double(std::numeric_limits<float>::max())) return A::miss();
+      }
+      return answer;
+    } else {
+      return unless_invalid(text(Compensated{}, args...), args...);
+    }
+  }
 
   /// In float, the text's own errors are those of the fast tier in double, 2^-29 of a float's: what
   /// remains is the last rounding, and decisions on a knife's edge. No product of eight floats leaves the
   /// range of double.
   template <class T>
   static constexpr Contract contract(const Contract& fast) {
-    if constexpr (lifts<T>) return {.backward = 1, .unit = 4};
+    if constexpr (std::same_as<T, float>) return {.backward = 1, .unit = 4};
     return fast;
-  }
-
-  /// Calls `text`, a query of the fast tier, with the arguments in double.
-  template <class F, class... Args>
-  static auto lift(F&& text, const Args&... args) noexcept {
-    const auto widened = [](const auto& argument) {
-      Rebound<std::remove_cvref_t<decltype(argument)>, double> wide{};
-      convert(argument, wide, [](float from, double& to) { to = from; });
-      return wide;
-    };
-    const auto wide = text(widened(args)...);
-    Rebound<std::remove_cvref_t<decltype(wide)>, float> answer{};
-    convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
-    keep_apart(wide.yes(), answer);
-    if constexpr (requires { answer.miss(); }) {
-      if (wide.yes() && wide.time > double(std::numeric_limits<float>::max())) return decltype(answer)::miss();
-    }
-    return answer;
   }
 };
 

@@ -1,0 +1,54 @@
+/// A NaN or an infinity through a query's raw arguments: it ends, and it never reports a hit that looks genuine.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "corpus/generator.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// A hit, an overlap or a depth whose every number is finite.
+bool looks_genuine(const Query& query, const Answer& answer) {
+  if (!decides(query.kind) || !answer.yes) return false;
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (answer.gives(i) && !std::isfinite(answer.values[i])) return false;
+  }
+  return true;
+}
+
+bool counts(Role role) { return role != Role::flag && role != Role::index; }
+
+class EveryTierGiven : public testing::TestWithParam<Pairing> {};
+
+void expect_no_genuine_hit(const Pairing& pairing, double bad) {
+  const auto [query, subject] = pairing;
+  const Offering& offering = subject->offering(query->name);
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const Case c = generate(*query, subject->scalar, 77, i);
+    for (std::size_t at = 0; at < c.values.size(); ++at) {
+      if (!counts(query->inputs[at].role)) continue;
+      std::vector<double> values = c.values;
+      values[at] = bad;
+      const Answer answer = offering.answer(values);
+      ASSERT_FALSE(looks_genuine(*query, answer))
+          << query->inputs[at].name << " = " << bad << " in case " << i << " of seed 77";
+    }
+  }
+}
+
+TEST_P(EveryTierGiven, NotANumberReportsNoHit) {
+  expect_no_genuine_hit(GetParam(), std::numeric_limits<double>::quiet_NaN());
+}
+
+TEST_P(EveryTierGiven, InfinityReportsNoHit) {
+  expect_no_genuine_hit(GetParam(), std::numeric_limits<double>::infinity());
+  expect_no_genuine_hit(GetParam(), -std::numeric_limits<double>::infinity());
+}
+
+INSTANTIATE_TEST_SUITE_P(Invalid, EveryTierGiven, testing::ValuesIn(our_pairings()), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss
