@@ -47,9 +47,9 @@ struct Plain {
   }
 };
 
-/// The same with sums of products that cancel computed again in twice the precision: their relative error
-/// is at most 8 units of roundoff where nothing underflows, against any amount. A sum that keeps a quarter
-/// of its terms' magnitude is good enough as it is.
+/// The same with sums of products that cancel computed again in twice the precision: the error is at most
+/// 8 u of the result and 64 u^2 of the terms, u the unit roundoff, where nothing underflows; of plain
+/// arithmetic it is 3 u of the terms. A sum that keeps a quarter of its terms' magnitude is good enough.
 struct Compensated : Plain {
   template <class T>
   static constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) noexcept {
