@@ -381,6 +381,7 @@ void enter_query(const char* name) {
 }  // namespace
 
 void enter_bullet() {
+  tell("Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100));
 #define NEARMISS_QUERY(query) enter_query<#query, collide::inputs::query<btScalar>>(#query);
 #include "oracles/catalogue.def"
 #undef NEARMISS_QUERY

@@ -3,6 +3,7 @@
 ///
 /// A plane is FCL's half-space: the solid behind it. Motions run by both of its ways: "naive", its default,
 /// which samples ten positions and may miss what lies between, and "advancement", which may not.
+#include <fcl/config.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
@@ -169,6 +170,7 @@ void enter_query(const char* name) {
 }  // namespace
 
 void enter_fcl() {
+  tell("FCL", FCL_VERSION);
 #define NEARMISS_QUERY(query) enter_query<#query, collide::inputs::query<double>>(#query);
 #include "oracles/catalogue.def"
 #undef NEARMISS_QUERY

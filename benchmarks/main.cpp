@@ -10,6 +10,7 @@
 #include <bit>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -141,7 +142,18 @@ bool take_scene_count(int& argc, char** argv) {
   return true;
 }
 
+/// As the kernel names it; empty where it does not.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "";
+}
+
 }  // namespace
+
+void tell(const std::string& what, const std::string& value) { benchmark::AddCustomContext(what, value); }
 
 void enter(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender) {
   const std::string name = query + "/" + who + "/" + way + "/" NEARMISS_SCALAR_NAME;
@@ -156,7 +168,9 @@ int main(int argc, char** argv) {
     std::cerr << "--scenes must be a power of two\n";
     return 2;
   }
-  benchmark::AddCustomContext("flags", NEARMISS_BENCHMARK_FLAGS);
+  nearmiss::benchmarks::tell("flags", NEARMISS_BENCHMARK_FLAGS);
+  nearmiss::benchmarks::tell("processor", nearmiss::benchmarks::processor());
+  nearmiss::benchmarks::tell("scenes", std::to_string(nearmiss::benchmarks::scene_count()));
   nearmiss::benchmarks::enter_all();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
