@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <collide/checked.hpp>
+
 #include "oracles/query.hpp"
 
 namespace nearmiss {
@@ -22,36 +24,19 @@ std::vector<Field> fields_of() {
   return fields;
 }
 
-/// Rules of every shape within s, and of vectors that must not be zero.
-template <class S>
-std::optional<Invalid> broken_within(const S& s, const std::string& path, Role role) {
-  std::optional<Invalid> found;
-  const auto below = [&](std::string_view name) { return path.empty() ? std::string(name) : path + "." + std::string(name); };
-  if constexpr (std::is_same_v<S, collide::Vec3<double>>) {
-    if (role == Role::direction && s == S{}) return Invalid{path, 0.0, "not all of x, y, z zero"};
-  } else if constexpr (collide::Listed<S>) {
-    if constexpr (requires { s.broken(); }) {
-      if (const auto b = s.broken()) return Invalid{below(b->member), b->value, std::string(b->rule)};
-    }
-    collide::for_each_member(s, [&](std::string_view name, const auto& value, Role own) {
-      if (!found) found = broken_within(value, below(name), own == Role::inherited ? role : own);
-    });
-  }
-  return found;
-}
-
 template <class Inputs>
 std::optional<Invalid> broken_inputs(std::span<const double> values) {
   static const std::vector<Field> fields = fields_of<Inputs>();
-  for (std::size_t i = 0; i < fields.size(); ++i) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {  // what becomes a bool or an int must be one before
     const double x = values[i];
-    if (!std::isfinite(x)) return Invalid{fields[i].name, x, "finite"};
     if (fields[i].role == Role::flag && x != 0 && x != 1) return Invalid{fields[i].name, x, "true or false"};
     if (fields[i].role == Role::index && (x != std::floor(x) || std::abs(x) > 1e6)) {
       return Invalid{fields[i].name, x, "a small integer"};
     }
   }
-  return broken_within(inputs_from<Inputs>(values.data()), "", Role::inherited);
+  const auto broken = collide::broken_rule(inputs_from<Inputs>(values.data()));
+  if (!broken) return std::nullopt;
+  return Invalid{broken->field.text(), broken->value, std::string(broken->rule)};
 }
 
 template <class Inputs>

@@ -95,7 +95,7 @@ struct Sphere {
     return std::tuple(member("center", &Sphere::center, Role::position),
                       member("radius", &Sphere::radius, Role::size));
   }
-  std::optional<Broken> broken() const {
+  constexpr std::optional<Broken> broken() const noexcept {
     if (radius < T(0)) return Broken{"radius", "not negative", double(radius)};
     return std::nullopt;
   }
@@ -111,7 +111,7 @@ struct Capsule {
     return std::tuple(member("p0", &Capsule::p0, Role::position), member("p1", &Capsule::p1, Role::position),
                       member("radius", &Capsule::radius, Role::size));
   }
-  std::optional<Broken> broken() const {
+  constexpr std::optional<Broken> broken() const noexcept {
     if (radius < T(0)) return Broken{"radius", "not negative", double(radius)};
     return std::nullopt;
   }
@@ -125,7 +125,7 @@ struct AABox {
   static constexpr auto members() {
     return std::tuple(member("min", &AABox::min, Role::position), member("max", &AABox::max, Role::position));
   }
-  std::optional<Broken> broken() const {
+  constexpr std::optional<Broken> broken() const noexcept {
     if (max.x < min.x) return Broken{"max.x", "not below min.x", double(max.x)};
     if (max.y < min.y) return Broken{"max.y", "not below min.y", double(max.y)};
     if (max.z < min.z) return Broken{"max.z", "not below min.z", double(max.z)};
@@ -142,7 +142,7 @@ struct Quaternion {
     return std::tuple(member("x", &Quaternion::x), member("y", &Quaternion::y),
                       member("z", &Quaternion::z), member("w", &Quaternion::w));
   }
-  std::optional<Broken> broken() const {
+  constexpr std::optional<Broken> broken() const noexcept {
     if (x == T(0) && y == T(0) && z == T(0) && w == T(0)) return Broken{"w", "not all of x, y, z, w zero", 0.0};
     return std::nullopt;
   }
@@ -160,7 +160,7 @@ struct Box {
                       member("half", &Box::half, Role::size),
                       member("orientation", &Box::orientation, Role::rotation));
   }
-  std::optional<Broken> broken() const {
+  constexpr std::optional<Broken> broken() const noexcept {
     if (half.x < T(0)) return Broken{"half.x", "not negative", double(half.x)};
     if (half.y < T(0)) return Broken{"half.y", "not negative", double(half.y)};
     if (half.z < T(0)) return Broken{"half.z", "not negative", double(half.z)};

@@ -1,0 +1,78 @@
+/// A contender: one way to answer a query, timed against the others on the same scenes.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "benchmarks/scenes.hpp"
+#include "impl/subject/answer.hpp"
+
+namespace nearmiss::benchmarks {
+
+class Contender {
+ public:
+  virtual ~Contender() = default;
+  /// Makes what is ready before the question comes: shapes, poses, prepared helps. Not timed.
+  virtual void prepare(const Scenes& scenes) = 0;
+  /// Asks every scene once, in the order of that pass.
+  virtual void pass(std::size_t pass) = 0;
+  virtual void ask(std::size_t scene) = 0;
+  virtual bool yes(std::size_t scene) = 0;
+};
+
+/// The i-th scene of a pass. Scenes are in random order, and each pass goes through them in another one, so
+/// that no predictor learns the order by heart.
+inline std::size_t scene_in_pass(std::size_t i, std::size_t pass, std::size_t scenes) {
+  const std::size_t stride = 2 * (pass * 0x9e3779b97f4a7c15 >> 32) + 1;  // odd, and scenes a power of two
+  return (i * stride) & (scenes - 1);
+}
+
+/// Names a contender: it becomes the benchmark QUERY/WHO/WAY/SCALAR.
+void enter(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender);
+
+/// Tells the results who took part: "FCL", "0.7.0".
+void tell(const std::string& what, const std::string& value);
+
+/// What a library other than collide says: yes or no, and its number where it has one.
+struct Said {
+  bool answer = false;
+  double number = 0;
+  bool yes() const { return answer; }
+};
+
+/// The compiler must compute the value, and may not know what any memory holds from here on.
+template <class T>
+inline void keep(const T& value) {
+  asm volatile("" : : "m"(value) : "memory");
+}
+
+/// The contender whose scenes are made from Q, the inputs of a query, and answer by `ask()`.
+template <class Scene, class Q>
+class ContenderOf final : public Contender {
+ public:
+  ~ContenderOf() override { clear(); }
+  void prepare(const Scenes& scenes) override {
+    clear();
+    capacity_ = scenes.size();
+    scenes_ = std::allocator<Scene>().allocate(capacity_);  // in one row; a scene need not be movable
+    for (const auto& values : scenes.values) std::construct_at(scenes_ + size_++, inputs_from<Q>(values.data()));
+  }
+  void pass(std::size_t pass) override {
+    for (std::size_t i = 0; i < size_; ++i) keep(scenes_[scene_in_pass(i, pass, size_)].ask());
+  }
+  void ask(std::size_t scene) override { keep(scenes_[scene].ask()); }
+  bool yes(std::size_t scene) override { return scenes_[scene].ask().yes(); }
+
+ private:
+  void clear() {
+    if (scenes_ == nullptr) return;
+    std::destroy_n(scenes_, size_);
+    std::allocator<Scene>().deallocate(scenes_, capacity_);
+    scenes_ = nullptr;
+    size_ = 0;
+  }
+  Scene* scenes_ = nullptr;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+}  // namespace nearmiss::benchmarks

@@ -1,0 +1,179 @@
+/// Times every contender on the scenes of its query. Google Benchmark's own options apply;
+/// --scenes=N, a power of two, sets how many scenes each query gets.
+///
+/// Time is that of one call among others, scenes in random order. Counters: p50 and p99 over the scenes, ns
+/// that one costs by itself, from its begin to its end, which overlaps with no other; hits and agree,
+/// shares of the scenes: those with a yes, and those where the decision is that of Fast in double.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
+#include "benchmarks/contender.hpp"
+#include "nearmiss/benchmark_entries.hpp"  // written by CMake: enter_all()
+
+namespace nearmiss::benchmarks {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ns_since(Clock::time_point begin) { return std::chrono::duration<double, std::nano>(Clock::now() - begin).count(); }
+
+/// A clock that resolves a few nanoseconds: on x86 the cycle counter, between fences, so that nothing of
+/// the question is begun before or ended after the reading.
+std::uint64_t ticks() {
+#if defined(__x86_64__)
+  _mm_lfence();
+  const std::uint64_t now = __rdtsc();
+  _mm_lfence();
+  return now;
+#else
+  return std::uint64_t(Clock::now().time_since_epoch().count());
+#endif
+}
+
+double ns_per_tick() {
+  static const double ratio = [] {
+    constexpr double long_enough_ns = 2e7;
+    const auto begin = Clock::now();
+    const std::uint64_t first = ticks();
+    while (ns_since(begin) < long_enough_ns) {
+    }
+    return ns_since(begin) / double(ticks() - first);
+  }();
+  return ratio;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// What is measured of a question that costs nothing.
+class NoQuestion final : public Contender {
+  void prepare(const Scenes&) override {}
+  void pass(std::size_t) override {}
+  void ask(std::size_t) override {}
+  bool yes(std::size_t) override { return false; }
+};
+
+/// Ticks that each scene costs by itself, of some passes in different orders the median: what slows one
+/// pass alone is the machine, not the question.
+std::vector<double> costs_of_scenes(Contender& contender, std::size_t scenes) {
+  constexpr std::size_t passes = 9;
+  std::vector<std::vector<double>> costs(scenes);
+  for (std::size_t pass = 0; pass < passes; ++pass) {
+    for (std::size_t i = 0; i < scenes; ++i) {
+      const std::size_t scene = scene_in_pass(i, pass, scenes);
+      const std::uint64_t begin = ticks();
+      contender.ask(scene);
+      costs[scene].push_back(double(ticks() - begin));
+    }
+  }
+  std::vector<double> medians;
+  for (const auto& c : costs) medians.push_back(median(c));
+  return medians;
+}
+
+struct Percentiles {
+  double p50, p99, agree;
+};
+
+Percentiles percentiles(Contender& contender, const Scenes& scenes) {
+  static NoQuestion nothing;
+  Contender* volatile no_question = &nothing;  // the call must stay a call
+  const double overhead = median(costs_of_scenes(*no_question, scenes.size()));
+  std::vector<double> costs = costs_of_scenes(contender, scenes.size());
+  std::sort(costs.begin(), costs.end());
+  const auto ns = [&](std::size_t i) { return std::max(0.0, costs[i] - overhead) * ns_per_tick(); };
+  std::size_t agree = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) agree += contender.yes(i) == scenes.yes[i];
+  return {ns(costs.size() / 2), ns(costs.size() * 99 / 100), double(agree) / double(scenes.size())};
+}
+
+/// What outlives the several calls that Google Benchmark makes for one result.
+struct Entry {
+  std::string query;
+  std::unique_ptr<Contender> contender;
+  std::optional<Percentiles> measured;
+
+  void run(benchmark::State& state) {
+    const Scenes& scenes = scenes_of(query);
+    contender->prepare(scenes);
+    if (!measured) measured = percentiles(*contender, scenes);
+    const auto calls = benchmark::IterationCount(scenes.size());
+    for (std::size_t pass = 0; state.KeepRunningBatch(calls); ++pass) contender->pass(pass);
+    state.counters["p50"] = measured->p50;
+    state.counters["p99"] = measured->p99;
+    state.counters["hits"] = scenes.share_of_yes();
+    state.counters["agree"] = measured->agree;
+    contender->prepare({});  // memory back
+  }
+};
+
+std::vector<std::unique_ptr<Entry>>& entries() {
+  static std::vector<std::unique_ptr<Entry>> all;
+  return all;
+}
+
+/// Takes --scenes=N out of the arguments; false where N is no power of two.
+bool take_scene_count(int& argc, char** argv) {
+  constexpr std::string_view option = "--scenes=";
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (!argument.starts_with(option)) continue;
+    const std::size_t count = std::strtoull(argv[i] + option.size(), nullptr, 10);
+    if (!std::has_single_bit(count)) return false;
+    set_scene_count(count);
+    std::copy(argv + i + 1, argv + argc, argv + i);
+    --argc;
+    return true;
+  }
+  return true;
+}
+
+/// As the kernel names it; empty where it does not.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "";
+}
+
+}  // namespace
+
+void tell(const std::string& what, const std::string& value) { benchmark::AddCustomContext(what, value); }
+
+void enter(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender) {
+  const std::string name = query + "/" + who + "/" + way + "/" NEARMISS_SCALAR_NAME;
+  entries().push_back(std::make_unique<Entry>(Entry{std::move(query), std::move(contender), {}}));
+  benchmark::RegisterBenchmark(name.c_str(), [entry = entries().back().get()](benchmark::State& s) { entry->run(s); });
+}
+
+}  // namespace nearmiss::benchmarks
+
+int main(int argc, char** argv) {
+  if (!nearmiss::benchmarks::take_scene_count(argc, argv)) {
+    std::cerr << "--scenes must be a power of two\n";
+    return 2;
+  }
+  nearmiss::benchmarks::tell("flags", NEARMISS_BENCHMARK_FLAGS);
+  nearmiss::benchmarks::tell("processor", nearmiss::benchmarks::processor());
+  nearmiss::benchmarks::tell("scenes", std::to_string(nearmiss::benchmarks::scene_count()));
+  nearmiss::benchmarks::enter_all();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,85 @@
+/// What the adapters to other libraries need of a query's inputs.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <tuple>
+
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+
+namespace nearmiss::benchmarks {
+
+/// A query's name as a template argument.
+struct QueryName {
+  char text[48]{};
+  template <std::size_t n>
+  constexpr QueryName(const char (&name)[n]) {
+    std::copy_n(name, n, text);
+  }
+};
+
+/// The k-th member of type S of a query's inputs.
+template <class S, int k = 0, std::size_t i = 0, class Q>
+const S& the(const Q& q) {
+  constexpr auto member = std::get<i>(Q::members());
+  using Here = std::remove_cvref_t<decltype(q.*(member.pointer))>;
+  if constexpr (!std::is_same_v<Here, S>) {
+    return the<S, k, i + 1>(q);
+  } else if constexpr (k > 0) {
+    return the<S, k - 1, i + 1>(q);
+  } else {
+    return q.*(member.pointer);
+  }
+}
+
+template <class T>
+T dot(const collide::Vec3<T>& a, const collide::Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+T norm(const collide::Vec3<T>& a) {
+  return std::sqrt(dot(a, a));
+}
+
+/// A ball around a shape; for a plane, which has none, around the point below `seen_from`.
+template <class T>
+collide::Sphere<T> ball_around(const collide::Sphere<T>& s, const collide::Vec3<T>&) {
+  return s;
+}
+template <class T>
+collide::Sphere<T> ball_around(const collide::Box<T>& b, const collide::Vec3<T>&) {
+  return {b.center, norm(b.half)};
+}
+template <class T>
+collide::Sphere<T> ball_around(const collide::AABox<T>& b, const collide::Vec3<T>&) {
+  return {(b.min + b.max) * T(0.5), norm(b.max - b.min) / 2};
+}
+template <class T>
+collide::Sphere<T> ball_around(const collide::Capsule<T>& c, const collide::Vec3<T>&) {
+  return {(c.p0 + c.p1) * T(0.5), norm(c.p1 - c.p0) / 2 + c.radius};
+}
+template <class T>
+collide::Sphere<T> ball_around(const collide::Triangle<T>& t, const collide::Vec3<T>&) {
+  const collide::Vec3<T> center = (t.v0 + t.v1 + t.v2) / T(3);
+  return {center, std::max({norm(t.v0 - center), norm(t.v1 - center), norm(t.v2 - center)})};
+}
+template <class T>
+collide::Sphere<T> ball_around(const collide::Plane<T>& p, const collide::Vec3<T>& seen_from) {
+  const T above = (dot(p.normal, seen_from) + p.offset) / dot(p.normal, p.normal);
+  return {seen_from - p.normal * above, T(2) * norm(p.normal * above)};
+}
+
+/// Where a motion that goes on for ever may end without missing anything: past the shape. Other libraries
+/// move from a start to an end.
+template <class S, class T>
+collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius, const S& shape) {
+  const collide::Sphere<T> ball = ball_around(shape, start);
+  const T speed = norm(velocity);
+  if (!(speed > 0)) return start;
+  const T way = std::max(dot(ball.center - start, velocity) / speed, T(0)) + ball.radius + radius;
+  return start + velocity * (way / speed);
+}
+
+}  // namespace nearmiss::benchmarks

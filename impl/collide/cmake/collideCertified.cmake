@@ -1,0 +1,30 @@
+# Makes the target collide::certified: collide::collide with GMP and MPFR. Where one of them is missing there is no
+# target, and collide_certified_MISSING says why.
+
+if(TARGET collide::certified)
+  return()
+endif()
+
+set(collide_certified_MISSING "")
+foreach(library gmp mpfr)
+  find_path(COLLIDE_${library}_INCLUDE_DIR ${library}.h)
+  find_library(COLLIDE_${library}_LIBRARY ${library})
+  mark_as_advanced(COLLIDE_${library}_INCLUDE_DIR COLLIDE_${library}_LIBRARY)
+  if(NOT COLLIDE_${library}_INCLUDE_DIR OR NOT COLLIDE_${library}_LIBRARY)
+    string(APPEND collide_certified_MISSING "${library} was not found (lib${library}-dev on Debian); ")
+  endif()
+endforeach()
+string(REGEX REPLACE "; $" "" collide_certified_MISSING "${collide_certified_MISSING}")
+
+if(collide_certified_MISSING STREQUAL "")
+  get_target_property(imported collide::collide IMPORTED)
+  if(imported)  # by find_package: seen where collide::collide is seen
+    add_library(collide::certified INTERFACE IMPORTED)
+  else()
+    add_library(collide::certified INTERFACE IMPORTED GLOBAL)
+  endif()
+  target_include_directories(collide::certified SYSTEM INTERFACE
+    ${COLLIDE_gmp_INCLUDE_DIR} ${COLLIDE_mpfr_INCLUDE_DIR})
+  target_link_libraries(collide::certified INTERFACE
+    collide::collide ${COLLIDE_mpfr_LIBRARY} ${COLLIDE_gmp_LIBRARY})
+endif()

@@ -1,0 +1,176 @@
+/// Shapes that keep their rules: checked where they enter, plain structs from then on.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <collide/number.hpp>
+#include <collide/shapes.hpp>
+
+namespace collide {
+
+/// Which number of a shape breaks a rule: "box", "half", "y".
+class FieldPath {
+ public:
+  constexpr FieldPath() = default;
+  constexpr explicit FieldPath(std::string_view name) noexcept { *this = below(name); }
+
+  static constexpr std::size_t deepest = 8;
+
+  /// The path with one name more; an empty name changes nothing. At most `deepest` names.
+  constexpr FieldPath below(std::string_view name) const noexcept {
+    FieldPath longer = *this;
+    if (!name.empty()) longer.names_[longer.size_++] = name;
+    return longer;
+  }
+  /// "box.half.y"
+  std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < size_; ++i) (text += i > 0 ? "." : "") += names_[i];
+    return text;
+  }
+
+ private:
+  std::array<std::string_view, deepest> names_{};
+  std::size_t size_ = 0;
+};
+
+/// A rule that does not hold.
+struct BrokenRule {
+  FieldPath field;
+  double value;           ///< what the field is
+  std::string_view rule;  ///< what it must be
+
+  /// "sphere.radius is -1: it must be not negative"
+  std::string text() const {
+    std::array<char, 32> digits{};  // the shortest text of a double has at most 24
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    return field.text() + " is " + std::string(digits.data(), end) + ": it must be " + std::string(rule);
+  }
+};
+
+namespace detail {
+
+template <class S>
+constexpr std::string_view name_of_shape = "";
+template <class T>
+constexpr std::string_view name_of_shape<Vec3<T>> = "vector";
+template <class T>
+constexpr std::string_view name_of_shape<Segment<T>> = "segment";
+template <class T>
+constexpr std::string_view name_of_shape<Line<T>> = "line";
+template <class T>
+constexpr std::string_view name_of_shape<Ray<T>> = "ray";
+template <class T>
+constexpr std::string_view name_of_shape<Plane<T>> = "plane";
+template <class T>
+constexpr std::string_view name_of_shape<Triangle<T>> = "triangle";
+template <class T>
+constexpr std::string_view name_of_shape<Rectangle<T>> = "rectangle";
+template <class T>
+constexpr std::string_view name_of_shape<Sphere<T>> = "sphere";
+template <class T>
+constexpr std::string_view name_of_shape<Capsule<T>> = "capsule";
+template <class T>
+constexpr std::string_view name_of_shape<AABox<T>> = "aabox";
+template <class T>
+constexpr std::string_view name_of_shape<Quaternion<T>> = "quaternion";
+template <class T>
+constexpr std::string_view name_of_shape<Box<T>> = "box";
+
+template <class T>
+constexpr bool is_vector = false;
+template <class T>
+constexpr bool is_vector<Vec3<T>> = true;
+
+template <MachineNumber T>
+constexpr bool finite(T x) noexcept {
+  return x >= std::numeric_limits<T>::lowest() && x <= std::numeric_limits<T>::max();
+}
+
+constexpr std::array<std::string_view, 10> index_names = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
+
+/// How many names the longest path within S has.
+template <class S>
+constexpr std::size_t depth() noexcept {
+  if constexpr (Listed<S>) {
+    std::size_t deepest = 0;
+    S s{};
+    for_each_member(s, [&](std::string_view, const auto& value, Role) {
+      deepest = std::max(deepest, depth<std::remove_cvref_t<decltype(value)>>());
+    });
+    return deepest + 1;
+  } else if constexpr (requires { typename S::value_type; }) {
+    return 1 + depth<typename S::value_type>();
+  } else {
+    return 0;
+  }
+}
+
+/// What a field must be by its role alone, after what is within it.
+template <class S>
+constexpr std::optional<BrokenRule> broken_by_itself(const S& s, const FieldPath& path, Role role) noexcept {
+  if constexpr (MachineNumber<S>) {
+    if (!finite(s)) return BrokenRule{path, double(s), "finite"};
+    if (role == Role::size && s < S(0)) return BrokenRule{path, double(s), "not negative"};
+  } else if constexpr (is_vector<S>) {
+    if (role == Role::direction && s == S{}) return BrokenRule{path, 0.0, "not all of x, y, z zero"};
+  } else if constexpr (requires { s.broken(); }) {
+    if (const auto b = s.broken()) return BrokenRule{path.below(b->member), b->value, b->rule};
+  }
+  return std::nullopt;
+}
+
+template <class S>
+constexpr std::optional<BrokenRule> broken_within(const S& s, const FieldPath& path, Role role) noexcept {
+  std::optional<BrokenRule> found;
+  if constexpr (Listed<S>) {
+    for_each_member(s, [&](std::string_view name, const auto& value, Role own) {
+      if (!found) found = broken_within(value, path.below(name), own == Role::inherited ? role : own);
+    });
+  } else if constexpr (requires { s.begin(); }) {
+    static_assert(std::tuple_size_v<S> <= index_names.size());
+    for (std::size_t i = 0; i < s.size() && !found; ++i) found = broken_within(s[i], path.below(index_names[i]), role);
+  }
+  return found ? found : broken_by_itself(s, path, role);
+}
+
+}  // namespace detail
+
+/// The first rule that a shape breaks, or a whole struct of inputs: every number finite, sizes not
+/// negative, directions and quaternions not zero, the corners of an axis-aligned box in order. A number
+/// comes before the shape that holds it.
+///
+/// `name` is what the field's path begins with.
+template <Listed S>
+constexpr std::optional<BrokenRule> broken_rule(const S& s, std::string_view name = detail::name_of_shape<S>) noexcept {
+  static_assert(1 + detail::depth<S>() + 1 <= FieldPath::deepest, "name, path, and the member that a shape's rule names");
+  return detail::broken_within(s, FieldPath(name), Role::inherited);
+}
+
+/// The shape itself. Throws std::invalid_argument with one line that names the field, its value and the
+/// rule that it breaks; in a constant expression a broken rule does not compile.
+///
+/// The queries themselves check nothing: build the structs directly where the numbers are known to be right.
+template <Listed S>
+constexpr S checked(const S& s, std::string_view name = detail::name_of_shape<S>) {
+  if (const auto broken = broken_rule(s, name)) throw std::invalid_argument(broken->text());
+  return s;
+}
+/// A vector that must not be zero: checked_direction(v, "velocity").
+template <MachineNumber T>
+constexpr Vec3<T> checked_direction(const Vec3<T>& v, std::string_view name = "direction") {
+  if (const auto broken = detail::broken_within(v, FieldPath(name), Role::direction)) {
+    throw std::invalid_argument(broken->text());
+  }
+  return v;
+}
+
+}  // namespace collide

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Installs collide alone, and uses it as others would.
+# Usage: check_package.sh COLLIDE_FOLDER EXAMPLE_FOLDER COMPILER installed|fetched|certified
+#        check_package.sh COLLIDE_FOLDER EXAMPLE_FOLDER COMPILER includes QUERY ...
+set -euo pipefail
+
+collide=$1 example=$2 compiler=$3 what=$4
+shift 4
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+export CXX=$compiler CMAKE_GENERATOR=Ninja
+
+fail() {
+  echo "check_package: $1" >&2
+  exit 1
+}
+# Runs a command; shows what it said only where it fails.
+quietly() {
+  "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "this command fails: $*"; }
+}
+install_collide() {
+  quietly cmake -S "$collide" -B "$scratch/collide"
+  quietly cmake --build "$scratch/collide"
+  quietly cmake --install "$scratch/collide" --prefix "$scratch/prefix"
+  if grep -rlF -e "$collide" -e "$scratch" "$scratch/prefix"; then fail "an installed file names the folder it came from"; fi
+  mv "$scratch/prefix" "$scratch/moved"  # an installation may be moved
+}
+run_example() { # CMAKE_ARGUMENT ...
+  quietly cmake -S "$example" -B "$scratch/example" "$@"
+  quietly cmake --build "$scratch/example"
+  "$scratch/example/scene" >"$scratch/said" || fail "the example ends with $?"
+  diff "$example/expected.txt" "$scratch/said" || fail "the example says something else than expected.txt"
+}
+
+case $what in
+  installed)
+    install_collide
+    run_example "-DCMAKE_PREFIX_PATH=$scratch/moved"
+    ;;
+  fetched) run_example "-DCOLLIDE_SOURCE=$collide" ;;
+  certified)
+    install_collide
+    quietly cmake -S "$here/certified" -B "$scratch/certified" "-DCMAKE_PREFIX_PATH=$scratch/moved"
+    quietly cmake --build "$scratch/certified"
+    quietly "$scratch/certified/certified"
+    if cmake -S "$here/certified" -B "$scratch/unknown" "-DCMAKE_PREFIX_PATH=$scratch/moved" -DCOMPONENT=unknown \
+      >"$scratch/log" 2>&1; then
+      fail "find_package accepts a component that does not exist"
+    fi
+    # Where GMP is not found the package says so, and only for this component.
+    gmp_folder=$(sed -n 's|^COLLIDE_gmp_INCLUDE_DIR:PATH=||p' "$scratch/certified/CMakeCache.txt")
+    if cmake -S "$here/certified" -B "$scratch/without" "-DCMAKE_PREFIX_PATH=$scratch/moved" \
+      "-DCMAKE_IGNORE_PATH=$gmp_folder" >"$scratch/log" 2>&1; then
+      fail "the component certified is found without GMP"
+    fi
+    grep -q "gmp was not found" "$scratch/log" || { cat "$scratch/log"; fail "the missing GMP is not named"; }
+    ;;
+  includes)
+    # The headers of queries among all that the example reads: those that it names and no other.
+    "$compiler" -std=c++20 -I "$collide/include" -M "$example/scene.cpp" | grep -o 'collide/[a-z0-9_]*\.hpp' | sort -u >"$scratch/read"
+    sed -n 's|^#include <\(collide/.*\.hpp\)>$|\1|p' "$example/scene.cpp" | sort -u >"$scratch/named"
+    printf 'collide/%s.hpp\n' "$@" | sort -u >"$scratch/queries"
+    [[ $(comm -12 "$scratch/named" "$scratch/queries" | wc -l) == 3 ]] || fail "the example does not name three queries"
+    comm -12 "$scratch/read" "$scratch/queries" | diff "$scratch/named" - || fail "the example reads other queries than it names"
+    ;;
+  *) fail "there is no check called $what" ;;
+esac
+echo "check_package: $what"

@@ -1,0 +1,91 @@
+/// docs/reference.md and the catalogue name the same queries.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "oracles/query.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// A row of a table: the text of its cells, and in which section it stands.
+struct Row {
+  std::string section;
+  std::vector<std::string> cells;
+};
+
+std::vector<Row> rows_of_reference() {
+  const std::string path = NEARMISS_SOURCE_FOLDER "/docs/reference.md";
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + " cannot be read");
+  std::vector<Row> rows;
+  std::string section, line;
+  while (std::getline(file, line)) {
+    if (line.starts_with("## ")) section = line.substr(3);
+    if (!line.starts_with("| `")) continue;
+    Row row{section, {}};
+    const std::regex cell(R"(\| ([^|]*[^| ]) (?=\|))");
+    for (std::sregex_iterator i(line.begin(), line.end(), cell), end; i != end; ++i) row.cells.push_back((*i)[1]);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+bool beyond(const Row& row) { return row.section == "Beyond the reference"; }
+std::string quoted(const std::string& cell) {
+  return cell.size() > 2 && cell.front() == '`' && cell.back() == '`' ? cell.substr(1, cell.size() - 2) : "";
+}
+std::string query_of(const Row& row) { return quoted(row.cells[beyond(row) ? 0 : 1]); }
+
+std::vector<Row> rows_of_queries() {
+  std::vector<Row> rows = rows_of_reference();
+  std::erase_if(rows, [](const Row& row) { return row.section == "What differs everywhere"; });
+  return rows;
+}
+
+TEST(ReferenceTable, HasRowsOfItsForm) {
+  constexpr int functions_of_reference = 45;  // overloads counted apart
+  const std::vector<Row> rows = rows_of_queries();
+  EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !beyond(row); }),
+            functions_of_reference);
+  std::set<std::string> seen;
+  for (const Row& row : rows) {
+    ASSERT_EQ(row.cells.size(), beyond(row) ? 2u : 3u) << row.cells[0];
+    EXPECT_FALSE(query_of(row).empty()) << row.cells[0];
+    EXPECT_TRUE(seen.insert(row.cells[0]).second) << row.cells[0] << " stands there twice";
+    if (beyond(row)) continue;
+    EXPECT_TRUE(std::regex_match(row.cells[0], std::regex("`[a-zA-Z]+\\([a-zA-Z0-9, ]+\\)`"))) << row.cells[0];
+  }
+}
+
+TEST(ReferenceTable, NamesTheSameQueriesAsTheCatalogue) {
+  std::set<std::string> named, known, not_in_catalogue, not_in_table;
+  for (const Row& row : rows_of_queries()) named.insert(query_of(row));
+  for (const Query& query : catalogue()) known.insert(std::string(query.name));
+  std::ranges::set_difference(named, known, std::inserter(not_in_catalogue, not_in_catalogue.end()));
+  std::ranges::set_difference(known, named, std::inserter(not_in_table, not_in_table.end()));
+  EXPECT_TRUE(not_in_catalogue.empty()) << "docs/reference.md names what oracles/catalogue.def has no line for:\n  "
+                                        << fmt::format("{}", fmt::join(not_in_catalogue, "\n  "));
+  EXPECT_TRUE(not_in_table.empty()) << "docs/reference.md has no row for these lines of oracles/catalogue.def (one that the"
+                                       " reference does not have goes under \"Beyond the reference\"):\n  "
+                                    << fmt::format("{}", fmt::join(not_in_table, "\n  "));
+}
+
+TEST(ReferenceTable, CallsNothingBeyondTheReferenceThatIsInIt) {
+  std::set<std::string> of_reference;
+  for (const Row& row : rows_of_queries()) {
+    if (!beyond(row)) of_reference.insert(query_of(row));
+  }
+  for (const Row& row : rows_of_queries()) {
+    if (!beyond(row)) continue;
+    EXPECT_FALSE(of_reference.contains(query_of(row))) << query_of(row);
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
