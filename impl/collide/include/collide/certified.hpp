@@ -126,12 +126,6 @@ void miss_beyond_range(A& answer) {
   }
 }
 
-/// Tells whether an answer has numbers that need to be known: not where they are all zero or infinite.
-template <class T>
-bool settled(double value, double error) {
-  return error == 0 && (double(T(value)) == value || std::isinf(value));
-}
-
 /// The largest distance that one number of a member may have from the exact one: half a unit in the last
 /// place of the member's largest number, which leaves another half for rounding.
 template <class T>
@@ -140,25 +134,29 @@ double allowed(double largest) {
   return std::max(largest, least) * (double(std::numeric_limits<T>::epsilon()) / 4);
 }
 
-/// Checks the members of an answer over Bounded or WideBounded: errors times `ratio` small enough for T.
+inline double leading(double value) { return value; }
+inline double leading(const DoubleWord<double>& value) { return value.high; }
+
+/// Whether every number of an answer over Bounded or WideBounded is known well enough for T, its error times
+/// `ratio`. Infinities and what is exactly a T are.
 template <class T, class A>
 bool known(const A& answer, double ratio) {
   bool all = true;
   for_each_member(answer, [&](std::string_view, const auto& member, Role) {
     double largest = 0, error = 0;
-    bool settled_all = true;
     for_each_leaf(member, [&](const auto& leaf, Role) {
       if constexpr (requires { leaf.error; }) {
-        const double value = [&] {
-          if constexpr (requires { leaf.value.high; }) return leaf.value.high;
-          else return leaf.value;
-        }();
-        settled_all = settled_all && settled<T>(value, leaf.error);
-        largest = std::max(largest, std::abs(value));
-        if (!(leaf.error <= error)) error = leaf.error;
+        largest = std::max(largest, std::abs(leading(leaf.value)));
+        error = leaf.error <= error ? error : leaf.error;  // NaN stays
       }
     });
-    if (!settled_all && !(error * ratio * (1 + 0x1p-20) <= allowed<T>(largest) )) all = false;
+    if (error * ratio * (1 + 0x1p-20) <= allowed<T>(largest)) return;
+    for_each_leaf(member, [&](const auto& leaf, Role) {
+      if constexpr (requires { leaf.error; }) {
+        const double value = leading(leaf.value);
+        if (leaf.error != 0 || !(double(T(value)) == value || std::isinf(value))) all = false;
+      }
+    });
   });
   return all;
 }

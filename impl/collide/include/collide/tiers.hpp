@@ -8,8 +8,11 @@
 /// underflow behind `if constexpr (MachineNumber<T>)`.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <collide/answers.hpp>
@@ -89,22 +92,32 @@ struct Compensated : Plain {
   }
 };
 
+/// The sign bit is set where x is NaN or infinite: a carry out of an exponent that is all ones.
+template <MachineNumber T>
+constexpr auto not_finite_bit(T x) noexcept {
+  static_assert(sizeof(T) == 4 || sizeof(T) == 8);
+  using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+  constexpr Bits exponent = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
+  constexpr Bits one = Bits{1} << (std::numeric_limits<T>::digits - 1);
+  return Bits((std::bit_cast<Bits>(x) & exponent) + one);
+}
+
 /// True where every number of the arguments is finite, but for a bare number, which may be +infinity.
 template <class... Args>
 constexpr bool all_finite(const Args&... args) noexcept {
-  bool finite = true;
+  std::uint64_t found = 0;  // in the sign bit of double, and in that of float
   const auto look = [&](const auto& argument) {
-    using Argument = std::remove_cvref_t<decltype(argument)>;
-    for_each_leaf(argument, [&](const auto& leaf, Role) {
-      using Leaf = std::remove_cvref_t<decltype(leaf)>;
-      if constexpr (MachineNumber<Leaf>) {
-        constexpr Leaf most = std::numeric_limits<Leaf>::max();
-        finite = finite & (leaf >= -most) & (leaf <= (MachineNumber<Argument> ? std::numeric_limits<Leaf>::infinity() : most));
-      }
-    });
+    if constexpr (MachineNumber<std::remove_cvref_t<decltype(argument)>>) {
+      if (!(argument >= -std::numeric_limits<std::remove_cvref_t<decltype(argument)>>::max())) found = ~std::uint64_t{0};
+    } else {
+      for_each_leaf(argument, [&](const auto& leaf, Role) {
+        if constexpr (MachineNumber<std::remove_cvref_t<decltype(leaf)>>) found |= not_finite_bit(leaf);
+      });
+    }
   };
   (look(args), ...);
-  return finite;
+  constexpr bool only_floats = (std::same_as<Rebound<Args, float>, Args> && ...);
+  return (found & (only_floats ? std::uint64_t{1} << 31 : std::uint64_t{1} << 63)) == 0;
 }
 
 /// No, a miss, or a depth that is NaN.
