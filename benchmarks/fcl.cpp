@@ -1,8 +1,9 @@
 /// FCL 0.7 as a contender, in double: its shapes and poses are made before, the question is one call of its
 /// API with the solvers of its choice.
 ///
-/// A plane is FCL's half-space: the solid behind it. Motions run by both of its ways: "naive", its default,
-/// which samples ten positions and may miss what lies between, and "advancement", which may not.
+/// A plane is FCL's half-space, the solid behind it; for motions it is FCL's plane. Motions run by both of
+/// its ways: "naive", its default, which samples ten positions and may miss what lies between, and
+/// "advancement", which may not.
 #include <fcl/config.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
@@ -53,6 +54,15 @@ fcl::Halfspaced shape(const Plane& p) {
   return {vector(p.normal / length), -p.offset / length};
 }
 fcl::Transform3d pose(const Plane&) { return fcl::Transform3d::Identity(); }
+/// A plane without the solid behind it.
+struct Surface {
+  Plane plane;
+};
+fcl::Planed shape(const Surface& s) {
+  const double length = norm(s.plane.normal);
+  return {vector(s.plane.normal / length), -s.plane.offset / length};
+}
+fcl::Transform3d pose(const Surface&) { return fcl::Transform3d::Identity(); }
 
 /// The shapes of a query, the first and second of their types.
 template <class A, class B>
@@ -104,13 +114,17 @@ struct TriangleOverlap {
   fcl::detail::GJKSolver_libccd<double> solver;
 };
 
+/// What a motion may meet.
+template <class B>
+using Target = std::conditional_t<std::is_same_v<B, Plane>, Surface, B>;
+
 template <class B, bool advancement>
-struct Motion : Pair<Sphere, B> {
+struct Motion : Pair<Sphere, Target<B>> {
   template <class Q>
-  explicit Motion(const Q& q)
-      : Pair<Sphere, B>(q),
-        end(at(end_of_motion(the<Sphere>(q).center, q.velocity, the<Sphere>(q).radius,
-                             the<B, std::is_same_v<B, Sphere> ? 1 : 0>(q)))) {}
+  explicit Motion(const Q& q) : Motion(the<Sphere>(q), q.velocity, the<B, std::is_same_v<B, Sphere> ? 1 : 0>(q)) {}
+  Motion(const Sphere& sphere, const Vec3& velocity, const B& target)
+      : Pair<Sphere, Target<B>>(sphere, Target<B>{target}),
+        end(at(end_of_motion(sphere.center, velocity, sphere.radius, target))) {}
   Said ask() const {
     fcl::ContinuousCollisionRequestd request;
     if (advancement) {

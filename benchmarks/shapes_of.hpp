@@ -43,43 +43,46 @@ T norm(const collide::Vec3<T>& a) {
   return std::sqrt(dot(a, a));
 }
 
-/// A ball around a shape; for a plane, which has none, around the point below `seen_from`.
+/// A ball that holds the shape.
 template <class T>
-collide::Sphere<T> ball_around(const collide::Sphere<T>& s, const collide::Vec3<T>&) {
+collide::Sphere<T> ball_around(const collide::Sphere<T>& s) {
   return s;
 }
 template <class T>
-collide::Sphere<T> ball_around(const collide::Box<T>& b, const collide::Vec3<T>&) {
+collide::Sphere<T> ball_around(const collide::Box<T>& b) {
   return {b.center, norm(b.half)};
 }
 template <class T>
-collide::Sphere<T> ball_around(const collide::AABox<T>& b, const collide::Vec3<T>&) {
+collide::Sphere<T> ball_around(const collide::AABox<T>& b) {
   return {(b.min + b.max) * T(0.5), norm(b.max - b.min) / 2};
 }
 template <class T>
-collide::Sphere<T> ball_around(const collide::Capsule<T>& c, const collide::Vec3<T>&) {
+collide::Sphere<T> ball_around(const collide::Capsule<T>& c) {
   return {(c.p0 + c.p1) * T(0.5), norm(c.p1 - c.p0) / 2 + c.radius};
 }
 template <class T>
-collide::Sphere<T> ball_around(const collide::Triangle<T>& t, const collide::Vec3<T>&) {
+collide::Sphere<T> ball_around(const collide::Triangle<T>& t) {
   const collide::Vec3<T> center = (t.v0 + t.v1 + t.v2) / T(3);
   return {center, std::max({norm(t.v0 - center), norm(t.v1 - center), norm(t.v2 - center)})};
 }
-template <class T>
-collide::Sphere<T> ball_around(const collide::Plane<T>& p, const collide::Vec3<T>& seen_from) {
-  const T above = (dot(p.normal, seen_from) + p.offset) / dot(p.normal, p.normal);
-  return {seen_from - p.normal * above, T(2) * norm(p.normal * above)};
-}
-
 /// Where a motion that goes on for ever may end without missing anything: past the shape. Other libraries
 /// move from a start to an end.
 template <class S, class T>
 collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius, const S& shape) {
-  const collide::Sphere<T> ball = ball_around(shape, start);
+  const collide::Sphere<T> ball = ball_around(shape);
   const T speed = norm(velocity);
   if (!(speed > 0)) return start;
   const T way = std::max(dot(ball.center - start, velocity) / speed, T(0)) + ball.radius + radius;
   return start + velocity * (way / speed);
+}
+
+/// For a plane that the motion approaches; a unit of time otherwise.
+template <class T>
+collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius,
+                               const collide::Plane<T>& plane) {
+  const T above = dot(plane.normal, start) + plane.offset, closing = -dot(plane.normal, velocity);
+  if (!(above > 0 && closing > 0)) return start + velocity;
+  return start + velocity * ((above + radius * norm(plane.normal)) / closing);
 }
 
 }  // namespace nearmiss::benchmarks

@@ -7,29 +7,13 @@
 #endif
 
 #include "benchmarks/contender.hpp"
+#include "benchmarks/prepared.hpp"
 
 namespace nearmiss::benchmarks {
 
-/// The inputs of a query, asked of one tier. Where the inputs have a `prepared()`, whose value answers by
-/// `ask<Tier>()` too, that is done before.
-template <class Tier, class Q>
-struct TierScene {
-  explicit TierScene(const Q& q) : inputs(prepared(q)) {}
-  auto ask() const noexcept { return inputs.template ask<Tier>(); }
-
-  static auto prepared(const Q& q) {
-    if constexpr (requires { q.prepared(); }) {
-      return q.prepared();
-    } else {
-      return q;
-    }
-  }
-  decltype(prepared(Q{})) inputs;
-};
-
 template <class Tier, class Q>
 void enter_tier(const char* query, const char* tier) {
-  enter(query, "collide", tier, std::make_unique<ContenderOf<TierScene<Tier, Q>, Q>>());
+  enter(query, "collide", tier, std::make_unique<ContenderOf<Ready<Tier, Q>, Q>>());
 }
 
 template <class Q>

@@ -24,6 +24,9 @@ cp "$here/$query.cpp" "$copy/oracles/"
 echo "NEARMISS_QUERY($query)" >>"$copy/oracles/catalogue.def"
 mkdir -p "$copy/corpus/seeds/$query"
 cp "$here"/seeds/*.json "$copy/corpus/seeds/$query/"
+sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball holds a point |
+}" "$copy/docs/reference.md"
+grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no table for a query of one's own"
 
 # The same depth as the presets' build folders: unchanged sources come from the compiler cache.
 build=$copy/build/release
