@@ -134,18 +134,21 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
   if (line) piece.seen_from |= 1u << diagonal;
   Place<N> place;
   const Vector<N> w = minus(p, v[0]);
+  if (is_enclosure<N>) place = thin_face(v, normal2, p);
   if (has_area) {
     const N height = inner(normal, w);
     const Vector<N> foot = minus(p, times(normal, N(height / normal2)));
-    for (int k = 0; k < 3; ++k) place.point[k] = meet(foot[k], join(join(v[0][k], v[1][k]), v[2][k]));
-    place.distance2 = square(height) / normal2;
-  } else {
-    place = thin_face(v, normal2, p);
+    const N distance2 = square(height) / normal2;
+    for (int k = 0; k < 3; ++k) place.point[k] = is_enclosure<N> ? meet(foot[k], place.point[k]) : foot[k];
+    place.distance2 = is_enclosure<N> ? meet(distance2, place.distance2) : distance2;
   }
   for (int i = 0; i < 3; ++i) {
     const Vector<N> from = minus(p, v[i]);
-    place.gain[c[i]] = has_area ? N(norm2(outer(normal, from)) / normal2)
-                                : N(assume_at_least_zero(N(norm2(from) - place.distance2)));
+    N& gain = place.gain[c[i]];
+    if (is_enclosure<N>) gain = assume_at_least_zero(N(norm2(from) - place.distance2));
+    if (!has_area) continue;
+    const N in_plane = norm2(outer(normal, from)) / normal2;
+    gain = is_enclosure<N> ? meet(in_plane, gain) : in_plane;
   }
   if (line) {
     const N length2 = norm2(base);
