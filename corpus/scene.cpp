@@ -48,7 +48,9 @@ Numbers draw_direction(Draft& d) {
 std::vector<Placed>& place_things(Draft& d) {
   static thread_local std::vector<Placed> placed;
   placed.clear();
-  const double furthest = d.plan.velocities.empty() ? 2 : 4;
+  // Things without a size hardly meet by chance.
+  const bool chance = d.plan.sizes.empty() && decides(d.plan.query->kind);
+  const double furthest = !d.plan.velocities.empty() ? 4 : chance ? 1 : 2;
   for (const Thing& thing : d.plan.things) {
     Placed p{{}, draw_sizes(d, thing)};
     if (placed.empty()) {
@@ -110,7 +112,7 @@ double draw_index(Draft& d) {
 
 /// Of a plane, whose normal are the three numbers before: it passes near a position of the scene.
 double draw_offset(Draft& d, std::size_t i) {
-  Numbers near = d.random_vector(2 * d.unit);
+  Numbers near = d.random_vector(3 * d.unit);
   if (!d.plan.positions.empty()) near = plus(near, d.vector(d.random.pick(d.plan.positions)));
   return -(d[i - 3] * near[0] + d[i - 2] * near[1] + d[i - 1] * near[2]);
 }

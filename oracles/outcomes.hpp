@@ -32,7 +32,8 @@ struct Normals {
   static Normals cone(std::vector<Facing<N>> f) { return {true, std::move(f)}; }
 };
 
-/// The leaves of an answer type in its order: which member each belongs to.
+/// The leaves of an answer type in its order: which member each belongs to. A member without a role of its
+/// own is as many members as it lists.
 struct Layout {
   struct Part {
     std::size_t begin, end;
@@ -45,13 +46,26 @@ struct Layout {
     Layout layout;
     A a{};
     std::size_t at = 0;
-    collide::for_each_member(a, [&](std::string_view, auto& value, Role role) {
-      std::size_t n = 0;
-      collide::for_each_leaf(value, [&](auto&, Role) { ++n; });
-      layout.parts.push_back({at, at + n, role});
-      at += n;
-    });
+    layout.add(a, Role::inherited, at);
     return layout;
+  }
+
+ private:
+  template <class S>
+  void add(S& value, Role role, std::size_t& at) {
+    if (role == Role::inherited) {
+      if constexpr (collide::Listed<S>) {
+        collide::for_each_member(value, [&](std::string_view, auto& part, Role own) { add(part, own, at); });
+        return;
+      } else if constexpr (requires { value.begin(); }) {
+        for (auto& item : value) add(item, role, at);
+        return;
+      }
+    }
+    std::size_t n = 0;
+    collide::for_each_leaf(value, [&](auto&, Role) { ++n; });
+    parts.push_back({at, at + n, role});
+    at += n;
   }
 };
 
@@ -62,6 +76,9 @@ class Tally {
       : about_(about), scalar_(scalar), layout_(layout) {}
 
   const Enclosure& result() const { return result_; }
+  /// A number of the given answer, 0 where it has none: for an oracle that must pick out of a continuum of
+  /// right answers the one that is nearest to it.
+  double given(std::size_t leaf) const { return std::isfinite(about_.values[leaf]) ? about_.values[leaf] : 0.0; }
   void list_in(std::vector<Alternative>* list) { list_ = list; }
 
  protected:

@@ -40,10 +40,13 @@ std::vector<Case> cases_of(const Query& query, Scalar scalar) {
   const double hard[] = {-0.0, is_float ? double(0x1p-149f) : 0x1p-1074, largest_finite(scalar),
                          is_float ? double(0.1f) : 0.1, is_float ? double(1 - 0x1p-24f) : 1 - 0x1p-53};
   Case c = all.front();
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = query.inputs[i].role;
-    if (role != Role::flag && role != Role::index) c.values[i] = hard[i % std::size(hard)];
-  }
+  std::size_t first = 0;
+  do {  // in an order that breaks no rule between two numbers
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      const Role role = query.inputs[i].role;
+      if (role != Role::flag && role != Role::index) c.values[i] = hard[(first + i) % std::size(hard)];
+    }
+  } while (query.broken(c.values) && ++first < std::size(hard));
   all.push_back(c);
   return all;
 }

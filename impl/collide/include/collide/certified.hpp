@@ -168,6 +168,8 @@ bool known(const A& answer, double ratio) {
 struct Certified : Plain {
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
+  template <class T>
+  static constexpr bool keeps = false;
 
   /// The same for every query and scalar, without a bound of magnitudes.
   template <class T>

@@ -29,6 +29,8 @@ struct Plain {
   /// Whether the tier has a text with arguments of T computed by its `lift`.
   template <class T>
   static constexpr bool lifts = false;
+  template <class T>
+  static constexpr bool keeps = true;
 
   template <class T>
   static constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) noexcept {
@@ -146,6 +148,10 @@ struct Fast : Plain {
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
 
+  /// Whether the tier computes in T itself, so that what was computed before in T can help it.
+  template <class T>
+  static constexpr bool keeps = true;
+
   /// Calls `text(operations, arguments...)`, the query itself.
   template <class F, class... Args>
   static constexpr auto lift(F&& text, const Args&... args) noexcept {
@@ -170,6 +176,8 @@ constexpr void keep_apart(bool yes, A& answer) noexcept {
 struct Accurate : Compensated {
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
+  template <class T>
+  static constexpr bool keeps = std::same_as<T, double>;
 
   template <class F, class... Args>
   static constexpr auto lift(F&& text, const Args&... args) noexcept {

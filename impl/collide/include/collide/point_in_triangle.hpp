@@ -1,0 +1,136 @@
+/// Whether a point lies in a triangle, both seen along an axis.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/edges.hpp>
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// The axis 0..2 of the component of largest magnitude; the first of several.
+template <class T>
+int largest_component(const Vec3<T>& v) noexcept {
+  using std::abs;
+  const T x = abs(v.x), y = abs(v.y), z = abs(v.z);
+  if (x >= y && x >= z) return 0;
+  return y >= z ? 1 : 2;
+}
+
+/// `v` without its component along the axis.
+template <class T>
+Vec3<T> seen_along(int axis, const Vec3<T>& v) noexcept {
+  return {axis == 0 ? T(0) : v.x, axis == 1 ? T(0) : v.y, axis == 2 ? T(0) : v.z};
+}
+
+/// Whether the point lies in the closed triangle, both seen along the axis; a triangle without area is a
+/// segment or a point. The point is on one side of all three edges, and within the triangle's bounds: that
+/// rules out what lies on the line of a flat triangle, or beyond the tip of a thin one by rounding.
+///
+/// Two triangles that share an edge see the point on opposite sides of it by the same number.
+template <class Tier, class T>
+bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) noexcept {
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  std::array<std::array<T, 3>, 3> from;
+  for (int i = 0; i < 3; ++i) from[i] = components(v[i] - point);
+  for (const int k : {a, b}) {
+    if (!(smaller(smaller(from[0][k], from[1][k]), from[2][k]) <= T(0))) return false;
+    if (!(larger(larger(from[0][k], from[1][k]), from[2][k]) >= T(0))) return false;
+  }
+  bool left = true, right = true;
+  for (int i = 0; i < 3; ++i) {
+    const std::array<T, 3>&start = from[i], &end = from[(i + 1) % 3];
+    const T turn = Tier::difference_of_products(start[a], end[b], start[b], end[a]);
+    left = left && turn >= T(0);
+    right = right && turn <= T(0);
+  }
+  if constexpr (MachineNumber<T>) {  // what is not looked at
+    if (!(std::abs(from[0][axis] + from[1][axis] + from[2][axis]) <= std::numeric_limits<T>::max())) return false;
+  }
+  return left || right;
+}
+
+}  // namespace detail
+
+/// Whether `point` lies in the closed `triangle`, both seen along an axis: `axis` 0..2, or, for -1, that of
+/// the component of `normal` of largest magnitude (of several the first).
+///
+/// 1. seen along the axis, point == x v0 + y v1 + z v2 with the weights x, y, z, none of them negative,
+///    x + y + z == 1
+/// 2. a triangle that has no area seen along the axis is a segment or a point, and any such weights are right
+///
+/// Units: none for the weights. Source: the sides of the edges (as in Pineda, A Parallel Algorithm for
+/// Polygon Rasterization, 1988); the weights by orthogonalization, which suits thin triangles.
+template <class Tier = Fast, class T>
+Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis,
+                                 const Vec3<T>& point) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return point_in_triangle<decltype(by)>(a...); }, triangle, normal, axis, point);
+  }
+  if constexpr (MachineNumber<T>) {
+    if (!detail::is_finite(normal)) return {};
+  }
+  const int along = axis >= 0 && axis <= 2 ? axis : detail::largest_component(normal);
+  std::array<Vec3<T>, 3> v = detail::corners(triangle);
+  if (!detail::is_inside<Tier>(v, along, point)) return {};
+
+  for (Vec3<T>& x : v) x = detail::seen_along(along, x);
+  const Vec3<T> p = detail::seen_along(along, point);
+  const detail::FaceFoot<T> face = detail::foot_on_face<Tier>(v[1] - v[0], v[2] - v[0], p - v[0]);
+  if (face.inside) {
+    const T rest = not_negative(T(1) - face.base_weight - face.apex_weight);
+    return {true, {rest, face.base_weight, face.apex_weight}};
+  }
+  // No area, or on an edge but for rounding: the weights of the nearest edge's ends.
+  std::array<T, 3> weights{};
+  T nearest(0);
+  for (int i = 0; i < 3; ++i) {
+    const detail::EdgeFoot<T> foot = detail::foot_on_edge<Tier>(v[i], v[(i + 1) % 3], p);
+    const Vec3<T> away = p - v[i] - foot.from_start;
+    const T distance2 = Tier::dot(away, away);
+    if (i > 0 && !(distance2 < nearest)) continue;
+    nearest = distance2;
+    weights = {};
+    weights[i] = T(1) - foot.share;
+    weights[(i + 1) % 3] = foot.share;
+  }
+  return {true, {weights[0], weights[1], weights[2]}};
+}
+
+namespace inputs {
+template <class T>
+struct point_in_triangle {
+  Triangle<T> triangle{};
+  Vec3<T> normal{T(0), T(0), T(1)};
+  int axis = -1;
+  Vec3<T> point{};
+
+  static constexpr auto members() {
+    return std::tuple(member("triangle", &point_in_triangle::triangle),
+                      member("normal", &point_in_triangle::normal, Role::direction),
+                      member("axis", &point_in_triangle::axis, Role::index),
+                      member("point", &point_in_triangle::point, Role::position));
+  }
+  std::optional<Broken> broken() const {
+    if (axis < -1 || axis > 2) return Broken{"axis", "-1, 0, 1 or 2", double(axis)};
+    return std::nullopt;
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::point_in_triangle<Tier>(triangle, normal, axis, point);
+  }
+
+  /// First order, G the largest position: a corner seen from the point carries 1 eps of 2 G; the side of an
+  /// edge 3 eps of that distance (at most 3 G), which moving the point by three times as much (the tip of a
+  /// triangle cut off by its bounds) explains: 33. The weights: a foot in the plane as in
+  /// closest_point_rectangle, 72 eps G, and the edge's instead, within as much.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 105, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

@@ -1,0 +1,60 @@
+/// The direction in which a sphere slides on along a contact.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The direction of `velocity`, less its part across the contact of a moving sphere.
+///
+/// With u the vector from `location` to the sphere's center at `time` and d = velocity / |velocity|:
+///
+/// 1. direction == d - (d . u) u / |u|^2, so direction . u == 0; d itself where u is exactly zero
+/// 2. |direction| is the sine of the angle between d and u, and 0 for zero velocity
+///
+/// The sphere's radius and the lengths of u and velocity play no part. Units: none. Source: u x (d x u),
+/// which is at right angles to u also where nearly nothing is left of d.
+template <class Tier = Fast, class T>
+Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
+                             const Vec3<T>& location) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return slide_direction<decltype(by)>(a...); }, sphere, velocity, time, location);
+  }
+  const Vec3<T> to_center = (sphere.center - location) + velocity * time;
+  const Vec3<T> d = unit<Tier>(velocity);
+  if (to_center == Vec3<T>{}) return {d};
+  const Vec3<T> u = unit<Tier>(to_center);
+  return {Tier::cross(u, Tier::cross(d, u))};
+}
+
+namespace inputs {
+template <class T>
+struct slide_direction {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  T time{};
+  Vec3<T> location{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &slide_direction::sphere),
+                      member("velocity", &slide_direction::velocity, Role::velocity),
+                      member("time", &slide_direction::time, Role::time),
+                      member("location", &slide_direction::location, Role::position));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::slide_direction<Tier>(sphere, velocity, time, location);
+  }
+
+  /// First order: the vector to the center carries 3 eps of the positions and of velocity * time, unit
+  /// vectors 4 eps each, either cross product 3 eps: all explained by moving the location and the velocity
+  /// by as much. The length of u enters squared, for another 8 eps.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

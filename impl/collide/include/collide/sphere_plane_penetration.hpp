@@ -1,0 +1,56 @@
+/// How deep a sphere reaches behind a plane.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The depth of the deepest point of `sphere` behind `plane`: radius - (n . center + offset) / |n|, n the
+/// plane's normal. The normal is n / |n|, the contact the sphere's deepest point. Apart: only the depth,
+/// negative, is given.
+///
+/// 1. depth >= 0 exactly when the ball has a point on the plane or behind it
+/// 2. contact == center - normal * radius
+/// 3. moving the sphere by depth * normal makes it touch the plane from the front
+///
+/// The lengths of n and offset play a part only together: they are one plane.
+template <class Tier = Fast, class T>
+Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return sphere_plane_penetration<decltype(by)>(a...); }, sphere, plane);
+  }
+  const T norm = length(components(plane.normal));
+  const T depth = sphere.radius - (Tier::dot(plane.normal, sphere.center) + plane.offset) / norm;
+  if (!(depth >= T(0))) return {depth};
+  const Vec3<T> normal = plane.normal / norm;
+  return {depth, normal, sphere.center - normal * sphere.radius};
+}
+
+namespace inputs {
+template <class T>
+struct sphere_plane_penetration {
+  Sphere<T> sphere{};
+  Plane<T> plane{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &sphere_plane_penetration::sphere),
+                      member("plane", &sphere_plane_penetration::plane));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::sphere_plane_penetration<Tier>(sphere, plane);
+  }
+
+  /// First order: the dot product carries 4 eps of |n| |center|, which moving the center explains, and 1 eps
+  /// of the offset; the norm 3 eps and the quotient 1 eps of the distance, a change of n and the offset;
+  /// depth and contact 2 eps each of the center and the radius.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

@@ -1,0 +1,54 @@
+/// How deep two spheres overlap.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The penetration depth of two balls, with one contact: depth = radius1 + radius2 - distance of the
+/// centers. The normal points from center 1 to center 2 and is any unit vector where they coincide; the
+/// contact is the point of sphere 1 deepest in sphere 2. Apart: only the depth, negative, is given.
+///
+/// 1. depth >= 0 exactly when the closed balls meet
+/// 2. contact == center1 + normal * radius1
+/// 3. moving sphere 2 by depth * normal makes them touch
+template <class Tier = Fast, class T>
+Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_penetration<decltype(by)>(a...); }, sphere1, sphere2);
+  }
+  const Vec3<T> between = sphere2.center - sphere1.center;
+  const T distance = length(components(between));
+  const T depth = (sphere1.radius + sphere2.radius) - distance;
+  if (!(depth >= T(0))) return {depth};
+  const Vec3<T> normal = distance > T(0) ? unit<Tier>(between) : Vec3<T>{T(1), T(0), T(0)};
+  return {depth, normal, sphere1.center + normal * sphere1.radius};
+}
+
+namespace inputs {
+template <class T>
+struct sphere_sphere_penetration {
+  Sphere<T> sphere1{}, sphere2{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere1", &sphere_sphere_penetration::sphere1),
+                      member("sphere2", &sphere_sphere_penetration::sphere2));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::sphere_sphere_penetration<Tier>(sphere1, sphere2);
+  }
+
+  /// First order, G the largest position: a center seen from the other 1 eps of 2 G, its length 3 eps of at
+  /// most 4 G, which moving the centers explains; the sum of the radii, the depth and the contact 1 eps each
+  /// of as much. The normal's 4 eps of the radius are explained by moving centers and radius.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 24, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

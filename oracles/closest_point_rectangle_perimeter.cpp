@@ -1,0 +1,19 @@
+/// Truth: each edge by the sign of the distance's derivative at its ends; the least squared distance.
+#include <collide/closest_point_rectangle_perimeter.hpp>
+
+#include "oracles/nearest_piece.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void closest_point_rectangle_perimeter(const collide::inputs::closest_point_rectangle_perimeter<N>& q, Out& out) {
+  const auto& r = q.rectangle;
+  const std::array<Vector<N>, 4> corner{vector(r.v0), vector(r.v1), vector(r.v2), vector(r.v3)};
+  for_each_nearest(perimeter(corner, vector(q.point)), [&](std::size_t, const Place<N>& place) {
+    out.yes({answer_vector(place.point)});
+  });
+}
+
+NEARMISS_ORACLE(closest_point_rectangle_perimeter, ClosestPoint)
+
+}  // namespace nearmiss::oracle

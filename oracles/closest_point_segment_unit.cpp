@@ -1,0 +1,16 @@
+/// Truth: as of closest_point_segment; what is computed beforehand never changes the answer.
+#include <collide/closest_point_segment_unit.hpp>
+
+#include "oracles/nearest_piece.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void closest_point_segment_unit(const collide::inputs::closest_point_segment_unit<N>& q, Out& out) {
+  const std::array<Vector<N>, 2> ends{vector(q.segment.v0), vector(q.segment.v1)};
+  for (const Place<N>& place : edge_piece(ends, 0, 1, vector(q.point)).places) out.yes({answer_vector(place.point)});
+}
+
+NEARMISS_ORACLE(closest_point_segment_unit, ClosestPoint)
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,18 @@
+/// Truth: each edge by the sign of the distance's derivative at its ends; the least squared distance.
+#include <collide/closest_point_triangle_perimeter_edges.hpp>
+
+#include "oracles/nearest_piece.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void closest_point_triangle_perimeter_edges(const collide::inputs::closest_point_triangle_perimeter_edges<N>& q, Out& out) {
+  const std::array<Vector<N>, 3> corner{vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)};
+  for_each_nearest(perimeter(corner, vector(q.point)), [&](std::size_t edge, const Place<N>& place) {
+    out.yes({answer_vector(place.point), int(edge)});
+  });
+}
+
+NEARMISS_ORACLE(closest_point_triangle_perimeter_edges, EdgePoint)
+
+}  // namespace nearmiss::oracle
