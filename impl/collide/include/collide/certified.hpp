@@ -137,28 +137,45 @@ double allowed(double largest) {
 inline double leading(double value) { return value; }
 inline double leading(const DoubleWord<double>& value) { return value.high; }
 
-/// Whether every number of an answer over Bounded or WideBounded is known well enough for T, its error times
-/// `ratio`. Infinities and what is exactly a T are.
-template <class T, class A>
-bool known(const A& answer, double ratio) {
+/// Whether the numbers of one quantity (a time, a point, a vector) over Bounded or WideBounded are known well
+/// enough for T, their errors times `ratio`. Infinities and what is exactly a T are.
+template <class T, class Quantity>
+bool known_quantity(const Quantity& quantity, double ratio) {
+  double largest = 0, error = 0;
+  for_each_leaf(quantity, [&](const auto& leaf, Role) {
+    if constexpr (requires { leaf.error; }) {
+      largest = std::max(largest, std::abs(leading(leaf.value)));
+      error = leaf.error <= error ? error : leaf.error;  // NaN stays
+    }
+  });
+  if (error * ratio * (1 + 0x1p-20) <= allowed<T>(largest)) return true;
   bool all = true;
-  for_each_member(answer, [&](std::string_view, const auto& member, Role) {
-    double largest = 0, error = 0;
-    for_each_leaf(member, [&](const auto& leaf, Role) {
-      if constexpr (requires { leaf.error; }) {
-        largest = std::max(largest, std::abs(leading(leaf.value)));
-        error = leaf.error <= error ? error : leaf.error;  // NaN stays
-      }
-    });
-    if (error * ratio * (1 + 0x1p-20) <= allowed<T>(largest)) return;
-    for_each_leaf(member, [&](const auto& leaf, Role) {
-      if constexpr (requires { leaf.error; }) {
-        const double value = leading(leaf.value);
-        if (leaf.error != 0 || !(double(T(value)) == value || std::isinf(value))) all = false;
-      }
-    });
+  for_each_leaf(quantity, [&](const auto& leaf, Role) {
+    if constexpr (requires { leaf.error; }) {
+      const double value = leading(leaf.value);
+      if (leaf.error != 0 || !(double(T(value)) == value || std::isinf(value))) all = false;
+    }
   });
   return all;
+}
+
+/// The same for a whole answer. A member without a role of its own consists of several quantities.
+template <class T, class A>
+bool known(const A& answer, double ratio, Role role = Role::inherited) {
+  bool all = true;
+  if constexpr (Listed<A> || requires { answer.begin(); }) {
+    if (role == Role::inherited) {
+      if constexpr (Listed<A>) {
+        for_each_member(answer, [&](std::string_view, const auto& member, Role own) {
+          all = known<T>(member, ratio, own) && all;
+        });
+      } else {
+        for (const auto& item : answer) all = known<T>(item, ratio, role) && all;
+      }
+      return all;
+    }
+  }
+  return known_quantity<T>(answer, ratio);
 }
 
 }  // namespace detail
