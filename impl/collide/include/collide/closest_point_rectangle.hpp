@@ -35,45 +35,38 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
     return {v0 + (first ? face1 : face2).from_start(diagonal)};
   }
 
-  // Triangle 1 has the edges v0 v1, v1 v2, v2 v0; triangle 2 has v2 v3, v3 v0, v0 v2.
-  const std::array<Vec3<T>, 3> corners1{v0, v1, v2}, corners2{v2, v3, v0};
-  const auto nearest_of = [&](const std::array<Vec3<T>, 3>& v, std::array<detail::EdgeFoot<T>, 3>& foot) {
-    for (int i = 0; i < 3; ++i) foot[i] = detail::foot_on_edge<Tier>(v[i], v[(i + 1) % 3], point);
-    return detail::nearest_edge<Tier>(v, foot, point);
+  // One foot is inside, in a face next to the diagonal: it is nearer than the diagonal. The other face's edges?
+  const std::array<Vec3<T>, 4> v{v0, v1, v2, v3};
+  const auto foot_on = [&](int edge) { return detail::foot_on_edge<Tier>(v[edge], v[(edge + 1) % 4], point); };
+  const auto on = [&](int edge, const detail::EdgeFoot<T>& foot) {
+    return ClosestPoint<T>{foot.on(v[edge], v[(edge + 1) % 4])};
   };
-  const auto on = [](const std::array<Vec3<T>, 3>& v, const std::array<detail::EdgeFoot<T>, 3>& foot, int edge) {
-    return ClosestPoint<T>{foot[edge].on(v[edge], v[(edge + 1) % 3])};
-  };
-  constexpr int shared = 2;  // the diagonal's number in either triangle
-  std::array<detail::EdgeFoot<T>, 3> foot1, foot2;
+  const Vec3<T> w2 = point - v2;
   if (face1.inside) {
-    const ClosestPoint<T> inside{v0 + face1.from_start(diagonal)};
-    const int edge = nearest_of(corners2, foot2);
-    if (edge == shared) return inside;
-    const T by = edge == 0 ? detail::further_by<Tier>(face1.from_end(diagonal), foot2[0].from_start, point - v2)
-                           : detail::further_by<Tier>(face1.from_start(diagonal), foot2[1].from_end, w);
-    return by >= T(0) ? inside : on(corners2, foot2, edge);
+    const detail::EdgeFoot<T> foot2 = foot_on(2), foot3 = foot_on(3);
+    const bool at_v2 = detail::next_further_by<Tier>(foot2, foot3, point - v3) >= T(0);
+    const T by = at_v2 ? detail::further_by<Tier>(face1.from_end(diagonal), foot2.from_start, w2)
+                       : detail::further_by<Tier>(face1.from_start(diagonal), foot3.from_end, w);
+    if (by < T(0)) return at_v2 ? on(2, foot2) : on(3, foot3);
+    return {v0 + face1.from_start(diagonal)};
   }
   if (face2.inside) {
-    const ClosestPoint<T> inside{v0 + face2.from_start(diagonal)};
-    const int edge = nearest_of(corners1, foot1);
-    if (edge == shared) return inside;
-    const T by = edge == 0 ? detail::further_by<Tier>(face2.from_start(diagonal), foot1[0].from_start, w)
-                           : detail::further_by<Tier>(face2.from_end(diagonal), foot1[1].from_end, point - v2);
-    return by >= T(0) ? inside : on(corners1, foot1, edge);
+    const detail::EdgeFoot<T> foot0 = foot_on(0), foot1 = foot_on(1);
+    const bool at_v0 = detail::next_further_by<Tier>(foot0, foot1, point - v1) >= T(0);
+    const T by = at_v0 ? detail::further_by<Tier>(face2.from_start(diagonal), foot0.from_start, w)
+                       : detail::further_by<Tier>(face2.from_end(diagonal), foot1.from_end, w2);
+    if (by < T(0)) return at_v0 ? on(0, foot0) : on(1, foot1);
+    return {v0 + face2.from_start(diagonal)};
   }
-  const int edge1 = nearest_of(corners1, foot1), edge2 = nearest_of(corners2, foot2);
-  if (edge1 == shared) return on(corners2, foot2, edge2);
-  if (edge2 == shared) return on(corners1, foot1, edge1);
-  T by;  // how much further the second is
-  if (edge1 == 0 && edge2 == 1) {
-    by = detail::further_by<Tier>(foot1[0].from_start, foot2[1].from_end, w);
-  } else if (edge1 == 1 && edge2 == 0) {
-    by = detail::further_by<Tier>(foot1[1].from_end, foot2[0].from_start, point - v2);
-  } else {  // opposite edges move independently
-    by = detail::further_by<Tier>(on(corners1, foot1, edge1).point, on(corners2, foot2, edge2).point, point);
-  }
-  return by >= T(0) ? on(corners1, foot1, edge1) : on(corners2, foot2, edge2);
+
+  // The nearest of the four edges, and the diagonal, the ridge of a folded rectangle.
+  const std::array<detail::EdgeFoot<T>, 4> foot{foot_on(0), foot_on(1), foot_on(2), foot_on(3)};
+  const int edge = detail::nearest_edge<Tier>(v, foot, point);
+  const detail::EdgeFoot<T> ridge = detail::foot_on_edge<Tier>(v0, v2, point);
+  const Vec3<T>& from_shared = edge == 0 || edge == 2 ? foot[edge].from_start : foot[edge].from_end;
+  const bool at_v0 = edge == 0 || edge == 3;
+  const T by = detail::further_by<Tier>(from_shared, at_v0 ? ridge.from_start : ridge.from_end, at_v0 ? w : w2);
+  return by < T(0) ? ClosestPoint<T>{ridge.on(v0, v2)} : on(edge, foot[edge]);
 }
 
 namespace inputs {

@@ -28,20 +28,8 @@ ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle,
   }
   std::array<detail::EdgeFoot<T>, 4> foot;
   for (int i = 0; i < 4; ++i) foot[i] = detail::foot_on_edge<Tier>(v[i], v[(i + 1) % 4], point);
-  const auto on = [&](int edge) { return foot[edge].on(v[edge], v[(edge + 1) % 4]); };
-  const auto nearer_opposite = [&](int edge) {
-    return detail::further_by<Tier>(on(edge), on(edge + 2), point) >= T(0) ? edge : edge + 2;
-  };
-  const auto nearer_neighbour = [&](int edge, int other) {
-    const T by = other == (edge + 1) % 4
-                     ? detail::further_by<Tier>(foot[edge].from_end, foot[other].from_start, point - v[other])
-                     : detail::further_by<Tier>(foot[edge].from_start, foot[other].from_end, point - v[edge]);
-    return by >= T(0) ? edge : other;
-  };
-  const int even = nearer_opposite(0), odd = nearer_opposite(1);
-  int best = nearer_neighbour(even, odd);
-  best = nearer_neighbour(best, best == even ? (odd + 2) % 4 : (even + 2) % 4);
-  return {on(best)};
+  const int edge = detail::nearest_edge<Tier>(v, foot, point);
+  return {foot[edge].on(v[edge], v[(edge + 1) % 4])};
 }
 
 namespace inputs {

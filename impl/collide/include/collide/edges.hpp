@@ -24,12 +24,10 @@ struct EdgeFoot {
 template <class Tier, class T>
 EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>& point) noexcept {
   const Vec3<T> along = end - start;
-  const T projection = Tier::dot(point - start, along);
   const T length2 = Tier::dot(along, along);
-  if (projection <= T(0)) return {{}, -along, T(0), false};
-  if (projection >= length2) return {along, {}, T(1), true};
-  const T share = projection / length2;
-  return {along * share, along * (share - T(1)), share, false};
+  if (!(length2 > T(0))) return {};
+  const T share = clamped(Tier::dot(point - start, along) / length2, T(0), T(1));
+  return {along * share, along * (share - T(1)), share, share >= T(1)};
 }
 
 /// |b - w|^2 - |a - w|^2: how much further b is than a, all three seen from the same vertex. Where a and b
@@ -47,20 +45,41 @@ bool is_finite(const Vec3<T>& v) noexcept {
   return abs(v.x) <= most && abs(v.y) <= most && abs(v.z) <= most;
 }
 
-/// Which edge of the triangle, i from v[i] to v[(i + 1) % 3], is the nearest: each is compared with each
-/// other from the vertex that they share.
+/// How much further the foot on the next edge is than the foot on this one: seen from the vertex between them.
+template <class Tier, class T>
+T next_further_by(const EdgeFoot<T>& foot, const EdgeFoot<T>& next, const Vec3<T>& w) noexcept {
+  return further_by<Tier>(foot.from_end, next.from_start, w);
+}
+
+/// Which edge of the triangle, i from v[i] to v[(i + 1) % 3], is the nearest.
 template <class Tier, class T>
 int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 3>& foot,
                  const Vec3<T>& point) noexcept {
-  int best = 0;
-  for (const int next : {1, 2, 0, 1}) {
-    if (next == best) continue;
-    const bool after = next == (best + 1) % 3;
-    const T by = after ? further_by<Tier>(foot[best].from_end, foot[next].from_start, point - v[next])
-                       : further_by<Tier>(foot[best].from_start, foot[next].from_end, point - v[best]);
-    if (by < T(0)) best = next;
+  const T by01 = next_further_by<Tier>(foot[0], foot[1], point - v[1]);
+  const T by12 = next_further_by<Tier>(foot[1], foot[2], point - v[2]);
+  const T by20 = next_further_by<Tier>(foot[2], foot[0], point - v[0]);
+  const int nearer = by01 >= T(0) ? 0 : 1;
+  return (nearer == 0 ? by20 <= T(0) : by12 >= T(0)) ? nearer : 2;
+}
+
+/// Which of the four edges, i from v[i] to v[(i + 1) % 4], is the nearest. Opposite edges have no vertex in
+/// common and are compared from the point.
+template <class Tier, class T>
+int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 4>& foot,
+                 const Vec3<T>& point) noexcept {
+  std::array<T, 4> distance2, next_by;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3<T> away = (point - v[i]) - foot[i].from_start;
+    distance2[i] = Tier::dot(away, away);
+    next_by[i] = next_further_by<Tier>(foot[i], foot[(i + 1) % 4], point - v[(i + 1) % 4]);
   }
-  return best;
+  const auto as_near = [&](int edge, int other) {
+    return other == (edge + 1) % 4 ? next_by[edge] >= T(0) : next_by[other] <= T(0);
+  };
+  const int even = distance2[0] <= distance2[2] ? 0 : 2, odd = distance2[1] <= distance2[3] ? 1 : 3;
+  const bool is_even = as_near(even, odd);
+  const int best = is_even ? even : odd, other = ((is_even ? odd : even) + 2) % 4;
+  return as_near(best, other) ? best : other;
 }
 
 /// Where the perpendicular from a point onto the plane of a triangle meets it. The triangle has the corners
