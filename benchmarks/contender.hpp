@@ -3,6 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/scenes.hpp"
 #include "impl/subject/answer.hpp"
@@ -18,6 +21,8 @@ class Contender {
   virtual void pass(std::size_t pass) = 0;
   virtual void ask(std::size_t scene) = 0;
   virtual bool yes(std::size_t scene) = 0;
+  /// Shares of the scenes, by name: which stage answered, for a contender with stages.
+  virtual std::vector<std::pair<std::string, double>> stages() { return {}; }
 };
 
 /// The i-th scene of a pass. Scenes are in random order, and each pass goes through them in another one, so
@@ -46,8 +51,9 @@ inline void keep(const T& value) {
   asm volatile("" : : "m"(value) : "memory");
 }
 
-/// The contender whose scenes are made from Q, the inputs of a query, and answer by `ask()`.
-template <class Scene, class Q>
+/// The contender whose scenes are made from Q, the inputs of a query, and answer by `ask()`; perhaps a tier
+/// that counts its stages.
+template <class Scene, class Q, class Tier = void>
 class ContenderOf final : public Contender {
  public:
   ~ContenderOf() override { clear(); }
@@ -62,6 +68,17 @@ class ContenderOf final : public Contender {
   }
   void ask(std::size_t scene) override { keep(scenes_[scene].ask()); }
   bool yes(std::size_t scene) override { return scenes_[scene].ask().yes(); }
+  std::vector<std::pair<std::string, double>> stages() override {
+    if constexpr (requires { Tier::counts(); }) {
+      const auto before = Tier::counts();
+      pass(0);
+      const auto after = Tier::counts();
+      const auto share = [&](auto stage) { return double(after.*stage - before.*stage) / double(size_); };
+      using Counts = std::remove_cvref_t<decltype(after)>;
+      return {{"filter", share(&Counts::filter)}, {"extended", share(&Counts::extended)}, {"exact", share(&Counts::exact)}};
+    }
+    return {};
+  }
 
  private:
   void clear() {

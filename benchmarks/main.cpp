@@ -3,7 +3,8 @@
 ///
 /// Time is that of one call among others, scenes in random order. Counters: p50 and p99 over the scenes, ns
 /// that one costs by itself, from its begin to its end, which overlaps with no other; hits and agree,
-/// shares of the scenes: those with a yes, and those where the decision is that of Fast in double.
+/// shares of the scenes: those with a yes, and those where the decision is that of Fast in double; and of a
+/// tier with stages the share that each answered.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -117,6 +118,7 @@ struct Entry {
     state.counters["p99"] = measured->p99;
     state.counters["hits"] = scenes.share_of_yes();
     state.counters["agree"] = measured->agree;
+    for (const auto& [stage, share] : contender->stages()) state.counters[stage] = share;
     contender->prepare({});  // memory back
   }
 };

@@ -97,9 +97,9 @@ struct Bounded {
 
   /// Of two numbers whose order is open, either is within both errors of the larger.
   friend Bounded larger(const Bounded& a, const Bounded& b) noexcept {
-    const double value = a.value < b.value ? b.value : a.value;
-    if (magnitude(b.value - a.value) > open(a, b)) return {value, a.value < b.value ? b.error : a.error};
-    return {value, std::max(a.error, b.error)};
+    const double above = a.value < b.value ? b.value : a.value;
+    if (magnitude(b.value - a.value) > open(a, b)) return {above, a.value < b.value ? b.error : a.error};
+    return {above, std::max(a.error, b.error)};
   }
   friend Bounded smaller(const Bounded& a, const Bounded& b) noexcept { return -larger(-a, -b); }
 };
