@@ -42,7 +42,7 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   const Vec3<T> offset = m + velocity * nearest;
   const T chord2 = -Tier::beyond_radius(offset, sphere.radius);
   if (!(chord2 >= T(0)) && !starts_in) return Impact<T>::miss();
-  const T half_chord = sqrt(chord2 > T(0) ? chord2 / speed2 : T(0));  // in units of time
+  const T half_chord = sqrt(not_negative(chord2)) / sqrt(speed2);  // in units of time
   // Near a tangent the quotient of the textbooks, outside / (nearest + half_chord), loses what the
   // square of the radius loses; this difference loses 1 eps of the way to the closest approach.
   const T time = not_negative(starts_in ? nearest + half_chord : nearest - half_chord);
@@ -74,7 +74,7 @@ struct moving_point_sphere {
   /// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
   /// location 2 eps of 4 G.
   static constexpr Contract contract(Fast) {
-    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
+    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
   }
 };
 }  // namespace inputs
