@@ -87,13 +87,24 @@ struct RoundPast {
     collide::Impact<N> impact{c.time, answer_vector(c.on_axis), {}};
     if (all_surely_zero(c.away)) {  // the center on the axis, or no radius at all
       if (surely_zero(m.radius)) return out.yes(impact, normals_of_axis(c.part));
-      Vector<N> wish = out.given(4);
-      if (!may_be_positive(norm2(wish))) wish = minus(out.given(1), c.on_axis);
-      if (const std::optional<Vector<N>> normal = out_of_axis(wish, c.part)) {
+      // Of all right answers the one with the given normal, the one with the given location, and one half way
+      // between them: which is nearest depends on how the radius compares with the location's own magnitude.
+      bool told = false;
+      const auto toward = [&](const Vector<N>& wish) {
+        const std::optional<Vector<N>> normal = out_of_axis(wish, c.part);
+        if (!normal) return;
         impact.location = answer_vector(plus(c.on_axis, times(*normal, m.radius)));
         impact.normal = answer_vector(*normal);
-        return out.yes(impact);
+        out.yes(impact);
+        told = true;
+      };
+      const Vector<N> normal = out.given(4), place = minus(out.given(1), c.on_axis);
+      if (may_be_positive(norm2(normal))) {
+        toward(normal);
+        toward(plus(times(normal, m.radius), place));
       }
+      if (may_be_positive(norm2(place)) || !told) toward(place);
+      if (told) return;
     }
     const auto unit = [&](const N& x) -> N {
       if constexpr (is_enclosure<N>) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/enter_box.hpp>
 #include <collide/frame.hpp>
@@ -37,6 +38,7 @@ Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const
   }
   const auto entry = detail::enter_box(at, step, low, high, [&](const T& gap, int i) -> T { return gap / step[i]; });
   if (entry.axis < 0 || !(entry.time <= std::numeric_limits<T>::max())) return Entry<T>::miss();
+  if (!detail::finite(aabox.max - aabox.min)) return Entry<T>::miss();
   std::array<T, 3> normal{};
   normal[entry.axis] = entry.side;
   answer.location = {entry.at[0], entry.at[1], entry.at[2]};

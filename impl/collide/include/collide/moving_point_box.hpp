@@ -36,8 +36,8 @@ Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const 
   };
   bool outside = false;
   for (int i = 0; i < 3; ++i) outside = outside || abs(at[i]) > half[i];
+  if (!detail::finite(velocity) || !detail::finite(box.half)) return Impact<T>::miss();
   if (!outside) {
-    if (!detail::finite(velocity)) return Impact<T>::miss();
     for (int i = 0; i < 3; ++i) {
       if (at[i] == half[i] && step[i] <= T(0)) return contact(T(0), at, i, T(1));
       if (at[i] == low[i] && step[i] >= T(0)) return contact(T(0), at, i, T(-1));

@@ -42,7 +42,7 @@ Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
       Tier::dot(velocity, Tier::cross(d, a)) <= T(0)) {
     meet(Tier::cross(diagonal, rectangle.v3 - rectangle.v0), c, d);
   }
-  if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
+  if (!(time <= std::numeric_limits<T>::max() && detail::finite(b) && detail::finite(d))) return Impact<T>::miss();
   return detail::contact(time, point + velocity * time, unit<Tier>(normal));
 }
 

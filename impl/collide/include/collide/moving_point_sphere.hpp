@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -27,14 +28,11 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
     return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); }, point, velocity, sphere, solid);
   }
   using std::sqrt;
-  const auto outward = [](const Vec3<T>& from_center) {
-    const Vec3<T> n = unit<Tier>(from_center);
-    return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
-  };
+  if (!detail::finite(velocity, sphere.radius)) return Impact<T>::miss();
   const Vec3<T> m = point - sphere.center;
   const T outside = Tier::beyond_radius(m, sphere.radius);
   const bool starts_in = outside <= T(0);
-  if (starts_in && solid) return {T(0), point, outward(m)};
+  if (starts_in && solid) return detail::contact(T(0), point, detail::outward<Tier>(m));
   const T speed2 = Tier::dot(velocity, velocity);
   if (!(speed2 > T(0))) return Impact<T>::miss();
   const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
@@ -46,9 +44,8 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   // Near a tangent the quotient of the textbooks, outside / (nearest + half_chord), loses what the
   // square of the radius loses; this difference loses 1 eps of the way to the closest approach.
   const T time = not_negative(starts_in ? nearest + half_chord : nearest - half_chord);
-  if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-  const Vec3<T> location = point + velocity * time;
-  return {time, location, outward(m + velocity * time)};
+  const Vec3<T> way = velocity * time;
+  return detail::contact(time, point + way, detail::outward<Tier>(m + way));
 }
 
 namespace inputs {

@@ -67,10 +67,8 @@ RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noex
   const std::array<T, 3> low = components(box.aabox.min), high = components(box.aabox.max);
   bool inside = true;
   for (int i = 0; i < 3; ++i) inside = inside && low[i] <= at[i] && at[i] <= high[i];
-  if (inside) {
-    const bool genuine = detail::finite(ray.ray.direction) && detail::finite(box.aabox.max - box.aabox.min);
-    return genuine ? RayHit<T>{true, true, ray.ray.origin} : RayHit<T>{};
-  }
+  if (!detail::finite(box.aabox.max - box.aabox.min)) return {};
+  if (inside) return detail::finite(ray.ray.direction) ? RayHit<T>{true, true, ray.ray.origin} : RayHit<T>{};
   const Vec3<T> to_center = box.center - ray.ray.origin;
   if (Tier::dot(to_center, ray.ray.direction) < T(0) && Tier::dot(to_center, to_center) > box.radius2) return {};
   const std::array<T, 3> inverse = components(ray.inverse);
