@@ -73,6 +73,15 @@ inline Interval meet(const Interval& a, const Interval& b) {
 }
 inline const Exact& meet(const Exact& a, const Exact&) { return a; }
 
+/// The same, into x; false where there is none, so that the branch is impossible.
+inline bool narrow(Interval& x, const Interval& to) {
+  const double low = std::max(x.inf(), to.inf()), high = std::min(x.sup(), to.sup());
+  if (!(low <= high)) return !(low > high);
+  x = Interval(low, high);
+  return true;
+}
+inline bool narrow(Exact&, const Exact&) { return true; }
+
 inline Interval square(const Interval& x) { return CGAL::square(x); }
 inline Exact square(const Exact& x) { return x * x; }
 inline Interval magnitude(const Interval& x) { return CGAL::abs(x); }

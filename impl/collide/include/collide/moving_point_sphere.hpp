@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -27,14 +28,11 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
     return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); }, point, velocity, sphere, solid);
   }
   using std::sqrt;
-  const auto outward = [](const Vec3<T>& from_center) {
-    const Vec3<T> n = unit<Tier>(from_center);
-    return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
-  };
+  if (!detail::finite(velocity, sphere.radius)) return Impact<T>::miss();
   const Vec3<T> m = point - sphere.center;
   const T outside = Tier::beyond_radius(m, sphere.radius);
   const bool starts_in = outside <= T(0);
-  if (starts_in && solid) return {T(0), point, outward(m)};
+  if (starts_in && solid) return detail::contact(T(0), point, detail::outward<Tier>(m));
   const T speed2 = Tier::dot(velocity, velocity);
   if (!(speed2 > T(0))) return Impact<T>::miss();
   const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
@@ -42,13 +40,12 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   const Vec3<T> offset = m + velocity * nearest;
   const T chord2 = -Tier::beyond_radius(offset, sphere.radius);
   if (!(chord2 >= T(0)) && !starts_in) return Impact<T>::miss();
-  const T half_chord = sqrt(chord2 > T(0) ? chord2 / speed2 : T(0));  // in units of time
+  const T half_chord = sqrt(not_negative(chord2)) / sqrt(speed2);  // in units of time
   // Near a tangent the quotient of the textbooks, outside / (nearest + half_chord), loses what the
   // square of the radius loses; this difference loses 1 eps of the way to the closest approach.
   const T time = not_negative(starts_in ? nearest + half_chord : nearest - half_chord);
-  if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-  const Vec3<T> location = point + velocity * time;
-  return {time, location, outward(m + velocity * time)};
+  const Vec3<T> way = velocity * time;
+  return detail::contact(time, point + way, detail::outward<Tier>(m + way));
 }
 
 namespace inputs {
@@ -74,7 +71,7 @@ struct moving_point_sphere {
   /// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
   /// location 2 eps of 4 G.
   static constexpr Contract contract(Fast) {
-    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
+    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
   }
 };
 }  // namespace inputs

@@ -1,12 +1,65 @@
 /// When and where a moving point meets a one-sided triangle.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <limits>
+
 #include <collide/answers.hpp>
+#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
 namespace collide {
+
+namespace detail {
+
+/// A time near `time` at which the motion is over the triangle, seen along its normal n; negative where it
+/// never is, but for rounding. Corners are given as seen from the moving point.
+template <class Tier, MachineNumber T>
+T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n,
+                             const std::array<Vec3<T>, 3>& corner) noexcept {
+  using std::abs;
+  const auto sum = [](const Vec3<T>& x) { return abs(x.x) + abs(x.y) + abs(x.z); };
+  const Vec3<T> sideways = Tier::cross(velocity, n);
+  const T speed2 = Tier::dot(velocity, velocity);
+  std::array<T, 3> side, at;  // of each corner: how far beside the line of motion, and the time next to it
+  for (int i = 0; i < 3; ++i) side[i] = Tier::dot(sideways, corner[i]), at[i] = Tier::dot(velocity, corner[i]) / speed2;
+  T low = std::numeric_limits<T>::infinity(), high = -low;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const bool crosses = (side[i] < T(0) && side[j] > T(0)) || (side[i] > T(0) && side[j] < T(0));
+    // A product of three carries 7 roundings: a corner so near may lie on the line, whatever its sign.
+    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * sum(velocity) * sum(n) * sum(corner[i]);
+    if (abs(side[i]) <= rounding) low = smaller(low, at[i]), high = larger(high, at[i]);
+    if (!crosses) continue;
+    const T crossing = at[i] + (at[j] - at[i]) * (side[i] / (side[i] - side[j]));
+    low = smaller(low, crossing), high = larger(high, crossing);
+  }
+  if (!(low <= high && high >= T(0))) return T(-1);
+  return not_negative(clamped(time, low, high));
+}
+
+/// The time at which the plane of a triangle is hit, once its edges have been passed on their inner sides;
+/// negative where that was nothing but rounding.
+///
+/// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
+/// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal.
+template <class Tier, class T>
+T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& b,
+                   const Vec3<T>& c) noexcept {
+  if constexpr (MachineNumber<T>) {
+    const Vec3<T> place = velocity * time;
+    const bool over = Tier::dot(n, Tier::cross(b - a, place - a)) >= T(0) &&
+                      Tier::dot(n, Tier::cross(c - b, place - b)) >= T(0) &&
+                      Tier::dot(n, Tier::cross(a - c, place - c)) >= T(0);
+    if (!over) return nearest_time_over_triangle<Tier, T>(time, velocity, n, {a, b, c});
+  }
+  return time;
+}
+
+}  // namespace detail
 
 /// The first contact of `point`, moving by `velocity` per unit of time, with the front of `triangle`.
 ///
@@ -38,8 +91,9 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                       Tier::dot(velocity, Tier::cross(b, c)) <= T(0) &&
                       Tier::dot(velocity, Tier::cross(c, a)) <= T(0);
   if (!inside) return Impact<T>::miss();
-  const T time = -behind / approach;
-  return {time, point + velocity * time, unit<Tier>(n)};
+  const T time = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, b, c);
+  if (!(time >= T(0))) return Impact<T>::miss();
+  return detail::contact(time, point + velocity * time, unit<Tier>(n));
 }
 
 namespace inputs {

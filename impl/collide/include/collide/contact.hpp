@@ -1,0 +1,70 @@
+/// What the queries about moving things share: when a contact is one, and normals where many are right.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <collide/answers.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide::detail {
+
+/// False where a number is infinite or NaN: what makes an answer that does not depend on it a miss.
+template <class T>
+constexpr bool finite(const Vec3<T>& a, const T& b = T(0), const T& c = T(0)) noexcept {
+  if constexpr (MachineNumber<T>) return (a.x + a.y + a.z) * T(0) + b * T(0) + c * T(0) == T(0);
+  return true;
+}
+
+/// The contact; a miss where its time or its place is beyond the largest finite number.
+template <class T>
+Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) noexcept {
+  using std::abs;
+  if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
+  if constexpr (MachineNumber<T>) {
+    constexpr T most = std::numeric_limits<T>::max();
+    if (!(abs(location.x) <= most && abs(location.y) <= most && abs(location.z) <= most)) return Impact<T>::miss();
+  }
+  return {time, location, normal};
+}
+
+/// A unit vector at a right angle to the unit vector u; any unit vector where u is zero.
+template <class Tier, class T>
+Vec3<T> perpendicular(const Vec3<T>& u) noexcept {
+  using std::abs;
+  const T x = abs(u.x), y = abs(u.y), z = abs(u.z);
+  Vec3<T> across{T(0), u.z, -u.y};
+  if (y < x && y <= z) across = {-u.z, T(0), u.x};
+  if (z < x && z < y) across = {u.y, -u.x, T(0)};
+  if (!(Tier::dot(across, across) > T(0))) return {T(1), T(0), T(0)};
+  return unit<Tier>(across);
+}
+
+/// `away` as a unit vector; where it is zero, a unit vector at a right angle to the unit vector `axis`.
+template <class Tier, class T>
+Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& axis = {}) noexcept {
+  const Vec3<T> n = unit<Tier>(away);
+  return Tier::dot(n, n) > T(0) ? n : perpendicular<Tier>(axis);
+}
+
+/// The time at which a point outside a ball, `from` away from its center, comes to its surface; negative
+/// where it never does. In two dimensions as well: then all vectors lie in one plane.
+///
+/// Source: the discriminant as the distance of the center from the line of motion (Haines, Guenther,
+/// Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, 2019). Near a tangent the quotient
+/// of the textbooks loses what the square of the radius loses; this difference loses 1 eps of the way to
+/// the closest approach.
+template <class Tier, class T>
+T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) noexcept {
+  using std::sqrt;
+  const T closing = -Tier::dot(from, velocity);
+  const T speed2 = Tier::dot(velocity, velocity);
+  if (!(closing > T(0) && speed2 > T(0))) return T(-1);
+  const T nearest = closing / speed2;  // time of the closest approach
+  const Vec3<T> offset = from + velocity * nearest;
+  const T chord2 = Tier::difference_of_products(radius, radius, T(1), Tier::dot(offset, offset));
+  if (!(chord2 >= T(0))) return T(-1);
+  return not_negative(nearest - sqrt(chord2) / sqrt(speed2));
+}
+
+}  // namespace collide::detail

@@ -1,0 +1,73 @@
+/// Whether a moving sphere comes to a fixed one within a time limit.
+#pragma once
+
+#include <optional>
+
+#include <collide/answers.hpp>
+#include <collide/contact.hpp>
+#include <collide/contract.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// Whether `sphere`, moving by `velocity` per unit of time, meets the solid sphere `fixed` at some time from 0
+/// to `limit`, both included; limit may be +infinity.
+///
+/// Touching counts, at any time and in whatever direction the sphere moves.
+///
+/// Source: the least distance of the centers over the motion, a segment or a ray.
+template <class Tier = Fast, class T>
+Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
+                                        const T& limit) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return moving_sphere_passes_sphere<Fast>(a...); }, sphere, velocity,
+                      fixed, limit);
+  }
+  const T reach = sphere.radius + fixed.radius;
+  if (!(limit >= T(0)) || !detail::finite(velocity, reach)) return {false};
+  const Vec3<T> from = sphere.center - fixed.center;
+  const T closing = -Tier::dot(from, velocity);
+  Vec3<T> offset = from;
+  if (closing > T(0)) {
+    const T nearest = smaller(T(closing / Tier::dot(velocity, velocity)), limit);  // time of the closest approach
+    offset = from + velocity * nearest;
+  }
+  return {Tier::difference_of_products(reach, reach, T(1), Tier::dot(offset, offset)) >= T(0)};
+}
+
+namespace inputs {
+template <class T>
+struct moving_sphere_passes_sphere {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Sphere<T> fixed{};
+  T limit{1};
+  bool forever = false;  ///< no limit, whatever `limit` is
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_passes_sphere::sphere),
+                      member("velocity", &moving_sphere_passes_sphere::velocity, Role::velocity),
+                      member("fixed", &moving_sphere_passes_sphere::fixed),
+                      member("limit", &moving_sphere_passes_sphere::limit, Role::time),
+                      member("forever", &moving_sphere_passes_sphere::forever, Role::flag));
+  }
+  std::optional<Broken> broken() const {
+    if (limit < T(0)) return Broken{"limit", "not negative", double(limit)};
+    return std::nullopt;
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    const T until = forever ? std::numeric_limits<T>::infinity() : limit;
+    return collide::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, until);
+  }
+
+  /// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
+  /// carries 9 eps of that distance (at most 4 G), the way to the limit less; the squares 4 eps of the sum of
+  /// the radii.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

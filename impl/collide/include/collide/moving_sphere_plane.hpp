@@ -1,0 +1,65 @@
+/// When and where a moving sphere meets a one-sided plane.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contact.hpp>
+#include <collide/contract.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The first contact of `sphere`, moving by `velocity` per unit of time, with the front of `plane`.
+///
+/// A contact needs normal . velocity <= 0 and a sphere that does not start wholly behind the plane. A sphere
+/// that reaches both sides, or touches the plane, is a contact at time 0.
+///
+/// 1. location is the point of the plane nearest to the center at that time
+/// 2. normal == plane.normal / |plane.normal|
+///
+/// Source: the height of the center above the plane, linear in time.
+template <class Tier = Fast, class T>
+Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](const auto&... a) { return moving_sphere_plane<Fast>(a...); }, sphere, velocity, plane);
+  }
+  const Vec3<T> normal = unit<Tier>(plane.normal);
+  const T length = Tier::dot(normal, plane.normal);
+  const T approach = -Tier::dot(plane.normal, velocity);
+  const T height = Tier::dot(plane.normal, sphere.center) + plane.offset;
+  const T reach = sphere.radius * length;
+  if (!(approach >= T(0) && height >= -reach && detail::finite(velocity, reach))) return Impact<T>::miss();
+  if (height <= reach) return detail::contact(T(0), sphere.center - normal * (height / length), normal);
+  if (!(approach > T(0))) return Impact<T>::miss();
+  const T time = (height - reach) / approach;
+  return detail::contact(time, (sphere.center + velocity * time) - normal * sphere.radius, normal);
+}
+
+namespace inputs {
+template <class T>
+struct moving_sphere_plane {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Plane<T> plane{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_plane::sphere),
+                      member("velocity", &moving_sphere_plane::velocity, Role::velocity),
+                      member("plane", &moving_sphere_plane::plane));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::moving_sphere_plane<Tier>(sphere, velocity, plane);
+  }
+
+  /// First order: the height is that of a center whose coordinates moved by 4 eps each, over a plane whose
+  /// offset moved by 1 eps; the reach that of a radius moved by 7 eps, and their difference 1 eps more; the
+  /// approach that of a velocity moved by 3 eps, 1 eps more for the quotient. The location adds 4 eps of the
+  /// way and 4 eps of the radius; the way is at most as long as center and contact together. A unit normal
+  /// carries 4 eps, which turns the plane.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 32, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

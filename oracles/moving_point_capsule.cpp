@@ -1,0 +1,17 @@
+/// Truth: the first contact with the tube or one of the balls at its ends, for a ball without size.
+#include <collide/moving_point_capsule.hpp>
+
+#include "oracles/past_round.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void moving_point_capsule(const collide::inputs::moving_point_capsule<N>& q, Out& out) {
+  const auto& c = q.capsule;
+  report_first_contact<N>(
+      {vector(q.point), vector(q.velocity), N(0), {vector(c.p0), vector(c.p1)}, c.radius, false}, out);
+}
+
+NEARMISS_ORACLE(moving_point_capsule, Impact)
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,16 @@
+/// Truth: that of the plain triangle; helps never change an answer.
+#include <collide/moving_point_triangle_prepared.hpp>
+
+#include "oracles/front_of_triangle.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void moving_point_triangle_prepared(const collide::inputs::moving_point_triangle_prepared<N>& q, Out& out) {
+  const auto& t = q.triangle;
+  report(front_hit<N>(vector(q.point), vector(q.velocity), {vector(t.v0), vector(t.v1), vector(t.v2)}), out);
+}
+
+NEARMISS_ORACLE(moving_point_triangle_prepared, Impact)
+
+}  // namespace nearmiss::oracle

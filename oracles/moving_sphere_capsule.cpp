@@ -1,0 +1,17 @@
+/// Truth: the first contact with the tube or one of the balls at its ends.
+#include <collide/moving_sphere_capsule.hpp>
+
+#include "oracles/past_round.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void moving_sphere_capsule(const collide::inputs::moving_sphere_capsule<N>& q, Out& out) {
+  const auto& c = q.capsule;
+  report_first_contact<N>(
+      {vector(q.sphere.center), vector(q.velocity), q.sphere.radius, {vector(c.p0), vector(c.p1)}, c.radius, false}, out);
+}
+
+NEARMISS_ORACLE(moving_sphere_capsule, Impact)
+
+}  // namespace nearmiss::oracle

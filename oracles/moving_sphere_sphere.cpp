@@ -1,0 +1,17 @@
+/// Truth: the quadratic of the distance between the centers.
+#include <collide/moving_sphere_sphere.hpp>
+
+#include "oracles/past_round.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void moving_sphere_sphere(const collide::inputs::moving_sphere_sphere<N>& q, Out& out) {
+  const Vector<N> center = vector(q.fixed.center);
+  report_first_contact<N>(
+      {vector(q.sphere.center), vector(q.velocity), q.sphere.radius, {center, center}, q.fixed.radius, true}, out);
+}
+
+NEARMISS_ORACLE(moving_sphere_sphere, Impact)
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,19 @@
+/// Truth: separating axes decide; each face through which the ray may enter gives a location.
+#include <collide/ray_aabox.hpp>
+
+#include "oracles/ray_and_box.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void ray_aabox(const collide::inputs::ray_aabox<N>& q, Out& out) {
+  using RayHit = collide::RayHit<N>;
+  const RayAndBox<N> r{vector(q.ray.origin), vector(q.ray.direction), vector(q.aabox.min), vector(q.aabox.max)};
+  if (may_start_in(r)) out.yes(RayHit{true, true, q.ray.origin});
+  if (may_miss(r)) out.no(RayHit{}, 1);
+  for_each_entry(r, [&](const N&, const Vector<N>& place) { out.yes(RayHit{true, false, answer_vector(place)}); });
+}
+
+NEARMISS_ORACLE(ray_aabox, RayHit)
+
+}  // namespace nearmiss::oracle
