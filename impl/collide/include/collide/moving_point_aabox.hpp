@@ -24,7 +24,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_point_aabox<Fast>(a...); }, point, velocity, aabox);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_aabox<decltype(by)>(a...); }, point, velocity, aabox);
   }
   const std::array<T, 3> at = components(point), step = components(velocity);
   const std::array<T, 3> low = components(aabox.min), high = components(aabox.max);

@@ -24,7 +24,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_point_box<Fast>(a...); }, point, velocity, box);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); }, point, velocity, box);
   }
   using std::abs;
   const Axes<T> axes = axes_of(box.orientation);

@@ -20,7 +20,7 @@ template <class Tier = Fast, class T>
 Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                  const Rectangle<T>& rectangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_point_rectangle<Fast>(a...); }, point, velocity, rectangle);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_rectangle<decltype(by)>(a...); }, point, velocity, rectangle);
   }
   const Vec3<T> a = rectangle.v0 - point, b = rectangle.v1 - point;
   const Vec3<T> c = rectangle.v2 - point, d = rectangle.v3 - point;

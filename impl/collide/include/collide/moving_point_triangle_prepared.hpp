@@ -31,9 +31,9 @@ PreparedTriangle<T> prepare_triangle(const Triangle<T>& triangle) noexcept {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
                                          const PreparedTriangle<T>& prepared) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    const auto text = [](const auto& p, const auto& v, const auto& triangle) {
-      return moving_point_triangle_prepared<Fast>(p, v, prepare_triangle(triangle));
+  if constexpr (!Tier::template keeps<T>) {
+    const auto text = [](auto by, const auto& p, const auto& v, const auto& triangle) {
+      return moving_point_triangle_prepared<decltype(by)>(p, v, prepare_triangle<decltype(by)>(triangle));
     };
     return Tier::lift(text, point, velocity, prepared.triangle);
   }

@@ -21,7 +21,7 @@ template <class Tier = Fast, class T>
 Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
                                         const T& limit) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_sphere_passes_sphere<Fast>(a...); }, sphere, velocity,
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_sphere<decltype(by)>(a...); }, sphere, velocity,
                       fixed, limit);
   }
   const T reach = sphere.radius + fixed.radius;

@@ -21,7 +21,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_sphere_plane<Fast>(a...); }, sphere, velocity, plane);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_plane<decltype(by)>(a...); }, sphere, velocity, plane);
   }
   const Vec3<T> normal = unit<Tier>(plane.normal);
   const T length = Tier::dot(normal, plane.normal);

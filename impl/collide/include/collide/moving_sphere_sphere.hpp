@@ -22,7 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](const auto&... a) { return moving_sphere_sphere<Fast>(a...); }, sphere, velocity, fixed);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); }, sphere, velocity, fixed);
   }
   const T reach = sphere.radius + fixed.radius;
   if (!detail::finite(velocity, reach)) return Impact<T>::miss();

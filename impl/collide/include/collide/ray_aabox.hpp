@@ -59,8 +59,10 @@ PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
 /// (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    const auto text = [](const auto& r, const auto& b) { return ray_aabox<Fast>(prepare_ray(r), prepare_aabox(b)); };
+  if constexpr (!Tier::template keeps<T>) {
+    const auto text = [](auto by, const auto& r, const auto& b) {
+      return ray_aabox<decltype(by)>(prepare_ray(r), prepare_aabox(b));
+    };
     return Tier::lift(text, ray.ray, box.aabox);
   }
   const std::array<T, 3> at = components(ray.ray.origin), step = components(ray.ray.direction);
