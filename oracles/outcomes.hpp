@@ -93,6 +93,8 @@ class Outcomes : public Tally {
   void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) {
     add(true, a, normals, Answer::capacity);
   }
+  /// The same; of its leaves only the first `leaves` are held against an answer, the others may be anything.
+  void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { add(true, a, normals, leaves); }
   /// Nothing is known: a division by what may be zero.
   void everything() { count_everything(); }
 
