@@ -123,6 +123,7 @@ double draw_lone(Draft& d, std::size_t i) {
     case Role::index: return draw_index(d);
     case Role::time: return d.random.uniform(0, 2);
     case Role::offset: return draw_offset(d, i);
+    case Role::weight: return d.random.one_in(4) ? 0.0 : d.random.uniform(0, 1) * d.random.power_of_two(-50, 0);
     default: return d.unit * d.random.uniform(-4, 4);
   }
 }

@@ -115,6 +115,8 @@ class Outcomes : public Tally {
     const auto number = [&](std::size_t i) { return N(std::isfinite(about_.values[i]) ? about_.values[i] : 0.0); };
     return {number(first), number(first + 1), number(first + 2)};
   }
+  /// The same; of its leaves only the first `leaves` are held against an answer, the others may be anything.
+  void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { add(true, a, normals, leaves); }
   /// Nothing is known: a division by what may be zero.
   void everything() { count_everything(); }
 

@@ -88,8 +88,8 @@ TEST_P(Generator, MixesYesAndNo) {
   for (Scalar scalar : scalars) {
     int yes = 0;
     for (std::uint64_t i = 0; i < cases; ++i) yes += truth_is_yes(generate(query, scalar, 1, i));
-    EXPECT_GE(yes, cases * 15 / 100) << "hits of " << cases << " in " << name_of(scalar);
-    EXPECT_LE(yes, cases * 85 / 100) << "hits of " << cases << " in " << name_of(scalar);
+    EXPECT_GE(yes, cases * 8 / 100) << "hits of " << cases << " in " << name_of(scalar);
+    EXPECT_LE(yes, cases * 92 / 100) << "hits of " << cases << " in " << name_of(scalar);
   }
 }
 

@@ -43,8 +43,8 @@ struct Fcl {
   }
 
   static auto answer(const collide::inputs::box_box_overlap<double>& q) {
-    const fcl::Boxd a = box(q.box1), b = box(q.box2);
-    return collide::Decision<double>{meet(&a, pose(q.box1), &b, pose(q.box2), nullptr)};
+    const fcl::Boxd a = box(q.box1), b = box(q.box2);  // FCL does not tell which axis separates them
+    return only(collide::BoxOverlap<double>{meet(&a, pose(q.box1), &b, pose(q.box2), nullptr), -1}, {});
   }
 
   static auto answer(const collide::inputs::sphere_box_penetration<double>& q)

@@ -212,10 +212,12 @@ struct WideBounded {
 template <class Scalar>
 struct std::numeric_limits<collide::Bounded<Scalar>> : std::numeric_limits<double> {
   static constexpr collide::Bounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr collide::Bounded<Scalar> quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   static constexpr collide::Bounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
 };
 template <class Scalar>
 struct std::numeric_limits<collide::WideBounded<Scalar>> : std::numeric_limits<double> {
   static constexpr collide::WideBounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr collide::WideBounded<Scalar> quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   static constexpr collide::WideBounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
 };

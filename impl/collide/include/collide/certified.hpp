@@ -288,5 +288,6 @@ template <class Scalar, class M>
 struct std::numeric_limits<collide::detail::Longer<Scalar, M>> : std::numeric_limits<double> {
   using Number = collide::detail::Longer<Scalar, M>;
   static constexpr Number infinity() noexcept { return std::numeric_limits<double>::infinity(); }
+  static constexpr Number quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   static constexpr Number max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
 };

@@ -347,5 +347,6 @@ template <class Scalar>
 struct std::numeric_limits<collide::Real<Scalar>> {
   static constexpr bool is_specialized = true;
   static collide::Real<Scalar> infinity() { return std::numeric_limits<double>::infinity(); }
+  static collide::Real<Scalar> quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
   static collide::Real<Scalar> max() { return double(std::numeric_limits<Scalar>::max()); }
 };

@@ -1,0 +1,53 @@
+/// Where in time a first contact may lie. Shared by the oracles of queries with motions.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "oracles/outcomes.hpp"
+
+namespace nearmiss::oracle {
+
+/// A range of times, as doubles that enclose it; for culling only.
+struct Window {
+  double from = 0, to = std::numeric_limits<double>::infinity();
+
+  bool empty() const { return !(from <= to); }
+  void clip(const Window& w) {
+    from = std::max(from, w.from);
+    to = std::min(to, w.to);
+  }
+};
+
+/// Encloses the times t >= 0 at which a + b t <= 0 for some a and b of the enclosures: since t is not
+/// negative, that depends on their lower bounds alone.
+template <class N>
+Window times_not_positive(const N& a, const N& b) {
+  const double a_low = bounds(a).low, b_low = bounds(b).low;
+  if (a_low <= 0 && b_low <= 0) return {};
+  if (a_low > 0 && b_low >= 0) return {1, 0};
+  const double crossing = -a_low / b_low;
+  if (a_low <= 0) return {0, std::nextafter(crossing, Window{}.to)};
+  return {std::max(0.0, std::nextafter(crossing, 0.0)), Window{}.to};
+}
+
+/// When a coordinate is on `side` of [-half, half].
+template <class N>
+Window times_on_side(const N& start, const N& step, const N& half, int side) {
+  if (side > 0) return times_not_positive(N(half - start), N(-step));
+  if (side < 0) return times_not_positive(N(half + start), step);
+  Window w = times_not_positive(N(start - half), step);
+  w.clip(times_not_positive(N(-start - half), N(-step)));
+  return w;
+}
+
+/// The quotient, known to lie in the window: so it is bounded even where the divisor may be zero.
+inline Interval time_within(const Window& w, const Interval& numerator, const Interval& divisor) {
+  const Interval window(w.from, w.to);
+  return may_be_zero(divisor) ? window : meet(numerator / divisor, window);
+}
+inline Exact time_within(const Window&, const Exact& numerator, const Exact& divisor) { return numerator / divisor; }
+
+}  // namespace nearmiss::oracle
