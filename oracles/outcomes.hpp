@@ -110,11 +110,6 @@ class Outcomes : public Tally {
   void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) {
     add(true, a, normals, Answer::capacity);
   }
-  /// Three numbers of the given answer: where right answers fill a surface, the oracle compares the nearest.
-  Vector<N> given(std::size_t first) const {
-    const auto number = [&](std::size_t i) { return N(std::isfinite(about_.values[i]) ? about_.values[i] : 0.0); };
-    return {number(first), number(first + 1), number(first + 2)};
-  }
   /// The same; of its leaves only the first `leaves` are held against an answer, the others may be anything.
   void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { add(true, a, normals, leaves); }
   /// Nothing is known: a division by what may be zero.

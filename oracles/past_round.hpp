@@ -98,7 +98,10 @@ struct RoundPast {
         out.yes(impact);
         told = true;
       };
-      const Vector<N> normal = out.given(4), place = minus(out.given(1), c.on_axis);
+      const auto given = [&](std::size_t i) -> Vector<N> {
+        return {N(out.given(i)), N(out.given(i + 1)), N(out.given(i + 2))};
+      };
+      const Vector<N> normal = given(4), place = minus(given(1), c.on_axis);
       if (may_be_positive(norm2(normal))) {
         toward(normal);
         toward(plus(times(normal, m.radius), place));

@@ -9,22 +9,10 @@
 
 namespace collide::detail {
 
-/// False where a number is infinite or NaN: what makes an answer that does not depend on it a miss.
-template <class T>
-constexpr bool finite(const Vec3<T>& a, const T& b = T(0), const T& c = T(0)) noexcept {
-  if constexpr (MachineNumber<T>) return (a.x + a.y + a.z) * T(0) + b * T(0) + c * T(0) == T(0);
-  return true;
-}
-
-/// The contact; a miss where its time or its place is beyond the largest finite number.
+/// The contact; a miss where its time is beyond the largest finite number.
 template <class T>
 Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) noexcept {
-  using std::abs;
   if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-  if constexpr (MachineNumber<T>) {
-    constexpr T most = std::numeric_limits<T>::max();
-    if (!(abs(location.x) <= most && abs(location.y) <= most && abs(location.z) <= most)) return Impact<T>::miss();
-  }
   return {time, location, normal};
 }
 
@@ -62,7 +50,7 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) no
   if (!(closing > T(0) && speed2 > T(0))) return T(-1);
   const T nearest = closing / speed2;  // time of the closest approach
   const Vec3<T> offset = from + velocity * nearest;
-  const T chord2 = Tier::difference_of_products(radius, radius, T(1), Tier::dot(offset, offset));
+  const T chord2 = -Tier::beyond_radius(offset, radius);
   if (!(chord2 >= T(0))) return T(-1);
   return not_negative(nearest - sqrt(chord2) / sqrt(speed2));
 }

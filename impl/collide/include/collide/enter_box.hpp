@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include <collide/number.hpp>
 
@@ -26,7 +24,6 @@ struct BoxEntry {
 template <class T, class Over>
 BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, const std::array<T, 3>& low,
                       const std::array<T, 3>& high, Over over) noexcept {
-  using std::abs;
   BoxEntry<T> entry;
   for (int i = 0; i < 3; ++i) {
     if (at[i] >= low[i] && at[i] <= high[i]) continue;
@@ -37,13 +34,12 @@ BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, 
   }
   if (entry.axis < 0) return {};
   for (int i = 0; i < 3; ++i) {
-    const T x = at[i] + step[i] * entry.time;
     if (i == entry.axis) {
-      if (!(abs(x) <= std::numeric_limits<T>::max())) return {};  // a motion that is not finite
       entry.at[i] = entry.side > T(0) ? high[i] : low[i];
       continue;
     }
     // Only the far plane can have been crossed: the near one by rounding, where two are reached at once.
+    const T x = at[i] + step[i] * entry.time;
     if (!(step[i] > T(0) ? x <= high[i] : x >= low[i])) return {};
     entry.at[i] = clamped(x, low[i], high[i]);
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/enter_box.hpp>
 #include <collide/frame.hpp>
@@ -24,7 +23,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_aabox<decltype(by)>(a...); }, point, velocity, aabox);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_aabox<decltype(by)>(a...); },
+                      point, velocity, aabox);
   }
   const std::array<T, 3> at = components(point), step = components(velocity);
   const std::array<T, 3> low = components(aabox.min), high = components(aabox.max);
@@ -38,7 +38,6 @@ Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const
   }
   const auto entry = detail::enter_box(at, step, low, high, [&](const T& gap, int i) -> T { return gap / step[i]; });
   if (entry.axis < 0 || !(entry.time <= std::numeric_limits<T>::max())) return Entry<T>::miss();
-  if (!detail::finite(aabox.max - aabox.min)) return Entry<T>::miss();
   std::array<T, 3> normal{};
   normal[entry.axis] = entry.side;
   answer.location = {entry.at[0], entry.at[1], entry.at[2]};

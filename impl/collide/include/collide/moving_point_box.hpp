@@ -2,7 +2,6 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/enter_box.hpp>
 #include <collide/frame.hpp>
@@ -24,7 +23,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); }, point, velocity, box);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); },
+                      point, velocity, box);
   }
   using std::abs;
   const Axes<T> axes = axes_of(box.orientation);
@@ -36,7 +36,6 @@ Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const 
   };
   bool outside = false;
   for (int i = 0; i < 3; ++i) outside = outside || abs(at[i]) > half[i];
-  if (!detail::finite(velocity) || !detail::finite(box.half)) return Impact<T>::miss();
   if (!outside) {
     for (int i = 0; i < 3; ++i) {
       if (at[i] == half[i] && step[i] <= T(0)) return contact(T(0), at, i, T(1));

@@ -23,7 +23,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_capsule<decltype(by)>(a...); }, point, velocity, capsule);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_capsule<decltype(by)>(a...); },
+                      point, velocity, capsule);
   }
   return detail::past_capsule<Tier>(point, T(0), velocity, capsule);
 }

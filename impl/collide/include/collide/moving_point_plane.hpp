@@ -21,7 +21,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_plane<decltype(by)>(a...); }, point, velocity, plane);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_plane<decltype(by)>(a...); },
+                      point, velocity, plane);
   }
   const T approach = -Tier::dot(plane.normal, velocity);
   if (!(approach > T(0))) return Impact<T>::miss();

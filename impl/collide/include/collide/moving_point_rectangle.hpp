@@ -20,7 +20,8 @@ template <class Tier = Fast, class T>
 Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                  const Rectangle<T>& rectangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_rectangle<decltype(by)>(a...); }, point, velocity, rectangle);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_rectangle<decltype(by)>(a...); },
+                      point, velocity, rectangle);
   }
   const Vec3<T> a = rectangle.v0 - point, b = rectangle.v1 - point;
   const Vec3<T> c = rectangle.v2 - point, d = rectangle.v3 - point;
@@ -42,7 +43,7 @@ Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
       Tier::dot(velocity, Tier::cross(d, a)) <= T(0)) {
     meet(Tier::cross(diagonal, rectangle.v3 - rectangle.v0), c, d);
   }
-  if (!(time <= std::numeric_limits<T>::max() && detail::finite(b) && detail::finite(d))) return Impact<T>::miss();
+  if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
   return detail::contact(time, point + velocity * time, unit<Tier>(normal));
 }
 

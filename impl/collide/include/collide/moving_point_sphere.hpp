@@ -25,10 +25,10 @@ template <class Tier = Fast, class T>
 Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                               bool solid) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); }, point, velocity, sphere, solid);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); },
+                      point, velocity, sphere, solid);
   }
   using std::sqrt;
-  if (!detail::finite(velocity, sphere.radius)) return Impact<T>::miss();
   const Vec3<T> m = point - sphere.center;
   const T outside = Tier::beyond_radius(m, sphere.radius);
   const bool starts_in = outside <= T(0);

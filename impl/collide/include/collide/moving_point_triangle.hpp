@@ -77,7 +77,8 @@ template <class Tier = Fast, class T>
 Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                 const Triangle<T>& triangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); }, point, velocity, triangle);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); },
+                      point, velocity, triangle);
   }
   const Vec3<T> n = Tier::cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
   const T approach = -Tier::dot(n, velocity);

@@ -31,9 +31,11 @@ PreparedTriangle<T> prepare_triangle(const Triangle<T>& triangle) noexcept {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
                                          const PreparedTriangle<T>& prepared) noexcept {
-  if constexpr (!Tier::template keeps<T>) {
-    const auto text = [](auto by, const auto& p, const auto& v, const auto& triangle) {
-      return moving_point_triangle_prepared<decltype(by)>(p, v, prepare_triangle<decltype(by)>(triangle));
+  if constexpr (Tier::template lifts<T>) {
+    const auto text = [&](auto by, const auto& p, const auto& v, const auto& triangle) {
+      using By = decltype(by);
+      if constexpr (Tier::template keeps<T>) return moving_point_triangle_prepared<By>(p, v, prepared);
+      else return moving_point_triangle_prepared<By>(p, v, prepare_triangle<By>(triangle));
     };
     return Tier::lift(text, point, velocity, prepared.triangle);
   }

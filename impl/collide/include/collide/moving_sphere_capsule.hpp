@@ -24,7 +24,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_capsule<decltype(by)>(a...); }, sphere, velocity, capsule);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_capsule<decltype(by)>(a...); },
+                      sphere, velocity, capsule);
   }
   return detail::past_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
 }

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -21,11 +20,11 @@ template <class Tier = Fast, class T>
 Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
                                         const T& limit) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_sphere<decltype(by)>(a...); }, sphere, velocity,
-                      fixed, limit);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_sphere<decltype(by)>(a...); },
+                      sphere, velocity, fixed, limit);
   }
   const T reach = sphere.radius + fixed.radius;
-  if (!(limit >= T(0)) || !detail::finite(velocity, reach)) return {false};
+  if (!(limit >= T(0))) return {false};
   const Vec3<T> from = sphere.center - fixed.center;
   const T closing = -Tier::dot(from, velocity);
   Vec3<T> offset = from;
@@ -33,7 +32,7 @@ Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& 
     const T nearest = smaller(T(closing / Tier::dot(velocity, velocity)), limit);  // time of the closest approach
     offset = from + velocity * nearest;
   }
-  return {Tier::difference_of_products(reach, reach, T(1), Tier::dot(offset, offset)) >= T(0)};
+  return {-Tier::beyond_radius(offset, reach) >= T(0)};
 }
 
 namespace inputs {
@@ -56,8 +55,10 @@ struct moving_sphere_passes_sphere {
     if (limit < T(0)) return Broken{"limit", "not negative", double(limit)};
     return std::nullopt;
   }
+  /// `limit` itself is finite: no limit has a flag of its own.
   template <class Tier>
-  auto ask() const noexcept {
+  Decision<T> ask() const noexcept {
+    if (!(limit <= std::numeric_limits<T>::max())) return {false};
     const T until = forever ? std::numeric_limits<T>::infinity() : limit;
     return collide::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, until);
   }

@@ -21,14 +21,15 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_plane<decltype(by)>(a...); }, sphere, velocity, plane);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_plane<decltype(by)>(a...); },
+                      sphere, velocity, plane);
   }
   const Vec3<T> normal = unit<Tier>(plane.normal);
   const T length = Tier::dot(normal, plane.normal);
   const T approach = -Tier::dot(plane.normal, velocity);
   const T height = Tier::dot(plane.normal, sphere.center) + plane.offset;
   const T reach = sphere.radius * length;
-  if (!(approach >= T(0) && height >= -reach && detail::finite(velocity, reach))) return Impact<T>::miss();
+  if (!(approach >= T(0) && height >= -reach)) return Impact<T>::miss();
   if (height <= reach) return detail::contact(T(0), sphere.center - normal * (height / length), normal);
   if (!(approach > T(0))) return Impact<T>::miss();
   const T time = (height - reach) / approach;

@@ -22,16 +22,16 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); }, sphere, velocity, fixed);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); },
+                      sphere, velocity, fixed);
   }
   const T reach = sphere.radius + fixed.radius;
-  if (!detail::finite(velocity, reach)) return Impact<T>::miss();
   const Vec3<T> from = sphere.center - fixed.center;
   const auto contact_at = [&](const T& time) {
     const Vec3<T> normal = detail::outward<Tier>(from + velocity * time);
     return detail::contact(time, fixed.center + normal * fixed.radius, normal);
   };
-  const T apart = Tier::difference_of_products(T(1), Tier::dot(from, from), reach, reach);
+  const T apart = Tier::beyond_radius(from, reach);
   if (!(apart > T(0))) {
     const bool touches = apart == T(0) && Tier::dot(from, velocity) <= T(0);
     const bool overlaps = apart < T(0) && sphere.radius > T(0);

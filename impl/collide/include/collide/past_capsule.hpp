@@ -15,7 +15,6 @@ template <class Tier, class T>
 Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity,
                        const Capsule<T>& capsule) noexcept {
   const T reach = radius + capsule.radius;
-  if (!finite(velocity, reach)) return Impact<T>::miss();
   const Vec3<T> from_p0 = center - capsule.p0, from_p1 = center - capsule.p1;
   const Vec3<T> between = capsule.p1 - capsule.p0;
   const Vec3<T> axis = unit<Tier>(between);  // zero for a ball
@@ -33,13 +32,10 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
     const Vec3<T> on_axis = at + at <= length ? capsule.p0 + axis * at : capsule.p1 - axis * (length - at);
     return contact_at(time, on_axis, away);
   };
-  const auto outside = [&](const Vec3<T>& away) {
-    return Tier::difference_of_products(T(1), Tier::dot(away, away), reach, reach);
-  };
 
   const bool before = along < T(0), beyond = along > length;
   const Vec3<T> nearest = before ? from_p0 : beyond ? from_p1 : beside;
-  const T apart = outside(nearest);
+  const T apart = Tier::beyond_radius(nearest, reach);
   if (!(apart > T(0))) {
     const bool touches = apart == T(0) && Tier::dot(nearest, velocity) <= T(0);
     const bool overlaps = apart < T(0) && radius > T(0);
@@ -50,7 +46,7 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
   }
 
   T at = along;
-  if (outside(beside) > T(0)) {
+  if (Tier::beyond_radius(beside, reach) > T(0)) {
     const T speed_along = Tier::dot(axis, velocity);
     const Vec3<T> across = velocity - axis * speed_along;
     const T time = time_to_ball<Tier>(beside, across, reach);

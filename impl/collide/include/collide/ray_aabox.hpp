@@ -2,7 +2,6 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/enter_box.hpp>
 #include <collide/frame.hpp>
@@ -59,9 +58,10 @@ PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
 /// (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept {
-  if constexpr (!Tier::template keeps<T>) {
-    const auto text = [](auto by, const auto& r, const auto& b) {
-      return ray_aabox<decltype(by)>(prepare_ray(r), prepare_aabox(b));
+  if constexpr (Tier::template lifts<T>) {
+    const auto text = [&](auto by, const auto& r, const auto& b) {
+      if constexpr (Tier::template keeps<T>) return ray_aabox<decltype(by)>(ray, box);
+      else return ray_aabox<decltype(by)>(prepare_ray(r), prepare_aabox(b));
     };
     return Tier::lift(text, ray.ray, box.aabox);
   }
@@ -69,8 +69,7 @@ RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noex
   const std::array<T, 3> low = components(box.aabox.min), high = components(box.aabox.max);
   bool inside = true;
   for (int i = 0; i < 3; ++i) inside = inside && low[i] <= at[i] && at[i] <= high[i];
-  if (!detail::finite(box.aabox.max - box.aabox.min)) return {};
-  if (inside) return detail::finite(ray.ray.direction) ? RayHit<T>{true, true, ray.ray.origin} : RayHit<T>{};
+  if (inside) return {true, true, ray.ray.origin};
   const Vec3<T> to_center = box.center - ray.ray.origin;
   if (Tier::dot(to_center, ray.ray.direction) < T(0) && Tier::dot(to_center, to_center) > box.radius2) return {};
   const std::array<T, 3> inverse = components(ray.inverse);
