@@ -1,0 +1,58 @@
+/// When and where a moving sphere meets a one-sided rectangle.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/moving_sphere_triangle.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// The first contact of `sphere`, moving by `velocity` per unit of time, with `rectangle`: the earlier of
+/// those with its two triangles v0, v1, v2 and v0, v2, v3, each of which is met only from its front
+/// (moving_sphere_triangle). Of equally early ones it is either.
+///
+/// 1. |center + velocity * time - location| == radius, but for an overlap at the start
+/// 2. normal points from location to the center; where the center is on the rectangle it is an outward one
+///
+/// Source: moving_sphere_triangle, twice.
+template <class Tier = Fast, class T>
+Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                  const Rectangle<T>& rectangle) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_rectangle<decltype(by)>(a...); }, sphere, velocity, rectangle);
+  }
+  const TriangleImpact<T> one =
+      moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
+  const TriangleImpact<T> two =
+      moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
+  const TriangleImpact<T>& first = two.time < one.time ? two : one;
+  return {first.time, first.location, first.normal};
+}
+
+namespace inputs {
+template <class T>
+struct moving_sphere_rectangle {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Rectangle<T> rectangle{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_rectangle::sphere),
+                      member("velocity", &moving_sphere_rectangle::velocity, Role::velocity),
+                      member("rectangle", &moving_sphere_rectangle::rectangle));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::moving_sphere_rectangle<Tier>(sphere, velocity, rectangle);
+  }
+
+  /// As moving_sphere_triangle: both triangles are explained by the same moves of the sphere's numbers, of
+  /// their own corners, and of the two that they share, twice as many.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 256, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

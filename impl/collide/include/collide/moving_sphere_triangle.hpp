@@ -1,0 +1,270 @@
+/// When and where a moving sphere meets a one-sided triangle.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// A place on a triangle: in its face (feature 0), on edge i from v[i] to v[i + 1] (1 + i), at vertex i
+/// (4 + i).
+template <class T>
+struct TrianglePlace {
+  int feature = 0;
+  Vec3<T> point{};
+  Vec3<T> weights{};
+};
+
+/// A sphere that moves past a triangle.
+template <class Tier, class T>
+struct SpherePastTriangle {
+  Vec3<T> center;
+  T radius;
+  Vec3<T> velocity;
+  std::array<Vec3<T>, 3> v, edge;  ///< edge i from v[i] to v[i + 1]
+  std::array<Vec3<T>, 3> inward;   ///< n x edge i
+  Vec3<T> n;
+  T n_length, height, approach;    ///< n . (center - v[0]), -n . velocity
+
+  SpherePastTriangle(const Sphere<T>& sphere, const Vec3<T>& along, const Triangle<T>& triangle) noexcept
+      : center(sphere.center), radius(sphere.radius), velocity(along), v{triangle.v0, triangle.v1, triangle.v2} {
+    for (int i = 0; i < 3; ++i) edge[i] = v[(i + 1) % 3] - v[i];
+    n = Tier::cross(edge[0], -edge[2]);
+    if constexpr (MachineNumber<T>) straighten();
+    n_length = length(components(n));
+    height = Tier::dot(n, center - v[0]);
+    approach = -Tier::dot(n, velocity);
+    for (int i = 0; i < 3; ++i) inward[i] = Tier::cross(n, edge[i]);
+  }
+
+  /// Of a thin triangle rounding leaves n a part along the edges, which this takes off where they are longest.
+  void straighten() noexcept {
+    T longest2(0);
+    int longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const T edge2 = Tier::dot(edge[i], edge[i]);
+      if (edge2 > longest2) longest2 = edge2, longest = i;
+    }
+    if (longest2 > T(0)) n = n - edge[longest] * (Tier::dot(n, edge[longest]) / longest2);
+  }
+
+  /// Coming from the front or along, and at the start not wholly behind.
+  bool passes_gate() const noexcept { return approach >= T(0) && height >= -(radius * n_length); }
+
+  /// n . (edge i x (point - its start)), from either end of the edge: from the nearer it is the more exact.
+  T beside(int i, const Vec3<T>& point, bool from_nearer) const noexcept {
+    const Vec3<T> w = point - v[i];
+    if constexpr (MachineNumber<T>) {
+      const Vec3<T> other = point - v[(i + 1) % 3];
+      if (from_nearer && Tier::dot(other, other) < Tier::dot(w, w)) return Tier::dot(inward[i], other);
+    }
+    return Tier::dot(inward[i], w);
+  }
+
+  /// The foot of a point on the triangle's plane, where it lies in the face: its weights are its distances
+  /// from the edges.
+  bool in_face(const Vec3<T>& point, TrianglePlace<T>& place, bool from_nearer = false) const noexcept {
+    if (!(n_length > T(0))) return false;
+    const T a = beside(1, point, from_nearer), b = beside(2, point, from_nearer), c = beside(0, point, from_nearer);
+    if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
+    const T sum = a + b + c;  // |n|^2
+    if (!(sum > T(0))) return false;
+    place.feature = 0;
+    place.weights = {a / sum, b / sum, c / sum};
+    return true;
+  }
+
+  TrianglePlace<T> on_edge(int i, const T& along) const noexcept {
+    TrianglePlace<T> place{1 + i, v[i] + edge[i] * along, {}};
+    const T rest = T(1) - along;
+    place.weights = i == 0 ? Vec3<T>{rest, along, T(0)} : i == 1 ? Vec3<T>{T(0), rest, along} : Vec3<T>{along, T(0), rest};
+    return place;
+  }
+  TrianglePlace<T> at_vertex(int i) const noexcept {
+    return {4 + i, v[i], {i == 0 ? T(1) : T(0), i == 1 ? T(1) : T(0), i == 2 ? T(1) : T(0)}};
+  }
+
+  /// The nearest point of the triangle to the center at the start, and the way from there to the center: seen
+  /// from the nearest corner, so that it is exact where it is short.
+  TrianglePlace<T> nearest(Vec3<T>& away) const noexcept {
+    TrianglePlace<T> best;
+    if (in_face(center, best, true)) {
+      away = n * (height / (n_length * n_length));
+      best.point = center - away;
+      return best;
+    }
+    T best2 = std::numeric_limits<T>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const Vec3<T> from_start = center - v[i], from_end = center - v[(i + 1) % 3];
+      const T edge2 = Tier::dot(edge[i], edge[i]);
+      const T after_start = Tier::dot(from_start, edge[i]), before_end = -Tier::dot(from_end, edge[i]);
+      TrianglePlace<T> place;
+      Vec3<T> to_center;
+      if (!(after_start > T(0))) {
+        place = at_vertex(i), to_center = from_start;
+      } else if (!(before_end > T(0))) {
+        place = at_vertex((i + 1) % 3), to_center = from_end;
+      } else {
+        const bool first_half = after_start < before_end;
+        const T along = first_half ? after_start / edge2 : before_end / edge2;
+        place = on_edge(i, first_half ? along : T(1) - along);
+        const Vec3<T>& w = first_half ? from_start : from_end;
+        to_center = first_half ? w - edge[i] * along : w + edge[i] * along;
+        if constexpr (MachineNumber<T>) {  // 4 eps of w in `along`, 2 in the difference: then the center is on the edge
+          constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
+          if (Tier::dot(to_center, to_center) <= error * error * Tier::dot(w, w)) to_center = Vec3<T>{};
+        }
+      }
+      const T distance2 = Tier::dot(to_center, to_center);
+      if (distance2 < best2) best = place, best2 = distance2, away = to_center;
+    }
+    return best;
+  }
+
+  /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
+  /// for a triangle without area, any at right angles to it.
+  Vec3<T> normal_at(const TrianglePlace<T>& place, Vec3<T> away) const noexcept {
+    if (place.feature == 0) return n / (height < T(0) ? -n_length : n_length);
+    if (place.feature < 4) {  // what rounding left of a part along the edge counts where the rest is small
+      const Vec3<T>& e = edge[place.feature - 1];
+      away = away - e * (Tier::dot(away, e) / Tier::dot(e, e));
+    }
+    const bool apart = radius > T(0) && !(away == Vec3<T>{});
+    if (apart) return unit<Tier>(away);
+    if (n_length > T(0)) return n / n_length;
+    return across_longest_edge();
+  }
+  /// A unit vector at right angles to a triangle without area.
+  Vec3<T> across_longest_edge() const noexcept {
+    using std::abs;
+    Vec3<T> e = edge[0];
+    for (int i = 1; i < 3; ++i) {
+      if (Tier::dot(edge[i], edge[i]) > Tier::dot(e, e)) e = edge[i];
+    }
+    if (e == Vec3<T>{}) return {T(0), T(0), T(1)};
+    const bool along_x = abs(e.x) > abs(e.y) && abs(e.x) > abs(e.z);
+    return unit<Tier>(Tier::cross(e, along_x ? Vec3<T>{T(0), T(1), T(0)} : Vec3<T>{T(1), T(0), T(0)}));
+  }
+
+  TriangleImpact<T> contact(const T& time, const TrianglePlace<T>& place, const Vec3<T>& away) const noexcept {
+    if (!(time <= std::numeric_limits<T>::max())) return TriangleImpact<T>::miss();
+    return {time, place.point, normal_at(place, away), place.weights};
+  }
+
+  /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
+  /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
+  T first_time(const Vec3<T>& w, const Vec3<T>& u) const noexcept {
+    using std::sqrt;
+    const T closing = -Tier::dot(w, u);
+    if (!(closing > T(0))) return T(-1);
+    const T speed2 = Tier::dot(u, u);
+    const Vec3<T> moment = Tier::cross(w, u);
+    const T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
+    if (!(chord2 >= T(0))) return T(-1);
+    const T outside = Tier::difference_of_products(T(1), Tier::dot(w, w), radius, radius);
+    return not_negative(outside) / (closing + sqrt(chord2));
+  }
+
+  /// The first contact of a sphere that starts apart.
+  TriangleImpact<T> moving() const noexcept {
+    TrianglePlace<T> place;
+    if (n_length > T(0) && approach > T(0) && height > T(0)) {
+      const T time = not_negative(height - radius * n_length) / approach;
+      const Vec3<T> at = center + velocity * time;
+      if (in_face(at, place)) {
+        place.point = at - n * (radius / n_length);
+        return contact(time, place, n);
+      }
+    }
+    T first = std::numeric_limits<T>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const Vec3<T> w = center - v[i];
+      const T at_vertex_time = first_time(w, velocity);
+      if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time, place = at_vertex(i);
+      const T edge_length = length(components(edge[i]));
+      if (!(edge_length > T(0))) continue;
+      const Vec3<T> along = edge[i] / edge_length;
+      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along));
+      if (!(time >= T(0) && time < first)) continue;
+      const T weight = Tier::dot(w + velocity * time, along) / edge_length;
+      if (weight >= T(0) && weight <= T(1)) first = time, place = on_edge(i, weight);
+    }
+    if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
+    return contact(first, place, center + velocity * first - place.point);
+  }
+
+  TriangleImpact<T> impact() const noexcept {
+    if (!passes_gate()) return TriangleImpact<T>::miss();
+    if (height > radius * n_length && approach == T(0)) return TriangleImpact<T>::miss();
+    if (height > radius * n_length) return moving();  // the whole sphere is in front of the plane
+    Vec3<T> away;
+    const TrianglePlace<T> start = nearest(away);
+    const T distance2 = Tier::dot(away, away);
+    const T outside = Tier::difference_of_products(T(1), distance2, radius, radius);
+    if (outside < T(0)) return contact(T(0), start, away);
+    if (outside == T(0)) {
+      return Tier::dot(away, velocity) <= T(0) ? contact(T(0), start, away) : TriangleImpact<T>::miss();
+    }
+    return outside > T(0) ? moving() : TriangleImpact<T>::miss();
+  }
+};
+
+}  // namespace detail
+
+/// The first contact of `sphere`, moving by `velocity` per unit of time, with `triangle`.
+///
+/// With n = (v1 - v0) x (v2 - v0), a sphere that moves against n, n . velocity > 0, or starts wholly behind
+/// the plane, n . (center - v0) < -radius |n|, misses. Otherwise it meets the closed triangle, its edges and
+/// vertices too: an overlap at the start is a contact at time 0, so is a touch unless the sphere leaves.
+/// A triangle without area is a segment or a point and has no back. Location is the triangle's point
+/// nearest to the center at that time, `weights` are its barycentric coordinates.
+///
+/// 1. |center + velocity * time - location| == radius, but for an overlap at the start
+/// 2. normal points from location to the center; where the center is on the triangle it is an outward one
+/// 3. location == weights.x v0 + weights.y v1 + weights.z v2, weights.x + weights.y + weights.z == 1
+///
+/// Source: the points within the radius of a triangle are a prism over its face, a cylinder about each edge
+/// and a ball about each vertex; the first contact is the first entry into any of them (Ericson, Real-Time
+/// Collision Detection, 5.5.3, the sphere swept against features). Each cylinder is cut where its edge ends, no ball is, so nothing
+/// passes between the parts.
+template <class Tier = Fast, class T>
+TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                         const Triangle<T>& triangle) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_triangle<decltype(by)>(a...); }, sphere, velocity, triangle);
+  }
+  return detail::SpherePastTriangle<Tier, T>(sphere, velocity, triangle).impact();
+}
+
+namespace inputs {
+template <class T>
+struct moving_sphere_triangle {
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Triangle<T> triangle{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_triangle::sphere),
+                      member("velocity", &moving_sphere_triangle::velocity, Role::velocity),
+                      member("triangle", &moving_sphere_triangle::triangle));
+  }
+  template <class Tier>
+  auto ask() const noexcept {
+    return collide::moving_sphere_triangle<Tier>(sphere, velocity, triangle);
+  }
+
+  /// First order, G the largest position: the center seen from a corner and an edge are known to 2 eps of G,
+  /// at most 2 G long; a unit edge adds 5 eps, a moment 5 eps of 4 G^2 and the speed, the root of the chord
+  /// half of 8 eps, the way to the contact 3 eps of 4 G and the location 4 eps of 2 G more; the face's
+  /// normal takes 5 eps of the edges, its weights as much again: 64 eps together. Unit: a root of three squares.
+  static constexpr Contract contract(Fast) {
+    return {.backward = 128, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
+  }
+};
+}  // namespace inputs
+}  // namespace collide

@@ -1,0 +1,23 @@
+/// Truth: the first contact with the face, an edge or a vertex, each in its own region.
+#include <collide/moving_sphere_triangle.hpp>
+
+#include "oracles/sphere_and_triangle.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N, class Out>
+void moving_sphere_triangle(const collide::inputs::moving_sphere_triangle<N>& q, Out& out) {
+  SphereAndTriangle<N> pair(vector(q.sphere.center), q.sphere.radius, vector(q.velocity),
+                            {vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)});
+  constexpr std::size_t before_weights = 7;  // time, location, normal
+  const TriangleContacts<N> all = pair.contacts();
+  for (const TriangleContact<N>& c : all.list) {
+    if (c.any_weights) out.yes(c.impact, c.normals, before_weights);
+    else out.yes(c.impact, c.normals);
+  }
+  if (all.may_miss) out.no();
+}
+
+NEARMISS_ORACLE(moving_sphere_triangle, TriangleImpact)
+
+}  // namespace nearmiss::oracle

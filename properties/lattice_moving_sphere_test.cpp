@@ -1,0 +1,212 @@
+/// Derivations for spheres that move past triangles, rectangles and boxes: the motion is cut wherever the
+/// nearest feature may change, and each piece has the quadratic of the feature nearest at its middle.
+#include "properties/lattice.hpp"
+
+namespace nearmiss::lattice {
+namespace {
+
+V along(const V& p, const V& v, const Q& t) { return {p[0] + v[0] * t, p[1] + v[1] * t, p[2] + v[2] * t}; }
+Q square_of(const V& a) { return dot(a, a); }
+
+/// The nearest point of a triangle, with its weights, and the directions at whose right angles the
+/// distance counts: none for a vertex (all of it), one for an edge, two for the face.
+struct Nearest {
+  V point, weights;
+  std::vector<V> within;  ///< orthogonal directions in which the feature extends
+};
+
+Nearest nearest_of(const std::array<V, 3>& c, const V& p) {
+  const V a = sub(c[1], c[0]), b = sub(c[2], c[0]), n = cross(a, b);
+  Nearest best{c[0], {1, 0, 0}, {}};
+  const auto consider = [&](const V& weights, const std::vector<V>& within) {
+    V x{0, 0, 0};
+    for (int i = 0; i < 3; ++i) x = along(x, c[i], weights[i]);
+    if (square_of(sub(x, p)) < square_of(sub(best.point, p))) best = {x, weights, within};
+  };
+  for (int i = 0; i < 3; ++i) {
+    V weights{0, 0, 0};
+    weights[i] = 1;
+    consider(weights, {});
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const V e = sub(c[j], c[i]);
+    if (square_of(e) == 0) continue;
+    const Q t = dot(sub(p, c[i]), e) / square_of(e);
+    if (t <= 0 || t >= 1) continue;
+    V weights{0, 0, 0};
+    weights[i] = 1 - t, weights[j] = t;
+    consider(weights, {e});
+  }
+  if (square_of(n) != 0) {
+    // The foot by Cramer's rule on the two edges' equations.
+    const V w = sub(p, c[0]);
+    const Q aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
+    const Q s = (dot(w, a) * bb - dot(w, b) * ab) / det, t = (dot(w, b) * aa - dot(w, a) * ab) / det;
+    if (s > 0 && t > 0 && s + t < 1) consider({1 - s - t, s, t}, {a, along(b, a, -ab / aa)});
+  }
+  return best;
+}
+
+struct Hit {
+  bool yes = false;
+  mpf_class time{0, 512};
+  V before{};  ///< a center in the same piece, for the feature
+};
+
+/// What is left of x at right angles to the directions.
+V across(V x, const std::vector<V>& directions) {
+  for (const V& d : directions) x = along(x, d, -dot(x, d) / square_of(d));
+  return x;
+}
+
+/// The first contact by the general rule, after the gate.
+Hit first_hit(const V& p, const Q& r, const V& v, const std::array<V, 3>& c) {
+  const V n = cross(sub(c[1], c[0]), sub(c[2], c[0]));
+  const Q height = dot(n, sub(p, c[0]));
+  if (dot(n, v) > 0 || (height < 0 && height * height > r * r * square_of(n))) return {};
+  const Nearest start = nearest_of(c, p);
+  const V away = sub(p, start.point);
+  const Q outside = square_of(away) - r * r;
+  Hit now;
+  now.yes = true;
+  now.before = p;
+  if (outside < 0) return now;
+  if (outside == 0) return dot(away, v) <= 0 ? now : Hit{};
+  // The nearest feature changes only where the center crosses one of these planes: through the edges along
+  // n, through the corners across the edges and, for the side that is met, the triangle's own.
+  std::vector<Q> cuts{0};
+  const auto cut = [&](const V& normal, const V& on) {
+    if (dot(normal, v) == 0) return;
+    const Q t = dot(normal, sub(on, p)) / dot(normal, v);
+    if (t > 0) cuts.push_back(t);
+  };
+  for (int i = 0; i < 3; ++i) {
+    const V e = sub(c[(i + 1) % 3], c[i]);
+    cut(e, c[i]), cut(e, c[(i + 1) % 3]), cut(cross(e, n), c[i]);
+  }
+  cut(n, c[0]);
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    const bool last = k + 1 == cuts.size();
+    const Q from = cuts[k], middle = last ? Q(from + 1) : Q((from + cuts[k + 1]) / 2);
+    const Nearest feature = nearest_of(c, along(p, v, middle));
+    const V w = across(sub(p, feature.point), feature.within), u = across(v, feature.within);
+    const Q qa = square_of(u), qb = dot(u, w), qc = square_of(w) - r * r, d = qb * qb - qa * qc;
+    Hit hit;
+    hit.yes = true;
+    hit.before = along(p, v, middle);
+    if (qa == 0) {
+      if (qc > 0) continue;
+      hit.time = mpf_class(from, 512);
+      return hit;
+    }
+    if (d < 0) continue;
+    const auto root_beyond = [&](const Q& t) { const Q x = -qb - qa * t; return x >= 0 ? cmp(Q(x * x), d) : -1; };
+    if (root_beyond(from) < 0 || (!last && root_beyond(cuts[k + 1]) > 0)) continue;
+    hit.time = (mpf_class(-qb, 512) - sqrt(mpf_class(d, 512))) / mpf_class(qa, 512);
+    return hit;
+  }
+  return {};
+}
+
+/// Time, location, normal and, of a triangle with area, weights; fewer where several are right.
+Reference reference_moving_sphere_triangle(Reader r) {
+  const V p = r.vector();
+  const Q radius = r.number();
+  const V v = r.vector();
+  const std::array<V, 3> c{r.vector(), r.vector(), r.vector()};
+  const Hit hit = first_hit(p, radius, v, c);
+  if (!hit.yes) return no();
+  // The feature's point moves along with the center: its weights are linear in time, taken from two times.
+  const Nearest feature = nearest_of(c, hit.before);
+  const auto at = [&](const Q& x, const Q& slope) {
+    return mpf_class(mpf_class(x, 512) + hit.time * mpf_class(slope, 512));
+  };
+  V rate = v;
+  const V beside = across(v, feature.within);
+  for (int k = 0; k < 3; ++k) rate[k] -= beside[k];  // of the nearest point
+  const V from = sub(p, across(sub(p, feature.point), feature.within));
+  Reference reference{true, {hit.time.get_d()}};
+  std::array<mpf_class, 3> location, away;
+  mpf_class distance2(0, 512);
+  for (int k = 0; k < 3; ++k) {
+    location[k] = at(from[k], rate[k]);
+    away[k] = at(p[k], v[k]) - location[k];
+    distance2 += away[k] * away[k];
+    reference.values.push_back(location[k].get_d());
+  }
+  const V n = cross(sub(c[1], c[0]), sub(c[2], c[0]));
+  if (distance2 == 0 || radius == 0) return reference;  // any normal of a cone
+  const mpf_class distance = sqrt(distance2);
+  for (int k = 0; k < 3; ++k) reference.values.push_back(mpf_class(away[k] / distance).get_d());
+  if (square_of(n) == 0) return reference;
+  for (int i = 0; i < 3; ++i) {  // (n x the opposite edge) . (location - its start) over n^2
+    const V in = cross(n, sub(c[(i + 2) % 3], c[(i + 1) % 3]));
+    mpf_class weight(0, 512);
+    for (int k = 0; k < 3; ++k) weight += mpf_class(in[k], 512) * (location[k] - mpf_class(c[(i + 1) % 3][k], 512));
+    weight /= mpf_class(square_of(n), 512);
+    reference.values.push_back(abs(weight) < 1e-100 ? 0.0 : weight.get_d());
+  }
+  return reference;
+}
+
+/// The earlier of both triangles' times.
+Reference reference_moving_sphere_rectangle(Reader r) {
+  const V p = r.vector();
+  const Q radius = r.number();
+  const V v = r.vector();
+  const std::array<V, 4> c{r.vector(), r.vector(), r.vector(), r.vector()};
+  const Hit one = first_hit(p, radius, v, {c[0], c[1], c[2]}), two = first_hit(p, radius, v, {c[0], c[2], c[3]});
+  if (!one.yes && !two.yes) return no();
+  const bool first = one.yes && (!two.yes || one.time <= two.time);
+  return yes((first ? one : two).time.get_d());
+}
+
+/// The least distance of each piece between the crossings of the face planes.
+Reference reference_moving_sphere_passes_box(Reader r) {
+  const V p = r.vector();
+  const Q radius = r.number();
+  const V v = r.vector();
+  const RefBox box(r);
+  const Q limit = r.number();
+  const bool forever = r.number() != 0;
+  const V s = box.local(sub(p, box.center)), w = box.local(v);
+  std::vector<Q> ends{0};
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] == 0) continue;
+    for (const int side : {-1, 1}) {
+      if (const Q t = (side * box.half[i] - s[i]) / w[i]; t > 0 && (forever || t < limit)) ends.push_back(t);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  if (!forever) ends.push_back(limit);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const bool last = k + 1 == ends.size();
+    if (last && !forever && k > 0) break;
+    const Q from = ends[k], to = last ? from : ends[k + 1], middle = last ? Q(from + 1) : Q((from + to) / 2);
+    Q a = 0, b = 0, c = -radius * radius;
+    for (int i = 0; i < 3; ++i) {
+      const Q x = s[i] + w[i] * middle;
+      if (abs(x) <= box.half[i]) continue;
+      const Q e = x > 0 ? Q(s[i] - box.half[i]) : Q(s[i] + box.half[i]);
+      a += w[i] * w[i], b += w[i] * e, c += e * e;
+    }
+    Q t = a == 0 ? from : Q(-b / a);
+    if (t < from) t = from;
+    if (t > to && !(last && forever)) t = to;
+    if (a * t * t + 2 * b * t + c <= 0) return yes();
+  }
+  return no();
+}
+
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(
+    MovingSpheres, OracleOnLattice,
+    testing::Values(std::tuple{"moving_sphere_triangle", &reference_moving_sphere_triangle},
+                    std::tuple{"moving_sphere_rectangle", &reference_moving_sphere_rectangle},
+                    std::tuple{"moving_sphere_passes_box", &reference_moving_sphere_passes_box}),
+    [](const auto& test) { return std::string(std::get<0>(test.param)); });
+
+}  // namespace nearmiss::lattice
