@@ -17,7 +17,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 # Paths below the source folder are hashed as relative ones, so that another clone, or the copy that
-# properties/eighth_query builds, finds what was compiled here.
+# properties/another_query builds, finds what was compiled here.
 find_program(NEARMISS_CCACHE ccache)
 if(NEARMISS_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER

@@ -1,4 +1,4 @@
-/// One fuzz target per query, compiled with NEARMISS_QUERY_NAME: bytes become a case, the tiers of
+/// One fuzz target per query, named by fuzzed_query: bytes become a case, the tiers of
 /// `collide` answer it, the judge has its say, and a violation ends the process with the case in hand.
 ///
 /// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas
@@ -18,6 +18,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
+#include "fuzz/fuzzed_query.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 
@@ -25,12 +26,12 @@ namespace nearmiss {
 namespace {
 
 const Query& query() {
-  static const Query& q = *find_query(NEARMISS_QUERY_NAME);
+  static const Query& q = *find_query(fuzzed_query);
   return q;
 }
 
 [[noreturn]] void cannot_run(const std::string& why) {
-  std::fprintf(stderr, "fuzz_" NEARMISS_QUERY_NAME ": %s\n", why.c_str());
+  std::fprintf(stderr, "fuzz_%s: %s\n", fuzzed_query, why.c_str());
   std::exit(2);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "corpus/codec.hpp"
+#include "fuzz/fuzzed_query.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -32,9 +33,9 @@ std::vector<fs::path> files_of(const fs::path& named) {
 std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   if (file.extension() == ".json") {
     const Case c = read_case(file);
-    if (c.query->name != NEARMISS_QUERY_NAME) {
+    if (c.query->name != fuzzed_query) {
       throw BadInput(
-          fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, NEARMISS_QUERY_NAME));
+          fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, fuzzed_query));
     }
     return case_to_bytes(c);
   }
@@ -46,7 +47,7 @@ void replay(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytes_of(file);
   if (LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) != 0) {
     throw BadInput(fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(),
-                               NEARMISS_QUERY_NAME));
+                               fuzzed_query));
   }
 }
 
@@ -62,8 +63,8 @@ int main(int argc, char** argv) try {
     }
   }
   if (replayed == 0)
-    throw nearmiss::BadInput("fuzz_" NEARMISS_QUERY_NAME ": no files to replay; usage: FILE|FOLDER ...");
-  std::printf("fuzz_" NEARMISS_QUERY_NAME ": %zu cases replayed, nothing violated\n", replayed);
+    throw nearmiss::BadInput(fmt::format("fuzz_{}: no files to replay; usage: FILE|FOLDER ...", nearmiss::fuzzed_query));
+  std::printf("fuzz_%s: %zu cases replayed\n", nearmiss::fuzzed_query, replayed);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 2;

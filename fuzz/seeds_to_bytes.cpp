@@ -1,4 +1,5 @@
-/// Writes every stored case of a query as bytes, for a fuzzer's corpus. Usage: seeds_to_bytes QUERY FOLDER
+/// Writes every stored case of a query as bytes, for a fuzzer's corpus; the folder holds nothing else
+/// afterwards. Usage: seeds_to_bytes QUERY FOLDER
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -12,6 +13,9 @@ namespace {
 
 std::size_t write_seeds(const Query& query, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {  // what a fuzzer added the last time
+    if (entry.is_regular_file()) std::filesystem::remove(entry.path());
+  }
   const std::vector<StoredCase> stored = stored_cases(query);
   for (const StoredCase& s : stored) {
     const std::vector<std::uint8_t> bytes = case_to_bytes(s.question);

@@ -8,9 +8,12 @@ namespace nearmiss {
 namespace {
 
 /// Each runs for every query of the catalogue.
-constexpr std::array<std::string_view, 25> for_every_query = {
+constexpr std::array<std::string_view, 29> for_every_query = {
     "EveryTier.AnswersKeepTheirContract",
     "EveryTier.PromisesSomethingAboutMostCases",
+    "EveryTierGiven.InfinityReportsNoHit",
+    "EveryTierGiven.NotANumberReportsNoHit",
+    "CertifiedTier.IsRightAboutRawNumbersOfAnyMagnitude",
     "Codec.BringsACaseBackFromJsonText",
     "Codec.BringsACaseBackFromBytes",
     "Codec.TakesNoBytesThatAreTooFewAndIgnoresThoseBeyond",
@@ -26,6 +29,7 @@ constexpr std::array<std::string_view, 25> for_every_query = {
     "Generator.MixesYesAndNo",
     "Generator.MakesHalfOfTheCasesScenesAndTheOthersByMoves",
     "Generator.MutatesIntoAnotherValidCase",
+    "OracleOnLattice.AgreesWithAnIndependentDerivation",
     "Oracles.ExcludeOnNoRungWhatTheExactStageFinds",
     "Oracles.ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases",
     "Shrinking.KeepsTheTruthAndStaysValidAndExact",

@@ -121,6 +121,43 @@ const Expectation expectations[] = {
      },
      Verdict::violates_contract, Disagreement::wrong_direction,
      "stooge gives direction (0, 1, 0). Exactly, it is (0, 0, 1)"},
+    {"wrong_weight",
+     [] {
+       const Case c{find_query("point_in_triangle"),
+                    Scalar::float64,
+                    {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0.25, 0.25, 0},
+                    "test",
+                    0,
+                    0,
+                    {}};
+       return report(c, answer(true, {0.25, 0.5, 0.25}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_weight,
+     "stooge gives weights (0.25, 0.5, 0.25). Exactly, it is (0.5, 0.25, 0.25)"},
+    {"wrong_flag",
+     [] {
+       const Case c{find_query("ray_aabox"),
+                    Scalar::float64,
+                    {-3, 0, 0, 1, 0, 0, -1, -1, -1, 1, 1, 1},
+                    "test",
+                    0,
+                    0,
+                    {}};
+       return report(c, answer(true, {1, -1, 0, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_flag, "stooge gives inside 1. Exactly, it is 0"},
+    {"wrong_index",
+     [] {
+       const Case c{find_query("closest_point_triangle_perimeter_edges"),
+                    Scalar::float64,
+                    {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5, -1, 0},
+                    "test",
+                    0,
+                    0,
+                    {}};
+       return report(c, answer(true, {0.5, 0, 0, 1}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_index, "stooge gives edge 1. Exactly, it is 0"},
     {"not_finite", [] { return report(flight(0), hit(4, std::nan(""))); }, Verdict::violates_contract,
      Disagreement::not_finite, "stooge answers, but location.y is nan. Exactly, they touch at time 4."},
     {"not_unit", [] { return report(flight(0), hit(4, 0, -1.25)); }, Verdict::violates_contract, Disagreement::not_unit,

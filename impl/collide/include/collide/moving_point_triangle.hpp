@@ -15,13 +15,18 @@ namespace collide {
 
 namespace detail {
 
+template <class T>
+T sum_of_abs(const Vec3<T>& x) noexcept {
+  using std::abs;
+  return abs(x.x) + abs(x.y) + abs(x.z);
+}
+
 /// A time near `time` at which the motion is over the triangle, seen along its normal n; negative where it
 /// never is, but for rounding. Corners are given as seen from the moving point.
 template <class Tier, MachineNumber T>
 T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n,
                              const std::array<Vec3<T>, 3>& corner) noexcept {
   using std::abs;
-  const auto sum = [](const Vec3<T>& x) { return abs(x.x) + abs(x.y) + abs(x.z); };
   const Vec3<T> sideways = Tier::cross(velocity, n);
   const T speed2 = Tier::dot(velocity, velocity);
   std::array<T, 3> side, at;  // of each corner: how far beside the line of motion, and the time next to it
@@ -31,7 +36,7 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
     const int j = (i + 1) % 3;
     const bool crosses = (side[i] < T(0) && side[j] > T(0)) || (side[i] > T(0) && side[j] < T(0));
     // A product of three carries 7 roundings: a corner so near may lie on the line, whatever its sign.
-    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * sum(velocity) * sum(n) * sum(corner[i]);
+    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * sum_of_abs(velocity) * sum_of_abs(n) * sum_of_abs(corner[i]);
     if (abs(side[i]) <= rounding) low = smaller(low, at[i]), high = larger(high, at[i]);
     if (!crosses) continue;
     const T crossing = at[i] + (at[j] - at[i]) * (side[i] / (side[i] - side[j]));
@@ -46,10 +51,14 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
 ///
 /// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
 /// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal.
+/// A steeper motion needs no such look: its approach keeps half of its digits, and moving the plane by a few
+/// rounding errors explains what they lack.
 template <class Tier, class T>
 T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& b,
                    const Vec3<T>& c) noexcept {
   if constexpr (MachineNumber<T>) {
+    constexpr T steep = T(1) / T(1LL << (std::numeric_limits<T>::digits / 2));
+    if (-Tier::dot(n, velocity) > steep * sum_of_abs(n) * sum_of_abs(velocity)) return time;
     const Vec3<T> place = velocity * time;
     const bool over = Tier::dot(n, Tier::cross(b - a, place - a)) >= T(0) &&
                       Tier::dot(n, Tier::cross(c - b, place - b)) >= T(0) &&

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Adds an eighth query to a copy of the sources, in the places that the README names and no other, and
+# Adds another query to a copy of the sources, in the places that the README names and no other, and
 # checks that the command line, the oracle, the generator and the fuzz target have it.
 # Usage: add_a_query.sh SOURCE_FOLDER
 set -euo pipefail
@@ -16,7 +16,7 @@ fail() {
 
 tar -C "$source_folder" --exclude=./build --exclude='./build*' --exclude=./.git --exclude=./reports/runs -cf - . |
   tar -C "$copy" -xf -
-here=$source_folder/properties/eighth_query
+here=$source_folder/properties/another_query
 
 # The recipe.
 cp "$here/$query.hpp" "$copy/impl/collide/include/collide/"
@@ -31,9 +31,9 @@ grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no tab
 # The same depth as the presets' build folders: unchanged sources come from the compiler cache.
 build=$copy/build/release
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF >"$copy/log" 2>&1 ||
-  { cat "$copy/log"; fail "cmake refuses the eighth query"; }
+  { cat "$copy/log"; fail "cmake refuses the new query"; }
 cmake --build "$build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||
-  { tail -n 40 "$copy/log"; fail "the eighth query does not build"; }
+  { tail -n 40 "$copy/log"; fail "the new query does not build"; }
 
 nearmiss=$build/reports/nearmiss
 export NEARMISS_CORPUS=$copy/corpus
