@@ -28,7 +28,7 @@ ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T 
   if constexpr (MachineNumber<T>) {
     if (!(detail::norm2(r) > T(0))) return {};  // no rotation, or NaN
   }
-  if (epsilon >= T(1)) return {true, 0, 0};
+  if (epsilon >= T(1)) return epsilon <= std::numeric_limits<T>::max() ? ParallelAxes<T>{true, 0, 0} : ParallelAxes<T>{};
   const auto sum = [](const T& a, const T& b) { return a * a + b * b; };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

@@ -62,10 +62,11 @@ std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const T&
   // Along both lines to their nearest points; on to the edges' ends where these lie beyond.
   const T to1 = Tier::difference_of_products(d2[j2], u2[0], d2[j1], u2[1]) / sine;
   const T to2 = Tier::difference_of_products(d1[i2], u1[0], d1[i1], u1[1]) / sine;
+  const auto on_edge = [](const T& along, const T& half) { return along >= -half && along <= half; };
   T along1 = clamped(to1, -pair.half1[i], pair.half1[i]);
-  const T then2 = along1 == to1 ? to2 : b[i] * along1 - d2[j];
+  const T then2 = on_edge(to1, pair.half1[i]) ? to2 : b[i] * along1 - d2[j];
   const T along2 = clamped(then2, -pair.half2[j], pair.half2[j]);
-  if (!(along2 == then2)) along1 = clamped(b[i] * along2 + d1[i], -pair.half1[i], pair.half1[i]);
+  if (!on_edge(then2, pair.half2[j])) along1 = clamped(b[i] * along2 + d1[i], -pair.half1[i], pair.half1[i]);
   middle1[i] = along1;
   std::array<T, 3> contact;
   for (int k = 0; k < 3; ++k) contact[k] = (middle1[k] + (middle2[k] + b[k] * along2)) / T(2);

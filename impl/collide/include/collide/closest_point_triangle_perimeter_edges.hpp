@@ -56,8 +56,11 @@ EdgePoint<T> closest_point_triangle_perimeter_edges(const TriangleEdges<T>& prep
   for (int i = 0; i < 3; ++i) {
     const Vec3<T>& direction = prepared.direction[i];
     const T length = prepared.length[i];
-    const T distance = clamped(Tier::dot(point - v[i], direction), T(0), length);
-    foot[i] = {direction * distance, direction * (distance - length), T(0), distance >= length};
+    const T projection = Tier::dot(point - v[i], direction), distance = clamped(projection, T(0), length);
+    foot[i] = {direction * distance, direction * (distance - length), T(0), projection >= length};
+    if constexpr (!MachineNumber<T>) {  // a length less itself is zero, however little is known of it
+      if (foot[i].at_end) foot[i].from_end = Vec3<T>{};
+    }
   }
   const int edge = detail::nearest_edge<Tier>(v, foot, point);
   return {foot[edge].on(v[edge], v[(edge + 1) % 3]), edge};

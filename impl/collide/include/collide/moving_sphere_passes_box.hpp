@@ -29,19 +29,21 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
   const std::array<T, 3> half = components(box.half);
   const std::array<T, 3> at = into_frame<Tier>(axes, sphere.center - box.center);
   const std::array<T, 3> step = into_frame<Tier>(axes, velocity);
-  // When each coordinate is between its face planes; meanwhile its part of the distance is exactly zero.
+  // When each coordinate is between its face planes, and how many of the two it has crossed; between them its
+  // part of the distance is exactly zero.
   std::array<T, 3> enters{}, leaves{};
+  std::array<int, 3> crossed{};
   for (int i = 0; i < 3; ++i) {
     if (step[i] == T(0)) continue;
     const T near = step[i] > T(0) ? -half[i] : half[i];
     enters[i] = (near - at[i]) / step[i];
     leaves[i] = (-near - at[i]) / step[i];
+    crossed[i] = enters[i] > T(0) ? 0 : leaves[i] > T(0) ? 1 : 2;
   }
-  const auto beyond_at = [&](T time) {
+  const auto beyond_at = [&](const T& time) {
     std::array<T, 3> beyond{};
     for (int i = 0; i < 3; ++i) {
-      const bool between = !(step[i] == T(0)) && time >= enters[i] && time <= leaves[i];
-      if (!between) beyond[i] = excess<T>(at[i] + step[i] * time, half[i]);
+      if (crossed[i] != 1) beyond[i] = excess<T>(at[i] + step[i] * time, half[i]);
     }
     return beyond;
   };
@@ -56,25 +58,23 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
     if (!(slope < T(0))) return {false};  // it comes no nearer: nor later, since the distance is convex
     // The next crossing, and how the slope grows until then: by the squares of the steps that count.
     T next = limit, speed2(0);
-    int beyond_axes = 0;
+    int beyond_axes = 0, crossing = -1;
     for (int i = 0; i < 3; ++i) {
       if (step[i] == T(0)) continue;
-      if (enters[i] > from) {
-        speed2 = speed2 + step[i] * step[i], ++beyond_axes;
-        next = smaller(next, enters[i]);
-      } else if (leaves[i] > from) {
-        next = smaller(next, leaves[i]);
-      } else {
-        speed2 = speed2 + step[i] * step[i], ++beyond_axes;
-      }
+      if (crossed[i] != 1) speed2 = speed2 + step[i] * step[i], ++beyond_axes;
+      if (crossed[i] == 2) continue;
+      const T& time = crossed[i] == 0 ? enters[i] : leaves[i];
+      if (time < next) next = time, crossing = i;
     }
-    if (!(next > from)) return {false};
     if (beyond_axes > 1 && speed2 > T(0)) {  // of one axis alone the slope is zero where it enters
       const T least = from - slope / speed2;
       if (least <= next) return {touches(beyond_at(least))};
     }
-    if (!(next < limit)) return {limit <= std::numeric_limits<T>::max() && touches(beyond_at(limit))};
+    if (crossing < 0) return {limit <= std::numeric_limits<T>::max() && touches(beyond_at(limit))};
+    const bool entering = crossed[crossing] == 0;
+    crossed[crossing] = 1;  // on the face plane its part is zero, whether it comes or goes
     beyond = beyond_at(next);
+    if (!entering) crossed[crossing] = 2;
     if (touches(beyond)) return {true};
     from = next;
     slope = slope_of(beyond);

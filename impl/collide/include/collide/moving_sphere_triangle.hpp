@@ -74,6 +74,11 @@ struct SpherePastTriangle {
     if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
+    if constexpr (MachineNumber<T>) {
+      // Where rounding makes as much as a part in 64 of it, the triangle is so thin that its edges tell as well.
+      using std::abs;
+      if (!(abs(sum - n_length * n_length) <= sum / T(64))) return false;
+    }
     place.feature = 0;
     place.weights = {a / sum, b / sum, c / sum};
     return true;
@@ -99,29 +104,35 @@ struct SpherePastTriangle {
       return best;
     }
     T best2 = std::numeric_limits<T>::infinity();
+    const auto offer = [&](const TrianglePlace<T>& place, const Vec3<T>& to_center) {
+      const T distance2 = Tier::dot(to_center, to_center);
+      if (distance2 < best2) best = place, best2 = distance2, away = to_center;
+    };
+    // A vertex is the nearest only where the center is beyond the ends of both its edges: distances that rounding
+    // makes equal do not tell.
+    std::array<bool, 3> beyond_start, beyond_end;
     for (int i = 0; i < 3; ++i) {
       const Vec3<T> from_start = center - v[i], from_end = center - v[(i + 1) % 3];
       const T edge2 = Tier::dot(edge[i], edge[i]);
       const T after_start = Tier::dot(from_start, edge[i]), before_end = -Tier::dot(from_end, edge[i]);
-      TrianglePlace<T> place;
-      Vec3<T> to_center;
-      if (!(after_start > T(0))) {
-        place = at_vertex(i), to_center = from_start;
-      } else if (!(before_end > T(0))) {
-        place = at_vertex((i + 1) % 3), to_center = from_end;
-      } else {
-        const bool first_half = after_start < before_end;
-        const T along = first_half ? after_start / edge2 : before_end / edge2;
-        place = on_edge(i, first_half ? along : T(1) - along);
-        const Vec3<T>& w = first_half ? from_start : from_end;
-        to_center = first_half ? w - edge[i] * along : w + edge[i] * along;
-        if constexpr (MachineNumber<T>) {  // 4 eps of w in `along`, 2 in the difference: then the center is on the edge
-          constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
-          if (Tier::dot(to_center, to_center) <= error * error * Tier::dot(w, w)) to_center = Vec3<T>{};
-        }
+      beyond_start[i] = !(after_start > T(0)), beyond_end[i] = !(before_end > T(0));
+      if (beyond_start[i] || beyond_end[i]) continue;
+      bool first_half = true;
+      if constexpr (MachineNumber<T>) first_half = after_start < before_end;
+      const T along = first_half ? after_start / edge2 : before_end / edge2;
+      const Vec3<T>& w = first_half ? from_start : from_end;
+      Vec3<T> to_center = first_half ? w - edge[i] * along : w + edge[i] * along;
+      if constexpr (MachineNumber<T>) {  // 4 eps of w in `along`, 2 in the difference: then the center is on the edge
+        constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
+        if (Tier::dot(to_center, to_center) <= error * error * Tier::dot(w, w)) to_center = Vec3<T>{};
       }
-      const T distance2 = Tier::dot(to_center, to_center);
-      if (distance2 < best2) best = place, best2 = distance2, away = to_center;
+      offer(on_edge(i, first_half ? along : T(1) - along), to_center);
+    }
+    for (int i = 0; i < 3; ++i) {
+      if (beyond_start[i] && beyond_end[(i + 2) % 3]) offer(at_vertex(i), center - v[i]);
+    }
+    if constexpr (MachineNumber<T>) {
+      if (best2 < std::numeric_limits<T>::min()) away = Vec3<T>{};  // as good as on the triangle: no square tells
     }
     return best;
   }
@@ -158,16 +169,23 @@ struct SpherePastTriangle {
 
   /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
   /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
-  T first_time(const Vec3<T>& w, const Vec3<T>& u) const noexcept {
+  /// Lengths of w, u and the radius are multiplied by the root of `scale2`.
+  T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1)) const noexcept {
     using std::sqrt;
     const T closing = -Tier::dot(w, u);
     if (!(closing > T(0))) return T(-1);
     const T speed2 = Tier::dot(u, u);
     const Vec3<T> moment = Tier::cross(w, u);
-    const T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
-    if (!(chord2 >= T(0))) return T(-1);
-    const T outside = Tier::difference_of_products(T(1), Tier::dot(w, w), radius, radius);
-    return not_negative(outside) / (closing + sqrt(chord2));
+    if constexpr (MachineNumber<T>) {
+      const T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
+      if (!(chord2 >= T(0))) return T(-1);
+      return not_negative(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2));
+    } else {
+      const T radius2 = radius * radius * scale2;
+      const T chord2 = radius2 * speed2 - Tier::dot(moment, moment);
+      if (!(chord2 >= T(0))) return T(-1);
+      return not_negative(Tier::dot(w, w) - radius2) / (closing + sqrt(chord2));
+    }
   }
 
   /// The first contact of a sphere that starts apart.
@@ -186,16 +204,38 @@ struct SpherePastTriangle {
       const Vec3<T> w = center - v[i];
       const T at_vertex_time = first_time(w, velocity);
       if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time, place = at_vertex(i);
-      const T edge_length = length(components(edge[i]));
-      if (!(edge_length > T(0))) continue;
-      const Vec3<T> along = edge[i] / edge_length;
-      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along));
+      // A unit direction keeps float and double in range; where range is no matter, it would be one more root.
+      Vec3<T> along = edge[i];
+      T scale = T(1);
+      if constexpr (MachineNumber<T>) {
+        scale = length(components(edge[i]));
+        if (!(scale > T(0))) continue;
+        along = edge[i] / scale;
+      }
+      const T edge2 = Tier::dot(along, along);
+      if (!(edge2 > T(0))) continue;
+      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), edge2);
       if (!(time >= T(0) && time < first)) continue;
-      const T weight = Tier::dot(w + velocity * time, along) / edge_length;
+      T weight = Tier::dot(w + velocity * time, along);
+      if constexpr (MachineNumber<T>) weight = weight / scale;
+      else weight = weight / edge2;
       if (weight >= T(0) && weight <= T(1)) first = time, place = on_edge(i, weight);
     }
     if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
-    return contact(first, place, center + velocity * first - place.point);
+    const Vec3<T> at = center + velocity * first;
+    if constexpr (MachineNumber<T>) {
+      // Near a vertex the times of an edge and of the vertex are the same but for a square of the way between
+      // them: rounding may choose, so the place is the one that is nearest at that time.
+      if (radius > T(0)) {
+        SpherePastTriangle then = *this;
+        then.center = at;
+        then.height = Tier::dot(n, at - v[0]);
+        Vec3<T> away;
+        place = then.nearest(away);
+        return then.contact(first, place, away);
+      }
+    }
+    return contact(first, place, at - place.point);
   }
 
   TriangleImpact<T> impact() const noexcept {
@@ -204,8 +244,7 @@ struct SpherePastTriangle {
     if (height > radius * n_length) return moving();  // the whole sphere is in front of the plane
     Vec3<T> away;
     const TrianglePlace<T> start = nearest(away);
-    const T distance2 = Tier::dot(away, away);
-    const T outside = Tier::difference_of_products(T(1), distance2, radius, radius);
+    const T outside = Tier::beyond_radius(away, radius);
     if (outside < T(0)) return contact(T(0), start, away);
     if (outside == T(0)) {
       return Tier::dot(away, velocity) <= T(0) ? contact(T(0), start, away) : TriangleImpact<T>::miss();

@@ -27,7 +27,7 @@ Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) noexc
   if constexpr (MachineNumber<T>) {
     if (!(sphere.radius + half[0] + half[1] + half[2] <= std::numeric_limits<T>::max())) return {false};
   }
-  return {Tier::difference_of_products(T(1), Tier::dot(away, away), sphere.radius, sphere.radius) <= T(0)};
+  return {Tier::beyond_radius(away, sphere.radius) <= T(0)};
 }
 
 namespace inputs {

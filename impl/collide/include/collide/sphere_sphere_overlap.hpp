@@ -22,7 +22,7 @@ Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sph
   if constexpr (MachineNumber<T>) {
     if (!(reach <= std::numeric_limits<T>::max())) return {false};
   }
-  return {Tier::difference_of_products(T(1), Tier::dot(between, between), reach, reach) <= T(0)};
+  return {Tier::beyond_radius(between, reach) <= T(0)};
 }
 
 namespace inputs {

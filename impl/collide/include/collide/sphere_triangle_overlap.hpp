@@ -26,7 +26,7 @@ Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& 
     if (!detail::is_finite(all) || !(sphere.radius <= std::numeric_limits<T>::max())) return {false};
   }
   const auto reaches = [&](const Vec3<T>& away) {
-    return Tier::difference_of_products(T(1), Tier::dot(away, away), sphere.radius, sphere.radius) <= T(0);
+    return Tier::beyond_radius(away, sphere.radius) <= T(0);
   };
   const Vec3<T> base = triangle.v1 - triangle.v0, w = sphere.center - triangle.v0;
   const detail::FaceFoot<T> face = detail::foot_on_face<Tier>(base, triangle.v2 - triangle.v0, w);
