@@ -90,7 +90,7 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
   }
   double speed2 = 0;  // past all crossings every coordinate that moves is beyond
   for (const double v : step) speed2 += v * v;
-  const double last = from - slope_from / speed2;
+  const double last = speed2 > 0 ? from - slope_from / speed2 : from;
   return std::min(last < infinity ? last : from, limit);
 }
 
@@ -104,9 +104,8 @@ double least_distance2(const Path<Interval>& path, double near, double limit) {
     if (e[i].inf() != 0 || e[i].sup() != 0) speed2 += std::max(square(path.step[i]).inf(), 0.0);
   }
   const double width = slope.sup() - slope.inf();
-  double first = width / speed2;
-  if (!(first < infinity)) first = 0;
-  first = std::max(first, 0x1p-50 * near + 0x1p-1000);
+  double first = 0x1p-50 * near + 0x1p-1000;
+  if (speed2 > 0 && width < speed2 * 0x1p400) first = std::max(first, width / speed2);
   // On each side as far as the slope's sign is sure: beyond, the distance grows.
   double after = limit, before = 0;
   double reach = first;

@@ -89,41 +89,66 @@ struct SpherePastTriangle {
     return {4 + i, v[i], {i == 0 ? T(1) : T(0), i == 1 ? T(1) : T(0), i == 2 ? T(1) : T(0)}};
   }
 
-  /// The nearest point of the triangle to the center at the start, and the way from there to the center: seen
-  /// from the nearest corner, so that it is exact where it is short.
+  /// The way from an edge to a point, found from w, carries 4 eps of w from `along` and 2 from the
+  /// difference. A part of it that is no larger and points inward, where the edge would not be nearest, is
+  /// nothing else; nor is a way that is no longer.
+  void take_off_rounding(int i, const Vec3<T>& w, const T& edge2, Vec3<T>& to_point) const noexcept {
+    constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
+    const T most2 = error * error * Tier::dot(w, w);
+    if (Tier::dot(to_point, to_point) <= most2) to_point = Vec3<T>{};
+    if (!(n_length > T(0))) return;
+    const Vec3<T> in = inward[i] / n_length;
+    const T behind = Tier::dot(to_point, in);
+    if (behind > T(0) && behind * behind <= most2 * edge2) to_point = to_point - in * (behind / edge2);
+  }
+
+  /// The nearest point of the triangle to the center at the start, and the way from there to the center.
   TrianglePlace<T> nearest(Vec3<T>& away) const noexcept {
-    TrianglePlace<T> best;
-    if (in_face(center, best, true)) {
+    TrianglePlace<T> place;
+    if (in_face(center, place, true)) {
       away = n * (height / (n_length * n_length));
-      best.point = center - away;
-      return best;
+      place.point = center - away;
+      return place;
+    }
+    if (!nearest_on_boundary<true>(center, place, away)) nearest_on_boundary<false>(center, place, away);
+    if constexpr (MachineNumber<T>) {  // so near that the squares underflow: on the triangle
+      constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+      if (Tier::dot(away, away) < least) away = Vec3<T>{};
+    }
+    return place;
+  }
+
+  /// The nearest point of the edges and vertices to a point that is not over the face, and the way from there,
+  /// seen from the nearest corner, so that it is exact where it is short. `by_region`: of the features in
+  /// whose region the point lies, which two distances that differ by a square cannot tell; false where
+  /// rounding left it in none.
+  template <bool by_region>
+  bool nearest_on_boundary(const Vec3<T>& point, TrianglePlace<T>& best, Vec3<T>& away) const noexcept {
+    std::array<Vec3<T>, 3> from;
+    std::array<T, 3> after_start, before_end;
+    for (int i = 0; i < 3; ++i) from[i] = point - v[i];
+    for (int i = 0; i < 3; ++i) {
+      after_start[i] = Tier::dot(from[i], edge[i]);
+      before_end[i] = -Tier::dot(from[(i + 1) % 3], edge[i]);
     }
     T best2 = std::numeric_limits<T>::infinity();
+    const auto consider = [&](const TrianglePlace<T>& place, const Vec3<T>& to_point) {
+      const T distance2 = Tier::dot(to_point, to_point);
+      if (distance2 < best2) best = place, best2 = distance2, away = to_point;
+    };
     for (int i = 0; i < 3; ++i) {
-      const Vec3<T> from_start = center - v[i], from_end = center - v[(i + 1) % 3];
+      if (!by_region || (after_start[i] <= T(0) && before_end[(i + 2) % 3] <= T(0))) consider(at_vertex(i), from[i]);
+      if (!(after_start[i] > T(0) && before_end[i] > T(0))) continue;
+      if (by_region && !(beside(i, point, true) <= T(0))) continue;
       const T edge2 = Tier::dot(edge[i], edge[i]);
-      const T after_start = Tier::dot(from_start, edge[i]), before_end = -Tier::dot(from_end, edge[i]);
-      TrianglePlace<T> place;
-      Vec3<T> to_center;
-      if (!(after_start > T(0))) {
-        place = at_vertex(i), to_center = from_start;
-      } else if (!(before_end > T(0))) {
-        place = at_vertex((i + 1) % 3), to_center = from_end;
-      } else {
-        const bool first_half = after_start < before_end;
-        const T along = first_half ? after_start / edge2 : before_end / edge2;
-        place = on_edge(i, first_half ? along : T(1) - along);
-        const Vec3<T>& w = first_half ? from_start : from_end;
-        to_center = first_half ? w - edge[i] * along : w + edge[i] * along;
-        if constexpr (MachineNumber<T>) {  // 4 eps of w in `along`, 2 in the difference: then the center is on the edge
-          constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
-          if (Tier::dot(to_center, to_center) <= error * error * Tier::dot(w, w)) to_center = Vec3<T>{};
-        }
-      }
-      const T distance2 = Tier::dot(to_center, to_center);
-      if (distance2 < best2) best = place, best2 = distance2, away = to_center;
+      const bool first_half = after_start[i] < before_end[i];
+      const T along = (first_half ? after_start[i] : before_end[i]) / edge2;
+      const Vec3<T>& w = first_half ? from[i] : from[(i + 1) % 3];
+      Vec3<T> to_point = first_half ? w - edge[i] * along : w + edge[i] * along;
+      if constexpr (MachineNumber<T>) take_off_rounding(i, w, edge2, to_point);
+      consider(on_edge(i, first_half ? along : T(1) - along), to_point);
     }
-    return best;
+    return best2 < std::numeric_limits<T>::infinity();
   }
 
   /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
@@ -167,7 +192,8 @@ struct SpherePastTriangle {
     const T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
     if (!(chord2 >= T(0))) return T(-1);
     const T outside = Tier::difference_of_products(T(1), Tier::dot(w, w), radius, radius);
-    return not_negative(outside) / (closing + sqrt(chord2));
+    // No later than the time of the least distance, which counts where rounding is all that closes in.
+    return smaller(not_negative(outside) / (closing + sqrt(chord2)), closing / speed2);
   }
 
   /// The first contact of a sphere that starts apart.
@@ -185,17 +211,21 @@ struct SpherePastTriangle {
     for (int i = 0; i < 3; ++i) {
       const Vec3<T> w = center - v[i];
       const T at_vertex_time = first_time(w, velocity);
-      if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time, place = at_vertex(i);
+      if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time;
       const T edge_length = length(components(edge[i]));
       if (!(edge_length > T(0))) continue;
       const Vec3<T> along = edge[i] / edge_length;
       const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along));
       if (!(time >= T(0) && time < first)) continue;
-      const T weight = Tier::dot(w + velocity * time, along) / edge_length;
-      if (weight >= T(0) && weight <= T(1)) first = time, place = on_edge(i, weight);
+      const T reach = Tier::dot(w + velocity * time, along);
+      if (reach >= T(0) && reach <= edge_length) first = time;
     }
     if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
-    return contact(first, place, center + velocity * first - place.point);
+    // Which feature is nearest then: times that differ by a square do not tell.
+    const Vec3<T> at = center + velocity * first;
+    Vec3<T> away;
+    if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
+    return contact(first, place, away);
   }
 
   TriangleImpact<T> impact() const noexcept {
