@@ -69,7 +69,7 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
     at[i] = middle(path.start[i]), step[i] = middle(path.step[i]), half[i] = middle(path.half[i]);
     for (const int side : {-1, 1}) {
       const double t = step[i] != 0 ? (side * half[i] - at[i]) / step[i] : -1;
-      if (t > 0 && t < limit) crossings.push_back(t);
+      if (t > 0 && t < infinity) crossings.push_back(t);
     }
   }
   const auto slope = [&](double t) {
@@ -85,7 +85,9 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
   if (slope_from >= 0) return 0;
   for (const double to : crossings) {
     const double slope_to = slope(to);
-    if (slope_to >= 0) return std::clamp(from - slope_from * ((to - from) / (slope_to - slope_from)), from, to);
+    if (slope_to >= 0) {
+      return std::min(limit, std::clamp(from - slope_from * ((to - from) / (slope_to - slope_from)), from, to));
+    }
     from = to, slope_from = slope_to;
   }
   double speed2 = 0;  // past all crossings every coordinate that moves is beyond
