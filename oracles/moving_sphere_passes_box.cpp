@@ -69,7 +69,7 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
     at[i] = middle(path.start[i]), step[i] = middle(path.step[i]), half[i] = middle(path.half[i]);
     for (const int side : {-1, 1}) {
       const double t = step[i] != 0 ? (side * half[i] - at[i]) / step[i] : -1;
-      if (t > 0 && t < limit) crossings.push_back(t);
+      if (t > 0 && t < infinity) crossings.push_back(t);
     }
   }
   const auto slope = [&](double t) {
@@ -85,12 +85,14 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
   if (slope_from >= 0) return 0;
   for (const double to : crossings) {
     const double slope_to = slope(to);
-    if (slope_to >= 0) return std::clamp(from - slope_from * ((to - from) / (slope_to - slope_from)), from, to);
+    if (slope_to >= 0) {
+      return std::min(limit, std::clamp(from - slope_from * ((to - from) / (slope_to - slope_from)), from, to));
+    }
     from = to, slope_from = slope_to;
   }
   double speed2 = 0;  // past all crossings every coordinate that moves is beyond
   for (const double v : step) speed2 += v * v;
-  const double last = from - slope_from / speed2;
+  const double last = speed2 > 0 ? from - slope_from / speed2 : from;
   return std::min(last < infinity ? last : from, limit);
 }
 
@@ -104,9 +106,8 @@ double least_distance2(const Path<Interval>& path, double near, double limit) {
     if (e[i].inf() != 0 || e[i].sup() != 0) speed2 += std::max(square(path.step[i]).inf(), 0.0);
   }
   const double width = slope.sup() - slope.inf();
-  double first = width / speed2;
-  if (!(first < infinity)) first = 0;
-  first = std::max(first, 0x1p-50 * near + 0x1p-1000);
+  double first = 0x1p-50 * near + 0x1p-1000;
+  if (speed2 > 0 && width < speed2 * 0x1p400) first = std::max(first, width / speed2);
   // On each side as far as the slope's sign is sure: beyond, the distance grows.
   double after = limit, before = 0;
   double reach = first;

@@ -135,8 +135,12 @@ class SphereAndTriangle {
           assume_within(weights[i], 0.0, 1.0);
       return;
     }
-    if constexpr (is_enclosure<N>) c.impact.weights = {N(0, 1), N(0, 1), N(0, 1)};
-    else c.any_weights = true;
+    if constexpr (is_enclosure<N>) {
+      const N anything(-0x1p500, 0x1p500);
+      c.impact.weights = {anything, anything, anything};
+    } else {
+      c.any_weights = true;
+    }
   }
   static Vector<N> vertex_weights(int i) { return {N(i == 0 ? 1 : 0), N(i == 1 ? 1 : 0), N(i == 2 ? 1 : 0)}; }
   static Vector<N> edge_weights(int i, const N& along) {
@@ -235,16 +239,16 @@ class SphereAndTriangle {
       const N leaving = inner(away, v_);
       if (may_be_zero(outside) && may_be_positive(leaving)) all_.may_miss = true;
       if (!may_be_negative(outside) && !may_be_at_most_zero(leaving)) return;
-      Vector<N> unit = times(away, N(N(1) / root(distance2)));
-      if (over_face && surely_has_area()) {
-        const N length = root(n2_);
-        const N height = inner(n_, from_corner(0));
-        // Not both signs: the distance is not zero.
-        unit = times(n_, N(N(may_be_negative(height) ? -1 : 1) * length / n2_));
-      }
-      for (N& x : unit) x = assume_within(x, -1.0, 1.0);
-      c.impact.normal = answer_vector(unit);
-      all_.list.push_back(c);
+      const Vector<N> unit = times(away, N(N(1) / root(distance2)));
+      const auto add = [&](Vector<N> normal) {
+        for (N& x : normal) x = assume_within(x, -1.0, 1.0);
+        c.impact.normal = answer_vector(normal);
+        all_.list.push_back(c);
+      };
+      if (!over_face || !surely_has_area()) return add(unit);
+      const N height = inner(n_, from_corner(0)), length = root(n2_);
+      if (may_be_at_least_zero(height)) add(times(n_, N(length / n2_)));
+      if (may_be_at_most_zero(height)) add(times(n_, N(-length / n2_)));
     };
     for (int i = 0; i < 3; ++i) {
       if (may_be_at_vertex(i, p_)) from(vertex(i), norm2(from_corner(i)), false);

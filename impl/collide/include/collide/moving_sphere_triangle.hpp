@@ -74,11 +74,6 @@ struct SpherePastTriangle {
     if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
-    if constexpr (MachineNumber<T>) {
-      // Where rounding makes as much as a part in 64 of it, the triangle is so thin that its edges tell as well.
-      using std::abs;
-      if (!(abs(sum - n_length * n_length) <= sum / T(64))) return false;
-    }
     place.feature = 0;
     place.weights = {a / sum, b / sum, c / sum};
     return true;
@@ -94,47 +89,66 @@ struct SpherePastTriangle {
     return {4 + i, v[i], {i == 0 ? T(1) : T(0), i == 1 ? T(1) : T(0), i == 2 ? T(1) : T(0)}};
   }
 
-  /// The nearest point of the triangle to the center at the start, and the way from there to the center: seen
-  /// from the nearest corner, so that it is exact where it is short.
+  /// The way from an edge to a point, found from w, carries 4 eps of w from `along` and 2 from the
+  /// difference. A part of it that is no larger and points inward, where the edge would not be nearest, is
+  /// nothing else; nor is a way that is no longer.
+  void take_off_rounding(int i, const Vec3<T>& w, const T& edge2, Vec3<T>& to_point) const noexcept {
+    constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
+    const T most2 = error * error * Tier::dot(w, w);
+    if (Tier::dot(to_point, to_point) <= most2) to_point = Vec3<T>{};
+    if (!(n_length > T(0))) return;
+    const Vec3<T> in = inward[i] / n_length;
+    const T behind = Tier::dot(to_point, in);
+    if (behind > T(0) && behind * behind <= most2 * edge2) to_point = to_point - in * (behind / edge2);
+  }
+
+  /// The nearest point of the triangle to the center at the start, and the way from there to the center.
   TrianglePlace<T> nearest(Vec3<T>& away) const noexcept {
-    TrianglePlace<T> best;
-    if (in_face(center, best, true)) {
+    TrianglePlace<T> place;
+    if (in_face(center, place, true)) {
       away = n * (height / (n_length * n_length));
-      best.point = center - away;
-      return best;
+      place.point = center - away;
+      return place;
+    }
+    if (!nearest_on_boundary<true>(center, place, away)) nearest_on_boundary<false>(center, place, away);
+    if constexpr (MachineNumber<T>) {  // so near that the squares underflow: on the triangle
+      constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+      if (Tier::dot(away, away) < least) away = Vec3<T>{};
+    }
+    return place;
+  }
+
+  /// The nearest point of the edges and vertices to a point that is not over the face, and the way from there,
+  /// seen from the nearest corner, so that it is exact where it is short. `by_region`: of the features in
+  /// whose region the point lies, which two distances that differ by a square cannot tell; false where
+  /// rounding left it in none.
+  template <bool by_region>
+  bool nearest_on_boundary(const Vec3<T>& point, TrianglePlace<T>& best, Vec3<T>& away) const noexcept {
+    std::array<Vec3<T>, 3> from;
+    std::array<T, 3> after_start, before_end;
+    for (int i = 0; i < 3; ++i) from[i] = point - v[i];
+    for (int i = 0; i < 3; ++i) {
+      after_start[i] = Tier::dot(from[i], edge[i]);
+      before_end[i] = -Tier::dot(from[(i + 1) % 3], edge[i]);
     }
     T best2 = std::numeric_limits<T>::infinity();
-    const auto offer = [&](const TrianglePlace<T>& place, const Vec3<T>& to_center) {
-      const T distance2 = Tier::dot(to_center, to_center);
-      if (distance2 < best2) best = place, best2 = distance2, away = to_center;
+    const auto consider = [&](const TrianglePlace<T>& place, const Vec3<T>& to_point) {
+      const T distance2 = Tier::dot(to_point, to_point);
+      if (distance2 < best2) best = place, best2 = distance2, away = to_point;
     };
-    // A vertex is the nearest only where the center is beyond the ends of both its edges: distances that rounding
-    // makes equal do not tell.
-    std::array<bool, 3> beyond_start, beyond_end;
     for (int i = 0; i < 3; ++i) {
-      const Vec3<T> from_start = center - v[i], from_end = center - v[(i + 1) % 3];
+      if (!by_region || (after_start[i] <= T(0) && before_end[(i + 2) % 3] <= T(0))) consider(at_vertex(i), from[i]);
+      if (!(after_start[i] > T(0) && before_end[i] > T(0))) continue;
+      if (by_region && !(beside(i, point, true) <= T(0))) continue;
       const T edge2 = Tier::dot(edge[i], edge[i]);
-      const T after_start = Tier::dot(from_start, edge[i]), before_end = -Tier::dot(from_end, edge[i]);
-      beyond_start[i] = !(after_start > T(0)), beyond_end[i] = !(before_end > T(0));
-      if (beyond_start[i] || beyond_end[i]) continue;
-      bool first_half = true;
-      if constexpr (MachineNumber<T>) first_half = after_start < before_end;
-      const T along = first_half ? after_start / edge2 : before_end / edge2;
-      const Vec3<T>& w = first_half ? from_start : from_end;
-      Vec3<T> to_center = first_half ? w - edge[i] * along : w + edge[i] * along;
-      if constexpr (MachineNumber<T>) {  // 4 eps of w in `along`, 2 in the difference: then the center is on the edge
-        constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
-        if (Tier::dot(to_center, to_center) <= error * error * Tier::dot(w, w)) to_center = Vec3<T>{};
-      }
-      offer(on_edge(i, first_half ? along : T(1) - along), to_center);
+      const bool first_half = after_start[i] < before_end[i];
+      const T along = (first_half ? after_start[i] : before_end[i]) / edge2;
+      const Vec3<T>& w = first_half ? from[i] : from[(i + 1) % 3];
+      Vec3<T> to_point = first_half ? w - edge[i] * along : w + edge[i] * along;
+      if constexpr (MachineNumber<T>) take_off_rounding(i, w, edge2, to_point);
+      consider(on_edge(i, first_half ? along : T(1) - along), to_point);
     }
-    for (int i = 0; i < 3; ++i) {
-      if (beyond_start[i] && beyond_end[(i + 2) % 3]) offer(at_vertex(i), center - v[i]);
-    }
-    if constexpr (MachineNumber<T>) {
-      if (best2 < std::numeric_limits<T>::min()) away = Vec3<T>{};  // as good as on the triangle: no square tells
-    }
-    return best;
+    return best2 < std::numeric_limits<T>::infinity();
   }
 
   /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
@@ -169,7 +183,7 @@ struct SpherePastTriangle {
 
   /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
   /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
-  /// Lengths of w, u and the radius are multiplied by the root of `scale2`.
+  /// Squares of w, u and the radius are multiplied by `scale2`.
   T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1)) const noexcept {
     using std::sqrt;
     const T closing = -Tier::dot(w, u);
@@ -179,7 +193,8 @@ struct SpherePastTriangle {
     if constexpr (MachineNumber<T>) {
       const T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
       if (!(chord2 >= T(0))) return T(-1);
-      return not_negative(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2));
+      // No later than the time of the least distance, which counts where rounding is all that closes in.
+      return smaller(not_negative(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2)), closing / speed2);
     } else {
       const T radius2 = radius * radius * scale2;
       const T chord2 = radius2 * speed2 - Tier::dot(moment, moment);
@@ -203,39 +218,29 @@ struct SpherePastTriangle {
     for (int i = 0; i < 3; ++i) {
       const Vec3<T> w = center - v[i];
       const T at_vertex_time = first_time(w, velocity);
-      if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time, place = at_vertex(i);
+      if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time;
       // A unit direction keeps float and double in range; where range is no matter, it would be one more root.
       Vec3<T> along = edge[i];
-      T scale = T(1);
+      T most;
       if constexpr (MachineNumber<T>) {
-        scale = length(components(edge[i]));
-        if (!(scale > T(0))) continue;
-        along = edge[i] / scale;
+        most = length(components(edge[i]));
+        if (!(most > T(0))) continue;
+        along = edge[i] / most;
+      } else {
+        most = Tier::dot(along, along);
+        if (!(most > T(0))) continue;
       }
-      const T edge2 = Tier::dot(along, along);
-      if (!(edge2 > T(0))) continue;
-      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), edge2);
+      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), most);
       if (!(time >= T(0) && time < first)) continue;
-      T weight = Tier::dot(w + velocity * time, along);
-      if constexpr (MachineNumber<T>) weight = weight / scale;
-      else weight = weight / edge2;
-      if (weight >= T(0) && weight <= T(1)) first = time, place = on_edge(i, weight);
+      const T reach = Tier::dot(w + velocity * time, along);
+      if (reach >= T(0) && reach <= most) first = time;
     }
     if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
+    // Which feature is nearest then: times that differ by a square do not tell.
     const Vec3<T> at = center + velocity * first;
-    if constexpr (MachineNumber<T>) {
-      // Near a vertex the times of an edge and of the vertex are the same but for a square of the way between
-      // them: rounding may choose, so the place is the one that is nearest at that time.
-      if (radius > T(0)) {
-        SpherePastTriangle then = *this;
-        then.center = at;
-        then.height = Tier::dot(n, at - v[0]);
-        Vec3<T> away;
-        place = then.nearest(away);
-        return then.contact(first, place, away);
-      }
-    }
-    return contact(first, place, at - place.point);
+    Vec3<T> away;
+    if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
+    return contact(first, place, away);
   }
 
   TriangleImpact<T> impact() const noexcept {
