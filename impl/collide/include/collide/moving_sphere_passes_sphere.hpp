@@ -58,7 +58,7 @@ struct moving_sphere_passes_sphere {
   /// `limit` itself is finite: no limit has a flag of its own.
   template <class Tier>
   Decision<T> ask() const noexcept {
-    if (!(limit <= std::numeric_limits<T>::max())) return {false};
+    if (!(limit >= T(0) && limit <= std::numeric_limits<T>::max())) return {false};
     const T until = forever ? std::numeric_limits<T>::infinity() : limit;
     return collide::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, until);
   }
