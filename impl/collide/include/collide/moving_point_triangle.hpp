@@ -36,7 +36,8 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
     const int j = (i + 1) % 3;
     const bool crosses = (side[i] < T(0) && side[j] > T(0)) || (side[i] > T(0) && side[j] < T(0));
     // A product of three carries 7 roundings: a corner so near may lie on the line, whatever its sign.
-    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * sum_of_abs(velocity) * sum_of_abs(n) * sum_of_abs(corner[i]);
+    const T scale = sum_of_abs(velocity) * sum_of_abs(n) * sum_of_abs(corner[i]);
+    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * scale;
     if (abs(side[i]) <= rounding) low = smaller(low, at[i]), high = larger(high, at[i]);
     if (!crosses) continue;
     const T crossing = at[i] + (at[j] - at[i]) * (side[i] / (side[i] - side[j]));
