@@ -81,6 +81,19 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
     return s;
   };
   std::sort(crossings.begin(), crossings.end());
+  // Where the center passes through the box, the middle of that time is the surest.
+  const auto within = [&](double t) {
+    bool all = true;
+    for (int i = 0; i < 3; ++i) all = all && std::abs(at[i] + step[i] * t) <= half[i];
+    return all;
+  };
+  double begin = 0, longest = 0, surest = -1;
+  for (const double crossing : crossings) {
+    const double end = std::min(crossing, limit), half_way = 0.5 * begin + 0.5 * end;
+    if (end - begin > longest && within(half_way)) longest = end - begin, surest = half_way;
+    begin = end;
+  }
+  if (surest >= 0) return surest;
   double from = 0, slope_from = slope(0);
   if (slope_from >= 0) return 0;
   for (const double to : crossings) {
@@ -108,22 +121,24 @@ double least_distance2(const Path<Interval>& path, double near, double limit) {
   const double width = slope.sup() - slope.inf();
   double first = 0x1p-50 * near + 0x1p-1000;
   if (speed2 > 0 && width < speed2 * 0x1p400) first = std::max(first, width / speed2);
-  // On each side as far as the slope's sign is sure: beyond, the distance grows.
-  double after = limit, before = 0;
-  double reach = first;
-  for (int i = 0; i < 300 && near + reach < limit && reach < 0x1p400; ++i, reach *= 4) {
-    if (slope_at(near + reach).inf() >= 0) {
-      after = near + reach;
-      break;
+  // On each side as far as the slope's sign is sure: beyond, the distance grows. The reach is found by steps of
+  // four and halved into place, so that it does not depend on where the steps fall.
+  const auto least_reach = [&](double most, const auto& sure) {
+    double reach = first;
+    for (int i = 0; i < 300 && reach < most; ++i, reach *= 4) {
+      if (!sure(reach)) continue;
+      double low = i == 0 ? 0 : reach / 4;
+      for (int half = 0; half < 12; ++half) {
+        const double middle = 0.5 * (low + reach);
+        (sure(middle) ? reach : low) = middle;
+      }
+      return reach;
     }
-  }
-  reach = first;
-  for (int i = 0; i < 300 && near - reach > 0; ++i, reach *= 4) {
-    if (slope_at(near - reach).sup() <= 0) {
-      before = near - reach;
-      break;
-    }
-  }
+    return infinity;
+  };
+  const double up = least_reach(std::min(limit - near, 0x1p400), [&](double t) { return slope_at(near + t).inf() >= 0; });
+  const double down = least_reach(near, [&](double t) { return slope_at(near - t).sup() <= 0; });
+  const double after = up < infinity ? near + up : limit, before = down < infinity ? near - down : 0;
   const Interval down_after = Interval(std::max(-slope.inf(), 0.0)), down_before = Interval(std::max(slope.sup(), 0.0));
   Interval drop(0);
   if (down_after.sup() > 0 && after > near) {

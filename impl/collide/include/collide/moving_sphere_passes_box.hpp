@@ -43,7 +43,11 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
   const auto beyond_at = [&](const T& time) {
     std::array<T, 3> beyond{};
     for (int i = 0; i < 3; ++i) {
-      if (crossed[i] != 1) beyond[i] = excess<T>(at[i] + step[i] * time, half[i]);
+      bool between = crossed[i] == 1;
+      if constexpr (MachineNumber<T>) {  // a time that rounding puts before or behind a crossing
+        between = between || (!(step[i] == T(0)) && time >= enters[i] && time <= leaves[i]);
+      }
+      if (!between) beyond[i] = excess<T>(at[i] + step[i] * time, half[i]);
     }
     return beyond;
   };
@@ -68,7 +72,11 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
     }
     if (beyond_axes > 1 && speed2 > T(0)) {  // of one axis alone the slope is zero where it enters
       const T least = from - slope / speed2;
-      if (least <= next) return {touches(beyond_at(least))};
+      if (least <= next) {
+        if (touches(beyond_at(least))) return {true};
+        // A point that enters through an edge is nearest just when it enters: of that, rounding makes a miss.
+        if constexpr (!MachineNumber<T>) return {false};
+      }
     }
     if (crossing < 0) return {limit <= std::numeric_limits<T>::max() && touches(beyond_at(limit))};
     const bool entering = crossed[crossing] == 0;
