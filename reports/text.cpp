@@ -83,7 +83,7 @@ std::string count_text(std::uint64_t n) {
 }
 
 std::string plural_text(std::uint64_t n, std::string_view noun) {
-  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') ? "es" : "s";
+  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') || noun.ends_with('x') ? "es" : "s";
   return fmt::format("{} {}{}", count_text(n), noun, ending);
 }
 
