@@ -137,6 +137,7 @@ int run_or_complain(const std::vector<std::string>& arguments) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain("standard output cannot be written");
     return code;
   } catch (const std::exception& e) {
+    if (std::ferror(stdout) != 0) return complain("standard output cannot be written");  // a long text, half written
     return complain(e.what());
   }
 }
