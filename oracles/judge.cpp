@@ -25,6 +25,9 @@ bool moves(Role role) {
 
 using Magnitudes = std::array<double, 16>;  // by role
 
+/// "box1.orientation" of "box1.orientation.x".
+std::string_view vector_of(std::string_view field) { return field.substr(0, field.find_last_of('.')); }
+
 Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   Magnitudes largest{};
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -83,6 +86,19 @@ class Examination {
       if (!moves(Role(role)) || largest_[role] == 0) continue;
       const double m = largest_[role];
       if (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest)) return false;
+    }
+    // Directions and rotations have no length in common: each must lie there by itself.
+    const std::vector<Field>& fields = question_.query->inputs;
+    for (std::size_t i = 0; i < fields.size();) {
+      const std::string_view vector = vector_of(fields[i].name);
+      double m = 0;
+      std::size_t end = i;
+      for (; end < fields.size() && fields[end].role == fields[i].role && vector_of(fields[end].name) == vector; ++end) {
+        m = std::max(m, std::abs(question_.values[end]));
+      }
+      const bool by_itself = fields[i].role == Role::direction || fields[i].role == Role::rotation;
+      if (by_itself && (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest))) return false;
+      i = end;
     }
     return true;
   }

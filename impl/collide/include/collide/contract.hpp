@@ -20,7 +20,8 @@ struct Contract {
   /// Returned unit vectors have a length within `unit * epsilon` of 1.
   double unit = none;
   /// The promise covers inputs where the largest magnitude of each group (positions, velocities, sizes,
-  /// directions, rotations, times) is zero or lies in [2^lowest, 2^highest].
+  /// directions, rotations, times, offsets) is zero or lies in [2^lowest, 2^highest]; the largest number of each
+  /// direction and of each rotation lies there by itself.
   int lowest = -1100;
   int highest = 1100;
 };

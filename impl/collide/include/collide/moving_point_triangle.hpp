@@ -52,14 +52,11 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
 ///
 /// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
 /// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal.
-/// A motion and a triangle that are steep and wide enough need no such look: of three eps of the terms, the
-/// quotient makes at most 48.
+/// (A tiny triangle far from the point needs the look as well, however steep the motion.)
 template <class Tier, class T>
 T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& b,
                    const Vec3<T>& c) noexcept {
   if constexpr (MachineNumber<T>) {
-    constexpr T steep = T(0.0625);
-    if (-Tier::dot(n, velocity) > steep * sum_of_abs(b - a) * sum_of_abs(c - a) * sum_of_abs(velocity)) return time;
     const Vec3<T> place = velocity * time;
     const bool over = Tier::dot(n, Tier::cross(b - a, place - a)) >= T(0) &&
                       Tier::dot(n, Tier::cross(c - b, place - b)) >= T(0) &&

@@ -154,14 +154,14 @@ struct SpherePastTriangle {
   /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
   /// for a triangle without area, any at right angles to it.
   Vec3<T> normal_at(const TrianglePlace<T>& place, Vec3<T> away) const noexcept {
-    if (place.feature == 0) return n / (height < T(0) ? -n_length : n_length);
+    if (place.feature == 0) return height < T(0) ? -unit<Tier>(n) : unit<Tier>(n);
     if (place.feature < 4) {  // what rounding left of a part along the edge counts where the rest is small
       const Vec3<T>& e = edge[place.feature - 1];
       away = away - e * (Tier::dot(away, e) / Tier::dot(e, e));
     }
     const bool apart = radius > T(0) && !(away == Vec3<T>{});
     if (apart) return unit<Tier>(away);
-    if (n_length > T(0)) return n / n_length;
+    if (n_length > T(0)) return unit<Tier>(n);
     return across_longest_edge();
   }
   /// A unit vector at right angles to a triangle without area.
