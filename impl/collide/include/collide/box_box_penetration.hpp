@@ -143,6 +143,7 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
   }
   const Axes<T> axes1 = axes_of(box1.orientation);
   const auto to_world = [&](const std::array<T, 3>& local) { return box1.center + out_of_frame(axes1, local); };
+  if (least.axis < 0) return {std::numeric_limits<T>::quiet_NaN()};  // only where nothing compares
   const int axis = least.axis;
   if (axis < 6) {
     const Vec3<T> along = axis < 3 ? axes1[axis] : axes_of(box2.orientation)[axis - 3];

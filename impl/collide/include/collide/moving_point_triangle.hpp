@@ -58,7 +58,8 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
                    const Vec3<T>& c) noexcept {
   if constexpr (MachineNumber<T>) {
     const Vec3<T> place = velocity * time;
-    const bool over = Tier::dot(n, Tier::cross(b - a, place - a)) >= T(0) &&
+    const bool lost = a == b || b == c || c == a;  // an edge too short to be seen from the point
+    const bool over = !lost && Tier::dot(n, Tier::cross(b - a, place - a)) >= T(0) &&
                       Tier::dot(n, Tier::cross(c - b, place - b)) >= T(0) &&
                       Tier::dot(n, Tier::cross(a - c, place - c)) >= T(0);
     if (!over) return nearest_time_over_triangle<Tier, T>(time, velocity, n, {a, b, c});
