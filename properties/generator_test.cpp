@@ -84,12 +84,14 @@ TEST_P(Generator, GivesAnotherCaseForEverySeedAndIndex) {
 TEST_P(Generator, MixesYesAndNo) {
   const Query& query = *GetParam().query;
   if (!decides(query.kind)) GTEST_SKIP() << "the answer is always yes";
+  // Scenes are drawn for boxes that nearly touch, and then their bounding spheres overlap.
+  const int least = query.name == "box_box_conservative" ? 8 : 15;
   constexpr int cases = 4000;
   for (Scalar scalar : scalars) {
     int yes = 0;
     for (std::uint64_t i = 0; i < cases; ++i) yes += truth_is_yes(generate(query, scalar, 1, i));
-    EXPECT_GE(yes, cases * 8 / 100) << "hits of " << cases << " in " << name_of(scalar);
-    EXPECT_LE(yes, cases * 92 / 100) << "hits of " << cases << " in " << name_of(scalar);
+    EXPECT_GE(yes, cases * least / 100) << "hits of " << cases << " in " << name_of(scalar);
+    EXPECT_LE(yes, cases * (100 - least) / 100) << "hits of " << cases << " in " << name_of(scalar);
   }
 }
 

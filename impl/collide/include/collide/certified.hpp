@@ -104,8 +104,6 @@ struct AnswerOver;
 template <template <class> class S, class T>
 struct AnswerOver<S<T>> {
   using Scalar = T;
-  template <class N>
-  using with = S<N>;
 };
 
 /// The argument in numbers of type N.

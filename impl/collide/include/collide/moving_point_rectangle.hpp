@@ -29,19 +29,20 @@ Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
   const T beside = Tier::dot(velocity, Tier::cross(c, a));  // the diagonal: negative on v1's side
   T time = std::numeric_limits<T>::infinity();
   Vec3<T> normal{};
-  const auto meet = [&](const Vec3<T>& n, const Vec3<T>& first, const Vec3<T>& second) {
+  const auto meet = [&](const Vec3<T>& edge1, const Vec3<T>& edge2) {
+    const Vec3<T> n = Tier::cross(edge1, edge2);
     const T approach = -Tier::dot(n, velocity), behind = Tier::dot(n, a);
     if (!(approach > T(0) && behind <= T(0))) return;
-    const T at = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, first, second);
+    const T at = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, edge1, edge2);
     if (at >= T(0) && at < time) time = at, normal = n;
   };
   if (beside <= T(0) && Tier::dot(velocity, Tier::cross(a, b)) <= T(0) &&
       Tier::dot(velocity, Tier::cross(b, c)) <= T(0)) {
-    meet(Tier::cross(rectangle.v1 - rectangle.v0, diagonal), b, c);
+    meet(rectangle.v1 - rectangle.v0, diagonal);
   }
   if (beside >= T(0) && Tier::dot(velocity, Tier::cross(c, d)) <= T(0) &&
       Tier::dot(velocity, Tier::cross(d, a)) <= T(0)) {
-    meet(Tier::cross(diagonal, rectangle.v3 - rectangle.v0), c, d);
+    meet(diagonal, rectangle.v3 - rectangle.v0);
   }
   if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
   return detail::contact(time, point + velocity * time, unit<Tier>(normal));

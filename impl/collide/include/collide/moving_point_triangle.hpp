@@ -52,16 +52,17 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
 ///
 /// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
 /// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal.
-/// (A tiny triangle far from the point needs the look as well, however steep the motion.)
+/// The corners are `a`, seen from the moving point, a + edge1 and a + edge2: the edges are the triangle's own, of
+/// which those of a tiny triangle far from the point lose digits.
 template <class Tier, class T>
-T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& b,
-                   const Vec3<T>& c) noexcept {
+T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a,
+                   const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
   if constexpr (MachineNumber<T>) {
-    const Vec3<T> place = velocity * time;
-    const bool lost = a == b || b == c || c == a;  // an edge too short to be seen from the point
-    const bool over = !lost && Tier::dot(n, Tier::cross(b - a, place - a)) >= T(0) &&
-                      Tier::dot(n, Tier::cross(c - b, place - b)) >= T(0) &&
-                      Tier::dot(n, Tier::cross(a - c, place - c)) >= T(0);
+    const Vec3<T> from_a = velocity * time - a, b = a + edge1, c = a + edge2;
+    const bool lost = a == b || b == c || c == a;  // an edge too short to be seen from there, or to be multiplied
+    const bool over = !lost && Tier::dot(n, Tier::cross(edge1, from_a)) >= T(0) &&
+                      Tier::dot(n, Tier::cross(edge2 - edge1, from_a - edge1)) >= T(0) &&
+                      Tier::dot(n, Tier::cross(from_a, edge2)) >= T(0);
     if (!over) return nearest_time_over_triangle<Tier, T>(time, velocity, n, {a, b, c});
   }
   return time;
@@ -88,7 +89,8 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
     return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); },
                       point, velocity, triangle);
   }
-  const Vec3<T> n = Tier::cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
+  const Vec3<T> edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
+  const Vec3<T> n = Tier::cross(edge1, edge2);
   const T approach = -Tier::dot(n, velocity);
   if (!(approach > T(0))) return Impact<T>::miss();
   const Vec3<T> a = triangle.v0 - point;
@@ -100,7 +102,7 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                       Tier::dot(velocity, Tier::cross(b, c)) <= T(0) &&
                       Tier::dot(velocity, Tier::cross(c, a)) <= T(0);
   if (!inside) return Impact<T>::miss();
-  const T time = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, b, c);
+  const T time = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, edge1, edge2);
   if (!(time >= T(0))) return Impact<T>::miss();
   return detail::contact(time, point + velocity * time, unit<Tier>(n));
 }

@@ -49,7 +49,7 @@ Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& ve
   const T weight2 = -Tier::dot(prepared.edge1, moment);  // of v2, times approach
   if (!(weight1 >= T(0) && weight2 >= T(0) && weight1 + weight2 <= approach)) return Impact<T>::miss();
   const T time = detail::time_in_triangle<Tier>(T(height / approach), velocity, prepared.normal, -from_v0,
-                                                prepared.triangle.v1 - point, prepared.triangle.v2 - point);
+                                                prepared.edge1, prepared.edge2);
   if (!(time >= T(0))) return Impact<T>::miss();
   return detail::contact(time, point + velocity * time, prepared.unit_normal);
 }

@@ -23,9 +23,19 @@
 
 namespace collide {
 
+/// The cross product, by the differences of products of the operations that inherit it.
+template <class Operations>
+struct WithCross {
+  template <class T>
+  static constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) noexcept {
+    return {Operations::difference_of_products(a.y, b.z, a.z, b.y), Operations::difference_of_products(a.z, b.x, a.x, b.z),
+            Operations::difference_of_products(a.x, b.y, a.y, b.x)};
+  }
+};
+
 /// Plain arithmetic: what a text computes with unless its tier has something better. Not a tier itself: it
 /// lifts nothing, so a query called with it is nothing but its text.
-struct Plain {
+struct Plain : WithCross<Plain> {
   /// Whether the tier has a text with arguments of T computed by its `lift`.
   template <class T>
   static constexpr bool lifts = false;
@@ -40,11 +50,6 @@ struct Plain {
   static constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) noexcept {
     return a * b - c * d;
   }
-  template <class T>
-  static constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) noexcept {
-    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
-            difference_of_products(a.x, b.y, a.y, b.x)};
-  }
   /// |a|^2 - r^2
   template <class T>
   static constexpr T beyond_radius(const Vec3<T>& a, const T& r) noexcept {
@@ -55,7 +60,12 @@ struct Plain {
 /// The same with sums of products that cancel computed again in twice the precision: the error is at most
 /// 8 u of the result and 64 u^2 of the terms, u the unit roundoff, where nothing underflows; of plain
 /// arithmetic it is 3 u of the terms. A sum that keeps a quarter of its terms' magnitude is good enough.
-struct Compensated : Plain {
+struct Compensated : WithCross<Compensated> {
+  template <class T>
+  static constexpr bool lifts = false;
+  template <class T>
+  static constexpr bool keeps = true;
+
   template <class T>
   static constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) noexcept {
     using std::abs;
@@ -70,11 +80,6 @@ struct Compensated : Plain {
     if (4 * abs(plain) >= abs(x) + abs(y) + abs(z)) return plain;
     const DoubleWord<T> xy = DoubleWord<T>::two_product(a.x, b.x) + DoubleWord<T>::two_product(a.y, b.y);
     return sum(xy, DoubleWord<T>::two_product(a.z, b.z), plain);
-  }
-  template <class T>
-  static constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) noexcept {
-    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
-            difference_of_products(a.x, b.y, a.y, b.x)};
   }
   template <class T>
   static constexpr T beyond_radius(const Vec3<T>& a, const T& r) noexcept {
