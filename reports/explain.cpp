@@ -108,7 +108,7 @@ class Explanation {
       case Disagreement::false_miss: return moving ? "misses a collision" : "says no where yes is right";
       case Disagreement::not_finite: return "answers with a number that is not finite";
       case Disagreement::not_unit: return "gives a normal that is not a unit vector";
-      default: return "gives a wrong " + worst_member();
+      default: return (is_plural(worst_member()) ? "gives wrong " : "gives a wrong ") + worst_member();
     }
   }
 
@@ -118,6 +118,7 @@ class Explanation {
   std::string worst_member() const {
     return query_.outputs.empty() ? "answer" : top_member(query_.outputs[worst()].name);
   }
+  static bool is_plural(std::string_view noun) { return noun.ends_with('s') && !noun.ends_with("is"); }  // not "axis"
   const Alternative* right_answer() const {
     return r_.truth.alternatives.empty() ? nullptr : &r_.truth.alternatives[0];
   }

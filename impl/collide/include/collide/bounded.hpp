@@ -57,7 +57,8 @@ struct Bounded {
     const double quotient = a.value / b.value;
     const double least = magnitude(b.value) - 2 * b.error;
     if (!(least > 0)) Doubt::any = true;
-    return {quotient, (a.error + magnitude(quotient) * b.error) / least * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
+    const double inverse = 1 / least;  // beside the quotient, not after it
+    return {quotient, (a.error + magnitude(quotient) * b.error) * inverse * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
   }
   Bounded& operator+=(const Bounded& b) noexcept { return *this = *this + b; }
   Bounded& operator-=(const Bounded& b) noexcept { return *this = *this - b; }
@@ -70,7 +71,8 @@ struct Bounded {
       Doubt::any = true;
       return {root, root};
     }
-    return {root, a.error / root + 2 * u * root};
+    const double inverse = 1 / a.value;  // beside the root, not after it: a.error / root is twice what is needed
+    return {root, a.error * inverse * root + 2 * u * root};
   }
   friend Bounded abs(const Bounded& a) noexcept { return {std::abs(a.value), a.error}; }
 
@@ -97,9 +99,9 @@ struct Bounded {
 
   /// Of two numbers whose order is open, either is within both errors of the larger.
   friend Bounded larger(const Bounded& a, const Bounded& b) noexcept {
-    const double above = a.value < b.value ? b.value : a.value;
-    if (magnitude(b.value - a.value) > open(a, b)) return {above, a.value < b.value ? b.error : a.error};
-    return {above, std::max(a.error, b.error)};
+    const double of_larger = if_less(a.value, b.value, b.error, a.error);
+    const double error = if_less(open(a, b), magnitude(b.value - a.value), of_larger, collide::larger(a.error, b.error));
+    return {collide::larger(a.value, b.value), error};
   }
   friend Bounded smaller(const Bounded& a, const Bounded& b) noexcept { return -larger(-a, -b); }
 };

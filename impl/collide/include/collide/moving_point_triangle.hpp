@@ -8,6 +8,7 @@
 #include <collide/answers.hpp>
 #include <collide/contact.hpp>
 #include <collide/contract.hpp>
+#include <collide/edges.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -21,8 +22,25 @@ T sum_of_abs(const Vec3<T>& x) noexcept {
   return abs(x.x) + abs(x.y) + abs(x.z);
 }
 
-/// A time near `time` at which the motion is over the triangle, seen along its normal n; negative where it
-/// never is, but for rounding. Corners are given as seen from the moving point.
+/// Whether a place is on the triangle, but for rounding: no further from it than a few roundings of their
+/// coordinates, all seen from the same point.
+template <class Tier, MachineNumber T>
+bool is_on_triangle(const Vec3<T>& place, const std::array<Vec3<T>, 3>& corner) noexcept {
+  T scale = sum_of_abs(place);
+  for (int i = 0; i < 3; ++i) scale = larger(scale, sum_of_abs(corner[i]));
+  const T rounding = T(16) * std::numeric_limits<T>::epsilon() * scale;
+  const auto on = [&](const Vec3<T>& foot) { return sum_of_abs(place - foot) <= rounding; };
+  const Vec3<T> base = corner[1] - corner[0];
+  const FaceFoot<T> face = foot_on_face<Tier>(base, corner[2] - corner[0], place - corner[0]);
+  if (face.inside && on(corner[0] + face.from_start(base))) return true;
+  for (int i = 0; i < 3; ++i) {
+    if (on(corner[i] + foot_on_edge<Tier>(corner[i], corner[(i + 1) % 3], place).from_start)) return true;
+  }
+  return false;
+}
+
+/// A time near `time` at which the motion is over the triangle, seen along its normal n, and on it but for
+/// rounding; negative where it never is. Corners are given as seen from the moving point.
 template <class Tier, MachineNumber T>
 T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n,
                              const std::array<Vec3<T>, 3>& corner) noexcept {
@@ -44,25 +62,30 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
     low = smaller(low, crossing), high = larger(high, crossing);
   }
   if (!(low <= high && high >= T(0))) return T(-1);
-  return not_negative(clamped(time, low, high));
+  const T nearest = not_negative(clamped(time, low, high));
+  return is_on_triangle<Tier>(velocity * nearest, corner) ? nearest : T(-1);
 }
 
 /// The time at which the plane of a triangle is hit, once its edges have been passed on their inner sides;
 /// negative where that was nothing but rounding.
 ///
 /// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
-/// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal.
+/// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal;
+/// where that is nearly on an edge, or the normal's square leaves the range, it is looked for again.
 /// The corners are `a`, seen from the moving point, a + edge1 and a + edge2: the edges are the triangle's own, of
 /// which those of a tiny triangle far from the point lose digits.
 template <class Tier, class T>
 T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a,
                    const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
   if constexpr (MachineNumber<T>) {
+    using limits = std::numeric_limits<T>;
     const Vec3<T> from_a = velocity * time - a, b = a + edge1, c = a + edge2;
+    const T n2 = Tier::dot(n, n);
     const bool lost = a == b || b == c || c == a;  // an edge too short to be seen from there, or to be multiplied
-    const bool over = !lost && Tier::dot(n, Tier::cross(edge1, from_a)) >= T(0) &&
-                      Tier::dot(n, Tier::cross(edge2 - edge1, from_a - edge1)) >= T(0) &&
-                      Tier::dot(n, Tier::cross(from_a, edge2)) >= T(0);
+    const bool over = !lost && n2 >= limits::min() / limits::epsilon() && n2 <= limits::max() &&
+                      Tier::dot(n, Tier::cross(edge1, from_a)) > T(0) &&
+                      Tier::dot(n, Tier::cross(edge2 - edge1, from_a - edge1)) > T(0) &&
+                      Tier::dot(n, Tier::cross(from_a, edge2)) > T(0);
     if (!over) return nearest_time_over_triangle<Tier, T>(time, velocity, n, {a, b, c});
   }
   return time;

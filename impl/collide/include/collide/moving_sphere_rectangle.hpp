@@ -27,7 +27,9 @@ Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& veloci
       moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
   const TriangleImpact<T> two =
       moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
-  const TriangleImpact<T>& first = two.time < one.time ? two : one;
+  // On the diagonal both are hit at the same time.
+  const bool both = one.yes() && two.yes() && one.weights.y == T(0) && two.weights.z == T(0);
+  const TriangleImpact<T>& first = !both && two.time < one.time ? two : one;
   return {first.time, first.location, first.normal};
 }
 

@@ -2,11 +2,16 @@
 /// float, double and every number type of the tiers.
 #pragma once
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 #include <collide/members.hpp>
 
@@ -20,9 +25,35 @@ concept MachineNumber = std::floating_point<T>;
 // the first argument stays.
 
 template <MachineNumber T>
-constexpr T larger(T a, T b) noexcept { return a < b ? b : a; }
+constexpr T larger(T a, T b) noexcept {
+#if defined(__SSE2__)  // one instruction; compilers often make branches of it, which nobody can predict
+  if (!std::is_constant_evaluated()) {
+    if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(b), _mm_set_sd(a)));
+    if constexpr (std::same_as<T, float>) return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(b), _mm_set_ss(a)));
+  }
+#endif
+  return a < b ? b : a;
+}
 template <MachineNumber T>
-constexpr T smaller(T a, T b) noexcept { return b < a ? b : a; }
+constexpr T smaller(T a, T b) noexcept {
+#if defined(__SSE2__)
+  if (!std::is_constant_evaluated()) {
+    if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(b), _mm_set_sd(a)));
+    if constexpr (std::same_as<T, float>) return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(b), _mm_set_ss(a)));
+  }
+#endif
+  return b < a ? b : a;
+}
+
+/// `x` where a < b, else `y`, without a branch.
+inline double if_less(double a, double b, double x, double y) noexcept {
+#if defined(__SSE2__)
+  const __m128d less = _mm_cmplt_sd(_mm_set_sd(a), _mm_set_sd(b));
+  return _mm_cvtsd_f64(_mm_or_pd(_mm_and_pd(less, _mm_set_sd(x)), _mm_andnot_pd(less, _mm_set_sd(y))));
+#else
+  return a < b ? x : y;
+#endif
+}
 
 /// x, or the nearer end of [low, high].
 template <class T>
