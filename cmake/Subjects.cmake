@@ -1,15 +1,25 @@
 # nearmiss_add_subject(NAME HEADER ADAPTER [LIBRARIES ...])
 #   NAME      as the command line knows it
-#   HEADER    the adapter's header, absolute or from the top of this project
+#   HEADER    the adapter's header: beside the file that calls this, or from the top of this project
 #   ADAPTER   the adapter's type, qualified
 #   LIBRARIES what the header needs
 #
-# Call it before the folder oracles/ is added. Everything else follows: list, run, replay, nightly,
-# fuzz targets and properties read the same list.
+# Your own library is added by a CMake file of yours, which calls this and is named to CMake by
+# -DNEARMISS_ADD=FILE; docs/bring-your-own.md shows it. Everything else follows: list, run, replay, nightly, fuzz
+# targets and properties read the same list.
 
 function(nearmiss_add_subject name header adapter)
   cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
   string(MAKE_C_IDENTIFIER ${name} identifier)
+  get_property(known GLOBAL PROPERTY NEARMISS_SUBJECTS)
+  if(identifier IN_LIST known)
+    message(FATAL_ERROR "nearmiss_add_subject: there is a subject \"${name}\" already")
+  endif()
+  if(EXISTS ${CMAKE_CURRENT_LIST_DIR}/${header})
+    set(header ${CMAKE_CURRENT_LIST_DIR}/${header})
+  elseif(NOT EXISTS ${header} AND NOT EXISTS ${PROJECT_SOURCE_DIR}/${header})
+    message(FATAL_ERROR "nearmiss_add_subject: ${name}: there is no header ${header}, neither in ${CMAKE_CURRENT_LIST_DIR} nor in ${PROJECT_SOURCE_DIR}")
+  endif()
   set(source ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
   file(GENERATE OUTPUT ${source} CONTENT
 "// Written by CMake: ${name}.
@@ -43,4 +53,15 @@ function(nearmiss_finish_subjects)
     ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp ${PROJECT_SOURCE_DIR}/impl/subject/worker.cpp)
   target_link_libraries(nearmiss_subjects PUBLIC nearmiss_flags collide PRIVATE ${libraries})
   target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
+endfunction()
+
+# Reads the files of NEARMISS_ADD; each adds subjects.
+function(nearmiss_read_added)
+  foreach(file IN LISTS NEARMISS_ADD)
+    get_filename_component(file ${file} ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
+    if(NOT EXISTS ${file} OR IS_DIRECTORY ${file})
+      message(FATAL_ERROR "NEARMISS_ADD names ${file}, and there is no such file")
+    endif()
+    include(${file})
+  endforeach()
 endfunction()

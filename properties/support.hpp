@@ -18,7 +18,7 @@ struct Pairing {
   const Subject* subject;
 };
 std::ostream& operator<<(std::ostream& out, const Pairing& p);
-/// Every query with every tier of `collide` that answers it.
+/// Every query with every tier of `collide`, and every subject that NEARMISS_SUBJECTS names, that answers it.
 std::vector<Pairing> our_pairings();
 
 /// A query; shows as its name.

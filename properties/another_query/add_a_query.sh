@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Adds another query to a copy of the sources, in the places that the README names and no other, and
-# checks that the command line, the oracle, the generator and the fuzz target have it.
+# checks that the command line, the oracle, the generator and the fuzz target have it. Brings along the library of
+# docs/bring-your-own.md and follows that page.
 # Usage: add_a_query.sh SOURCE_FOLDER
 set -euo pipefail
 
@@ -30,7 +31,8 @@ grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no tab
 
 # The same depth as the presets' build folders: unchanged sources come from the compiler cache.
 build=$copy/build/release
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF >"$copy/log" 2>&1 ||
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF \
+  -DNEARMISS_ADD="$copy/docs/example-library/nearmiss.cmake" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "cmake refuses the new query"; }
 cmake --build "$build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||
   { tail -n 40 "$copy/log"; fail "the new query does not build"; }
@@ -45,6 +47,9 @@ grep -q "\"fuzz_target\": *\"fuzz_$query\"" "$copy/list.json" || fail "list --js
 "$nearmiss" replay "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 || { cat "$copy/log"; fail "replay fails"; }
 "$build/fuzz/fuzz_$query" "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "the fuzz target does not replay the seed"; }
+
+# Since it is built anyway: the library that is brought along, from its page.
+"$copy/docs/example-library/walkthrough.sh" "$nearmiss" || fail "docs/bring-your-own.md cannot be followed"
 
 # Teeth: a wrong comparison in the new query must be found.
 sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/$query.hpp"
