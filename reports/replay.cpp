@@ -108,6 +108,11 @@ Case read_case_or_report(const std::filesystem::path& file) {
   return case_from_json(question, file.string());
 }
 
+std::string replay_command(const Subject& subject, const std::string& file) {
+  const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
+  return "nearmiss replay " + plugin + shell_quoted(file);
+}
+
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
               Workers& workers) {
   Replay r{question, file, truth_of(question), {}, {}};
@@ -120,7 +125,7 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
       r.unasked.push_back({s->name, fmt::format("a number of the case is not exactly a {}", name_of(s->scalar))});
     } else {
       r.reports.push_back(examine(*same, *s, workers));
-      r.reports.back().replay = "nearmiss replay " + shell_quoted(file);
+      r.reports.back().replay = replay_command(*s, file);
     }
   }
   return r;

@@ -15,6 +15,7 @@
 #include "reports/explain.hpp"
 #include "reports/interrupt.hpp"
 #include "reports/pretty_json.hpp"
+#include "reports/replay.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -180,7 +181,7 @@ void Run::write_report(const Pending& p) {
   Report r = nearmiss::examine(p.question, *p.subject, p.answer, workers_);
   const std::string name = fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
   const std::filesystem::path below = std::filesystem::path("findings") / r.question.query->name / name;
-  r.replay = "nearmiss replay " + shell_quoted((settings_.folder / below).string());
+  r.replay = replay_command(*p.subject, (settings_.folder / below).string());
   make_folder((settings_.folder / below).parent_path());
   write_file(settings_.folder / below, pretty_json(report_to_json(r)));
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,

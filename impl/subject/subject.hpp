@@ -1,6 +1,8 @@
 /// A subject: something that answers cases.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,13 +24,38 @@ inline std::string_view name_of(Offer o) {
   return o == Offer::answers ? "answers" : o == Offer::by_equivalence ? "by equivalence" : "not offered";
 }
 
+/// How a subject is asked: a function, and what it works on where it is not the adapter of this build. Plain bytes,
+/// so that a worker process can be told.
+class AnswerFunction {
+ public:
+  using Plain = Answer (*)(std::span<const double> inputs);
+  using WithContext = Answer (*)(const void* context, std::span<const double> inputs);
+
+  AnswerFunction() = default;
+  template <class F>
+    requires std::convertible_to<F, Plain>
+  AnswerFunction(F plain) : plain_(plain) {}
+  /// `context` lives as long as the process.
+  AnswerFunction(WithContext function, const void* context) : with_context_(function), context_(context) {}
+
+  Answer operator()(std::span<const double> inputs) const {
+    return plain_ != nullptr ? plain_(inputs) : with_context_(context_, inputs);
+  }
+  bool operator==(std::nullptr_t) const { return plain_ == nullptr && with_context_ == nullptr; }
+
+ private:
+  Plain plain_ = nullptr;
+  WithContext with_context_ = nullptr;
+  const void* context_ = nullptr;
+};
+
 /// What a subject has for one query.
 struct Offering {
   std::string query;
   Offer offer = Offer::not_offered;
   std::string how;  ///< by which equivalence, or why not
   collide::Contract contract{};
-  Answer (*answer)(std::span<const double> inputs) = nullptr;
+  AnswerFunction answer;  ///< nullptr where it is not offered
 };
 
 struct Subject {
@@ -37,9 +64,10 @@ struct Subject {
   Scalar scalar = Scalar::float64;
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
+  std::string plugin;  ///< the file that it was loaded from; empty for a subject of this build
 
   const Offering& offering(std::string_view query) const {
-    static const Offering none{"", Offer::not_offered, "unknown query", {}, nullptr};
+    static const Offering none{"", Offer::not_offered, "unknown query", {}, {}};
     for (const Offering& o : offerings) {
       if (o.query == query) return o;
     }
@@ -47,8 +75,10 @@ struct Subject {
   }
 };
 
-/// Every subject of this build, in the order in which CMake was told of them.
+/// Every subject of this build, in the order in which CMake was told of them, then those that were added.
 const std::vector<Subject>& subjects();
+/// For the rest of the process. Pointers into subjects() that were taken before do not stay valid.
+void add_subject(Subject subject);
 /// nullptr when there is none of that name.
 const Subject* find_subject(std::string_view name);
 

@@ -25,7 +25,7 @@ namespace nearmiss {
 struct Worker::Shared {
   std::atomic<std::size_t> done;  ///< cases answered
   std::size_t count, inputs;
-  Answer (*answer)(std::span<const double>);
+  AnswerFunction answer;
   std::array<double, max_values> values;
   std::array<Answer, capacity> answers;
 };
@@ -69,7 +69,7 @@ void confine(std::size_t bytes, int standard_error) {
   dup2(standard_error, STDERR_FILENO);
 }
 
-Answer answer_or_broke(Answer (*answer)(std::span<const double>), std::span<const double> inputs) {
+Answer answer_or_broke(const AnswerFunction& answer, std::span<const double> inputs) {
   try {
     return answer(inputs);
   } catch (const std::bad_alloc&) {

@@ -79,6 +79,18 @@ std::string reasons_table() {
   return table_text(rows);
 }
 
+std::string members_table(const Query& query) {
+  std::vector<std::vector<std::string>> rows{{"", "MEMBER", "ROLE"}};
+  const auto add = [&](const char* side, const std::vector<Field>& fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      rows.push_back({fmt::format("{}[{}]", side, i), fields[i].name, std::string(name_of(fields[i].role))});
+    }
+  };
+  add("inputs", query.inputs);
+  add("values", query.outputs);
+  return table_text(rows);
+}
+
 class ListCommand : public Command {
  public:
   Manual manual() const override {
@@ -93,9 +105,11 @@ class ListCommand : public Command {
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
              {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},
+             {"nearmiss list --members moving_point_sphere", "What a plugin's function gets and gives."},
              {"nearmiss list --json", "For programs."}}};
   }
   void declare(CLI::App& app) override {
+    declare_plugins(app);
     app.add_flag("--json", json_, "Print JSON");
     app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")->excludes("--json");
     app.add_option("--names", names_, "Print only the names of all queries or of all subjects, one a line")
@@ -107,12 +121,20 @@ class ListCommand : public Command {
             ""))
         ->excludes("--json")
         ->excludes("--why");
+    app.add_option("--members", members_, "Print the numbers of this query and of its answer, in their order")
+        ->type_name("QUERY")
+        ->check(known_query())
+        ->excludes("--json")
+        ->excludes("--why")
+        ->excludes("--names");
   }
   int run(const CLI::App&) override {
     if (json_) {
       fmt::print("{}", pretty_json(list_json()));
     } else if (why_) {
       fmt::print("{}", reasons_table());
+    } else if (!members_.empty()) {
+      fmt::print("{}", members_table(*find_query(members_)));
     } else if (!names_.empty()) {
       for (const std::string& n : names_ == "queries" ? query_names() : subject_names()) fmt::print("{}\n", n);
     } else {
@@ -124,7 +146,7 @@ class ListCommand : public Command {
 
  private:
   bool json_ = false, why_ = false;
-  std::string names_;
+  std::string names_, members_;
 };
 
 }  // namespace

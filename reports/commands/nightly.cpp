@@ -153,6 +153,7 @@ class NightlyCommand : public Command {
          {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
   }
   void declare(CLI::App& app) override {
+    declare_plugins(app);
     add_positive_number(app, "-m,--minutes", minutes_, fmt::format("How long, in all. Default: {}", default_minutes),
                         "M", most_minutes);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,

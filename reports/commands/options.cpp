@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "oracles/plugin.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -58,6 +59,8 @@ std::vector<std::string> subject_names() {
   return names;
 }
 
+CLI::Validator known_query() { return known("query", query_names); }
+
 std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words) {
   const std::vector<std::string> close = close_matches(word, words);
   return fmt::format(
@@ -74,7 +77,21 @@ void Selection::declare_queries(CLI::App& app) {
       ->check(known("query", query_names));
 }
 
+void declare_plugins(CLI::App& app) {
+  app.add_option_function<std::vector<std::string>>(
+         "--plugin",
+         [](const std::vector<std::string>& files) {
+           for (const std::string& file : files) load_plugin(file);
+         },
+         "Load this shared library, which makes a subject (see docs/bring-your-own.md); may be given several times")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
 void Selection::declare_subjects(CLI::App& app) {
+  declare_plugins(app);
   app.add_option("-s,--subject", subject, "Only this subject; may be given several times. Default: all")
       ->type_name("SUBJECT")
       ->expected(1)

@@ -15,14 +15,21 @@ namespace nearmiss {
 std::vector<std::string> query_names();
 std::vector<std::string> subject_names();
 
+/// --plugin, repeatable; what it names is loaded before later options are checked.
+void declare_plugins(CLI::App& app);
+
 /// An error text for a word that is none of `words`: "unknown query 'x'; did you mean …?"
 std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words);
+
+/// Takes only the name of a query.
+CLI::Validator known_query();
 
 /// --query and --subject, repeatable and checked; none means all.
 struct Selection {
   std::vector<std::string> query, subject;
 
   void declare_queries(CLI::App& app);
+  /// With --plugin: its subjects may be chosen too.
   void declare_subjects(CLI::App& app);
   std::vector<const Query*> queries() const;
   std::vector<const Subject*> subjects() const;

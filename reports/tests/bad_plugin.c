@@ -1,0 +1,50 @@
+/* A plugin with the one fault that the build names, or one whose function misbehaves. */
+#include <stdlib.h>
+
+#include "impl/plugin/nearmiss_plugin.h"
+
+/* The first input decides: an abort, an endless loop, an unknown return value, an answer. */
+static int misbehave(const double *inputs, nearmiss_answer *answer) {
+  const double x = inputs[0];
+  if (x == 1) abort();
+  for (volatile int forever = x == 2; forever;) {
+  }
+  if (x == 3) return 7;
+  answer->yes = 0;
+  return NEARMISS_ANSWERED;
+}
+
+#ifdef MISCOUNTS
+#define INPUTS 7
+#else
+#define INPUTS 8
+#endif
+#ifdef UNKNOWN_QUERY
+#define QUERY "sphere_sphere_overlaps"
+#else
+#define QUERY "sphere_sphere_overlap"
+#endif
+#ifdef OTHER_VERSION
+#define VERSION (NEARMISS_PLUGIN_VERSION + 1)
+#else
+#define VERSION NEARMISS_PLUGIN_VERSION
+#endif
+#ifdef TAKEN_NAME
+#define NAME "collide-fast-double"
+#else
+#define NAME "misbehaves"
+#endif
+
+static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, NULL, misbehave}};
+static const nearmiss_plugin plugin = {VERSION, NAME, "1", NEARMISS_DOUBLE, 1, offers};
+
+#ifdef NO_ENTRY
+const nearmiss_plugin *another_entry(void) { return &plugin; }
+#else
+const nearmiss_plugin *nearmiss_plugin_entry(void) {
+#ifdef CRASHES
+  abort();
+#endif
+  return &plugin;
+}
+#endif

@@ -1,0 +1,106 @@
+/// A library that is loaded at run time is examined like any other, and a bad one is refused in one line.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/lib" + name + ".so"; }
+
+TEST(Plugin, IsListedWithWhatItOffers) {
+  const Ran ran = nearmiss({"list", "--plugin", plugin("skim_plugin"), "--json"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  for (const json& q : json::parse(ran.out).at("queries")) {
+    const bool offered = q.at("query") == "sphere_sphere_overlap" || q.at("query") == "moving_point_sphere" ||
+                         q.at("query") == "closest_point_segment";
+    EXPECT_EQ(q.at("subjects").at("skim"), offered ? "answers" : "not offered") << q.at("query");
+  }
+}
+
+/// docs/bring-your-own.md promises these three for the example.
+TEST(Plugin, ThreeMistakesOfTheExampleAreFound) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "--plugin", plugin("skim_plugin"), "--subject", "skim", "--cases", "20000", "--seed",
+                            "1", "--out", (folder / "r").string()});
+  ASSERT_EQ(ran.exit_code, 1) << ran.err;
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  std::map<std::string, std::uint64_t> violations;
+  for (const json& t : index.at("tallies")) {
+    for (const auto& [way, count] : t.at("disagreements").items()) {
+      const auto n = count.at("violations").get<std::uint64_t>();
+      if (n > 0) violations[t.at("query").get<std::string>() + ": " + way] = n;
+    }
+  }
+  ASSERT_EQ(violations.size(), 3u) << ran.out;
+  EXPECT_GT(violations["sphere_sphere_overlap: false hit"], 0u);
+  EXPECT_GT(violations["moving_point_sphere: false miss"], 0u);
+  EXPECT_GT(violations["closest_point_segment: wrong place"], 0u);
+  for (const json& listed : index.at("reports")) {
+    const json report = json::parse(read_file(folder / "r" / listed.at("file").get<std::string>()));
+    EXPECT_EQ(complaints(report, "report.schema.json"), "");
+    const Ran again = run_program("bash", {"-c", report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) +
+                                                     " --subject skim --json"});
+    EXPECT_EQ(again.exit_code, 1) << report.at("replay") << again.err;
+    EXPECT_EQ(json::parse(again.out).at(0).at("id"), listed.at("id"));
+  }
+}
+
+TEST(Plugin, CostsOneCaseWhateverItDoes) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"replay", "--json", "--plugin", plugin("misbehaves"), "-s", "misbehaves"};
+  for (int what = 0; what < 4; ++what) {
+    const fs::path file = folder / (std::to_string(what) + ".json");
+    write_file(file, R"({"query": "sphere_sphere_overlap", "scalar": "double", "inputs": {"sphere1": {"center": [)" +
+                         std::to_string(what) +
+                         R"(, 0, 0], "radius": 1}, "sphere2": {"center": [9, 0, 0], "radius": 1}}})");
+    arguments.push_back(file.string());
+  }
+  const Ran ran = nearmiss(arguments);
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const json reports = json::parse(ran.out);
+  ASSERT_EQ(reports.size(), 4u);
+  const std::vector<std::string> reasons{"", "signal 6", "no answer within", "returned 7"};
+  EXPECT_EQ(reports[0].at("finding").at("verdict"), "agrees");
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(reports[i].at("finding").at("verdict"), "broke");
+    EXPECT_NE(reports[i].dump().find(reasons[i]), std::string::npos) << reports[i];
+  }
+}
+
+struct Refused {
+  const char *name, *says;
+};
+
+class BadPluginFile : public testing::TestWithParam<Refused> {};
+
+TEST_P(BadPluginFile, IsRefusedInOneLine) {
+  const std::string file = plugin(GetParam().name);
+  const Ran ran = nearmiss({"list", "--plugin", file});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_TRUE(ran.err.starts_with("nearmiss: " + file + ": ")) << ran.err;
+  EXPECT_NE(ran.err.find(GetParam().says), std::string::npos) << ran.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, BadPluginFile,
+                         testing::Values(Refused{"nowhere", "there is no such file"},
+                                         Refused{"not_a_library", "it cannot be loaded"},
+                                         Refused{"no_entry", "no function nearmiss_plugin_entry"},
+                                         Refused{"other_version", "made for version 2"},
+                                         Refused{"miscounts", "sphere_sphere_overlap has 8 inputs"},
+                                         Refused{"unknown_query", "'sphere_sphere_overlaps'"},
+                                         Refused{"taken_name", "there is a subject 'collide-fast-double' already"},
+                                         Refused{"crashes", "loading it crashes"}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace nearmiss
