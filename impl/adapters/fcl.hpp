@@ -3,17 +3,20 @@
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/detail/gjk_solver_indep.h>
+#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 
 #include <cmath>
+#include <string_view>
 #include <type_traits>
 
-#include <collide/box_box_overlap.hpp>
-#include <collide/moving_sphere_box.hpp>
-#include <collide/sphere_box_penetration.hpp>
-
+#include "impl/adapters/motion.hpp"
 #include "impl/subject/adapter.hpp"
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from oracles/catalogue.def
 
 namespace nearmiss::adapters {
+
+namespace in = collide::inputs;
 
 /// One way to use FCL: a solver for static questions, a solver for motions.
 template <fcl::GJKSolverType static_solver, fcl::CCDSolverType motion_solver>
@@ -28,90 +31,183 @@ struct Fcl {
   static constexpr double time_of_contact_error = 0x1p40;
 
   template <class Q>
+  static constexpr bool is_motion = requires(const Q& q) { q.sphere, q.velocity; } && !requires(const Q& q) { q.limit; };
+
+  template <class Q>
   static collide::Contract contract() {
-    constexpr bool motion = std::is_same_v<Q, collide::inputs::moving_sphere_box<double>>;
-    return {.backward = motion ? time_of_contact_error : gjk_tolerance, .lowest = -300, .highest = 300};
+    return {.backward = is_motion<Q> ? time_of_contact_error : gjk_tolerance, .lowest = -300, .highest = 300};
   }
   template <class Q>
   static std::string equivalence() {
-    if (!std::is_same_v<Q, collide::inputs::moving_sphere_box<double>>) return "";
-    return "continuousCollide over [0, T], T the power of two that carries the sphere past the box";
+    if constexpr (std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
+                  std::is_same_v<Q, in::box_plane_penetration<double>>) {
+      return "collide with the half-space behind the plane";
+    } else if constexpr (std::is_same_v<Q, in::moving_sphere_plane<double>>) {
+      return "continuousCollide with the half-space behind the plane, asked where the plane's front is met";
+    } else if constexpr (std::is_same_v<Q, in::moving_sphere_passes_box<double>> ||
+                         std::is_same_v<Q, in::moving_sphere_passes_sphere<double>>) {
+      return "collide of the sphere's way, a capsule";
+    } else if constexpr (is_motion<Q>) {
+      return "continuousCollide over [0, T], T the power of two that carries the sphere past";
+    }
+    return "";
   }
   template <class Q>
   static std::string why_not() {
-    return "FCL has no such operation for these shapes";
-  }
-
-  static auto answer(const collide::inputs::box_box_overlap<double>& q) {
-    const fcl::Boxd a = box(q.box1), b = box(q.box2);  // FCL does not tell which axis separates them
-    return only(collide::BoxOverlap<double>{meet(&a, pose(q.box1), &b, pose(q.box2), nullptr), -1}, {});
-  }
-
-  static auto answer(const collide::inputs::sphere_box_penetration<double>& q)
-      -> Reply<collide::Penetration<double>> {
-    const fcl::Sphered a(q.sphere.radius);
-    const fcl::Boxd b = box(q.box);
-    fcl::CollisionResultd result;
-    if (!meet(&a, at(q.sphere.center), &b, pose(q.box), &result)) {
-      return only(collide::Penetration<double>{-1.0, {}, {}}, {});  // apart: FCL says no more than that
+    if constexpr (requires(const Q& q) { q.velocity, q.triangle; } || requires(const Q& q) { q.velocity, q.rectangle; }) {
+      return "FCL moves nothing against a single triangle, which it has only as a part of meshes";
+    } else if constexpr (requires(const Q& q) { q.point, q.velocity; } || requires(const Q& q) { q.ray; }) {
+      return "FCL casts no rays";
+    } else if constexpr (requires(const Q& q) { q.box1; }) {
+      return "FCL keeps the parts of its test of two boxes to itself";
+    } else if constexpr (requires(const Q& q) { q.velocity; }) {
+      return "FCL computes no response";
     }
-    const fcl::Contactd& c = result.getContact(0);
-    // FCL's contact position lies half way into the overlap: another point than the one asked for.
-    return only(collide::Penetration<double>{c.penetration_depth, {c.normal.x(), c.normal.y(), c.normal.z()}, {}},
-                {"depth", "normal"});
+    return "FCL has no points, segments, lines or rectangles";
   }
 
-  static auto answer(const collide::inputs::moving_sphere_box<double>& q) -> Reply<collide::Impact<double>> {
-    using Impact = collide::Impact<double>;
-    const fcl::Sphered a(q.sphere.radius);
-    const fcl::Boxd b = box(q.box);
-    const double horizon = time_to_pass(q);
-    if (horizon == 0) {
-      return only(meet(&a, at(q.sphere.center), &b, pose(q.box), nullptr) ? Impact{0.0, {}, {}} : Impact::miss(),
-                  {"time"});
+  static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
+  static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
+  static auto answer(const in::box_box_overlap<double>& q) {  // FCL does not tell which axis separates them
+    return only(collide::BoxOverlap<double>{meet(q.box1, q.box2, nullptr), -1}, {});
+  }
+  static auto answer(const in::sphere_triangle_overlap<double>& q) {
+    return collide::Decision<double>{meets_triangle(shape(q.sphere), pose(q.sphere), q.triangle)};
+  }
+  static auto answer(const in::aabox_triangle_overlap<double>& q) -> Reply<collide::Decision<double>> {
+    const auto box = centered(q.box);
+    if (!box) return CannotAnswer{"the box's center and sides are not doubles exactly"};
+    return collide::Decision<double>{meets_triangle(shape(*box), pose(*box), q.triangle)};
+  }
+
+  static auto answer(const in::sphere_sphere_penetration<double>& q) {
+    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
+  }
+  static auto answer(const in::sphere_box_penetration<double>& q) {
+    return depth<collide::Penetration<double>>(q.sphere, q.box);
+  }
+  static auto answer(const in::box_box_penetration<double>& q) {
+    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
+  }
+  static auto answer(const in::sphere_plane_penetration<double>& q) {  // FCL's normal leads into the half-space
+    return depth<collide::Penetration<double>, -1>(q.sphere, q.plane);
+  }
+  static auto answer(const in::box_plane_penetration<double>& q) {
+    return depth<collide::CornerContacts<double>, -1>(q.box, q.plane);
+  }
+
+  static auto answer(const in::moving_sphere_sphere<double>& q) { return moved(q.sphere, q.velocity, q.fixed); }
+  static auto answer(const in::moving_sphere_box<double>& q) { return moved(q.sphere, q.velocity, q.box); }
+  static auto answer(const in::moving_sphere_capsule<double>& q) { return moved(q.sphere, q.velocity, q.capsule); }
+  static auto answer(const in::moving_sphere_plane<double>& q) -> Reply<collide::Impact<double>> {
+    if (!(dot(q.plane.normal, q.velocity) < 0) || !(dot(q.plane.normal, q.sphere.center) + q.plane.offset > 0)) {
+      return CannotAnswer{"a half-space is no plane for a sphere behind it, or that does not approach it"};
     }
-    const collide::Vec3<double> end = q.sphere.center + q.velocity * horizon;
-    if (!std::isfinite(end.x + end.y + end.z)) return CannotAnswer{"the end of the motion is not finite"};
-    fcl::ContinuousCollisionRequestd request;
-    request.gjk_solver_type = static_solver;
-    request.ccd_solver_type = motion_solver;
-    fcl::ContinuousCollisionResultd result;
-    const fcl::Transform3d still = pose(q.box);
-    fcl::continuousCollide(&a, at(q.sphere.center), at(end), &b, still, still, request, result);
-    return only(result.is_collide ? Impact{result.time_of_contact * horizon, {}, {}} : Impact::miss(), {"time"});
+    return moved(q.sphere, q.velocity, q.plane);
+  }
+
+  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q.sphere, q.velocity, q.box, q); }
+  static auto answer(const in::moving_sphere_passes_sphere<double>& q) {
+    return passes(q.sphere, q.velocity, q.fixed, q);
   }
 
  private:
-  static fcl::Boxd box(const collide::Box<double>& b) { return {2 * b.half.x, 2 * b.half.y, 2 * b.half.z}; }
-  static fcl::Transform3d at(const collide::Vec3<double>& p) {
+  using Solver = std::conditional_t<static_solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
+                                    fcl::detail::GJKSolver_indep<double>>;
+
+  static fcl::Vector3d vector(const Vec3d& v) { return {v.x, v.y, v.z}; }
+  static fcl::Transform3d at(const Vec3d& p) {
     fcl::Transform3d t = fcl::Transform3d::Identity();
-    t.translation() << p.x, p.y, p.z;
+    t.translation() = vector(p);
     return t;
   }
+  static fcl::Sphered shape(const collide::Sphere<double>& s) { return fcl::Sphered(s.radius); }
+  static fcl::Transform3d pose(const collide::Sphere<double>& s) { return at(s.center); }
+  static fcl::Boxd shape(const collide::Box<double>& b) { return {2 * b.half.x, 2 * b.half.y, 2 * b.half.z}; }
   static fcl::Transform3d pose(const collide::Box<double>& b) {
     fcl::Transform3d t = at(b.center);
     const auto& q = b.orientation;
     t.linear() = fcl::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
     return t;
   }
-  /// With `result`, one contact is asked for as well.
-  static bool meet(const fcl::CollisionGeometryd* a, const fcl::Transform3d& ta, const fcl::CollisionGeometryd* b,
-                   const fcl::Transform3d& tb, fcl::CollisionResultd* result) {
-    fcl::CollisionRequestd request(1, result != nullptr);
+  static fcl::Capsuled shape(const collide::Capsule<double>& c) { return {c.radius, length(c.p1 - c.p0)}; }
+  static fcl::Transform3d pose(const collide::Capsule<double>& c) {
+    fcl::Transform3d t = at(c.p0 * 0.5 + c.p1 * 0.5);
+    const Vec3d along = c.p1 - c.p0;
+    if (length(along) > 0) {
+      t.linear() = fcl::Quaterniond::FromTwoVectors(fcl::Vector3d::UnitZ(), vector(along)).toRotationMatrix();
+    }
+    return t;
+  }
+  /// What lies behind the plane; FCL itself brings the normal to unit length.
+  static fcl::Halfspaced shape(const collide::Plane<double>& p) { return {vector(p.normal), -p.offset}; }
+  static fcl::Transform3d pose(const collide::Plane<double>&) { return fcl::Transform3d::Identity(); }
+
+  /// With `result`, contacts are asked for as well.
+  template <class A, class B>
+  static bool meet(const A& a, const B& b, fcl::CollisionResultd* result) {
+    fcl::CollisionRequestd request(result != nullptr ? 16 : 1, result != nullptr);
     request.gjk_solver_type = static_solver;
     fcl::CollisionResultd decision_only;
-    return fcl::collide(a, ta, b, tb, request, result != nullptr ? *result : decision_only) > 0;
+    const auto shape_a = shape(a);
+    const auto shape_b = shape(b);
+    return fcl::collide(&shape_a, pose(a), &shape_b, pose(b), request, result != nullptr ? *result : decision_only) > 0;
   }
-  /// The least power of two that carries the sphere past the box's bounding sphere; 0 where the sphere
-  /// does not move or starts past it.
-  static double time_to_pass(const collide::inputs::moving_sphere_box<double>& q) {
-    const auto length = [](const collide::Vec3<double>& v) { return std::hypot(v.x, v.y, v.z); };
-    const double speed = length(q.velocity);
-    if (!(speed > 0)) return 0;
-    const collide::Vec3<double> from_box = q.sphere.center - q.box.center, along = q.velocity / speed;
-    const double passed = from_box.x * along.x + from_box.y * along.y + from_box.z * along.z;
-    const double time = (length(q.box.half) + q.sphere.radius - passed) / speed;
-    return time > 0 ? std::exp2(std::ceil(std::log2(time))) : 0.0;
+  template <class A, class B>
+  static collide::Decision<double> decided(const A& a, const B& b) {
+    return {meet(a, b, nullptr)};
+  }
+  template <class S>
+  static bool meets_triangle(const S& s, const fcl::Transform3d& where, const collide::Triangle<double>& t) {
+    return Solver().shapeTriangleIntersect(s, where, vector(t.v0), vector(t.v1), vector(t.v2), nullptr, nullptr, nullptr);
+  }
+
+  /// The deepest contact's depth and normal. FCL's position of a contact is another point than the one asked for.
+  template <class Depth, int turn = 1, class A, class B>
+  static Partly<Depth> depth(const A& a, const B& b) {
+    fcl::CollisionResultd result;
+    Depth d;
+    d.depth = -1;
+    if (!meet(a, b, &result)) return only(d, {});  // apart: FCL says no more than that
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      const fcl::Contactd& c = result.getContact(i);
+      if (i > 0 && !(c.penetration_depth > d.depth)) continue;
+      d.depth = c.penetration_depth;
+      d.normal = {turn * c.normal.x(), turn * c.normal.y(), turn * c.normal.z()};
+    }
+    return only(d, {"depth", "normal"});
+  }
+
+  template <class B>
+  static Reply<collide::Impact<double>> moved(const collide::Sphere<double>& sphere, const Vec3d& velocity, const B& b) {
+    using Impact = collide::Impact<double>;
+    double horizon = 0;
+    if constexpr (std::is_same_v<B, collide::Plane<double>>) {
+      horizon = time_to_pass(sphere.center, sphere.radius, velocity, b);
+    } else {
+      horizon = time_to_pass(sphere.center, sphere.radius, velocity, ball_around(b));
+    }
+    if (horizon == 0) return only(meet(sphere, b, nullptr) ? Impact{0.0, {}, {}} : Impact::miss(), {"time"});
+    const Vec3d end = sphere.center + velocity * horizon;
+    if (!finite(end)) return CannotAnswer{"the end of the motion is not finite"};
+    fcl::ContinuousCollisionRequestd request;
+    request.gjk_solver_type = static_solver;
+    request.ccd_solver_type = motion_solver;
+    fcl::ContinuousCollisionResultd result;
+    const fcl::Sphered shape_a = shape(sphere);
+    const auto shape_b = shape(b);
+    const fcl::Transform3d still = pose(b);
+    fcl::continuousCollide(&shape_a, at(sphere.center), at(end), &shape_b, still, still, request, result);
+    return only(result.is_collide ? Impact{result.time_of_contact * horizon, {}, {}} : Impact::miss(), {"time"});
+  }
+
+  template <class B, class Q>
+  static Reply<collide::Decision<double>> passes(const collide::Sphere<double>& sphere, const Vec3d& velocity,
+                                                 const B& b, const Q& q) {
+    const double until = q.forever ? time_to_pass(sphere.center, sphere.radius, velocity, ball_around(b)) : q.limit;
+    const Vec3d end = sphere.center + velocity * until;
+    if (!finite(end)) return CannotAnswer{"the end of the motion is not finite"};
+    return decided(collide::Capsule<double>{sphere.center, end, sphere.radius}, b);
   }
 };
 
