@@ -8,11 +8,13 @@ namespace nearmiss {
 namespace {
 
 /// Each runs for every query of the catalogue.
-constexpr std::array<std::string_view, 28> for_every_query = {
+constexpr std::array<std::string_view, 31> for_every_query = {
     "EveryTier.AnswersKeepTheirContract",
     "EveryTier.PromisesSomethingAboutMostCases",
+    "EveryTierRelated.KeepsEveryRelationOfItsAnswers",
     "EveryTierGiven.InfinityReportsNoHit",
     "EveryTierGiven.NotANumberReportsNoHit",
+    "CertifiedPostconditions.FollowFromEveryAnswer",
     "CertifiedTier.IsRightAboutRawNumbersOfAnyMagnitude",
     "Codec.BringsACaseBackFromJsonText",
     "Codec.BringsACaseBackFromBytes",
@@ -31,6 +33,7 @@ constexpr std::array<std::string_view, 28> for_every_query = {
     "Generator.MutatesIntoAnotherValidCase",
     "Oracles.ExcludeOnNoRungWhatTheExactStageFinds",
     "Oracles.ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases",
+    "RelatedTruths.KeepEveryRelationOfTheirDecisions",
     "Shrinking.KeepsTheTruthAndStaysValidAndExact",
     "StoredCases.HoldAtLeastSixSeeds",
     "StoredCases.SayWhatTheyAreAbout",

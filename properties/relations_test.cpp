@@ -1,0 +1,343 @@
+/// Answers to related cases are related as the exact ones are: each tier, and the oracle.
+#include "corpus/relations.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
+#include "corpus/shrink.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+Answer asked_here(const Subject& subject, const Case& c) { return subject.offering(c.query->name).answer(c.values); }
+
+/// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
+std::optional<RelationFinding> examined(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s,
+                                        bool bit_for_bit) {
+  return examine(r, c, seed, s, [&](const Case& asked) { return asked_here(s, asked); }, bit_for_bit);
+}
+
+std::string told(const RelationFinding& r, const Subject& s) {
+  std::string text = fmt::format("{}: {} ({}): {}; {}\n{}", s.name, r.relation->name, r.relation->what,
+                                 name_of(r.agreement), r.broken, r.oracle);
+  for (std::size_t i = 0; i < r.cases.size(); ++i) {
+    std::vector<double> numbers(r.answers[i].values.begin(),
+                                r.answers[i].values.begin() + long(r.cases[i].query->outputs.size()));
+    text += fmt::format("\ncase {}: {}\n{}\nanswer {}: {} {}", i + 1, case_to_json(r.cases[i]).dump(),
+                        case_to_cpp(r.cases[i]), i + 1, r.answers[i].yes, fmt::join(numbers, " "));
+  }
+  return text;
+}
+
+/// The simplest case for which the relation is still broken.
+std::string shrunk(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s, bool bit_for_bit) {
+  const auto broken = [&](const Case& smaller) {
+    const auto f = examined(r, smaller, seed, s, bit_for_bit);
+    return f && !(f->broken.empty() && f->oracle.empty());
+  };
+  return told(*examined(r, shrink(c, broken, 2000), seed, s, bit_for_bit), s);
+}
+
+bool is_certified(const Subject& s) { return s.name.starts_with("collide-certified"); }
+
+class EveryTierRelated : public testing::TestWithParam<Pairing> {};
+
+TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswers) {
+  const auto [query, subject] = GetParam();
+  const std::uint64_t cases = is_certified(*subject) ? 200 : 1500;
+  Case c;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    generate(c, *query, subject->scalar, 11, i);
+    for (const Relation& r : relations()) {
+      const auto f = examined(r, c, i, *subject, true);
+      if (f && !(f->broken.empty() && f->oracle.empty())) FAIL() << shrunk(r, c, i, *subject, true);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Relations, EveryTierRelated, testing::ValuesIn(our_pairings()),
+                         testing::PrintToStringParamName());
+
+/// What follows from the answer alone, or from another query asked at the time of impact.
+class CertifiedPostconditions : public testing::TestWithParam<Pairing> {};
+
+std::size_t output(const Query& q, std::string_view name) {
+  std::size_t i = 0;
+  while (i < q.outputs.size() && q.outputs[i].name != name) ++i;
+  return i;
+}
+std::size_t input(const Query& q, std::string_view name) {
+  std::size_t i = 0;
+  while (i < q.inputs.size() && q.inputs[i].name != name) ++i;
+  return i;
+}
+
+/// A point has normals in every direction, and so have two things without a size where they meet.
+bool has_no_size_somewhere(const Case& c) {
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.query->inputs[i].role == Role::size && c.values[i] == 0) return true;
+  }
+  return false;
+}
+
+/// normal . velocity; each number of the normal is within 2 ulp, after a division by a length within 4 epsilon.
+void expect_against_the_motion(const Case& c, const Answer& a) {
+  const std::size_t n = output(*c.query, "normal.x"), v = input(*c.query, "velocity.x");
+  const double eps = unit_roundoff(c.scalar);
+  long double along = 0, bound = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along += static_cast<long double>(a.values[n + k]) * c.values[v + k];
+    bound += 8 * eps * std::abs(c.values[v + k]);
+  }
+  EXPECT_LE(along, bound) << case_to_json(c).dump();
+}
+
+/// Weights are within 2 ulp of the largest.
+void expect_weights_add_up(const Case& c, const Answer& a) {
+  const std::size_t w = output(*c.query, "weights.x");
+  const double sum = a.values[w] + a.values[w + 1] + a.values[w + 2];
+  const double largest = std::max({1.0, std::abs(a.values[w]), std::abs(a.values[w + 1]), std::abs(a.values[w + 2])});
+  EXPECT_LE(std::abs(sum - 1), 8 * ulp(largest, c.scalar)) << case_to_json(c).dump();
+}
+
+/// At the time of impact the sphere, grown by what the rounding of its place can amount to, overlaps the solid.
+void expect_touch_at_impact(const Case& c, const Answer& a, const Subject& s) {
+  const std::map<std::string_view, std::string_view> overlaps{{"moving_sphere_sphere", "sphere_sphere_overlap"},
+                                                              {"moving_sphere_box", "sphere_box_overlap"},
+                                                              {"moving_sphere_triangle", "sphere_triangle_overlap"}};
+  const auto overlap = overlaps.find(c.query->name);
+  if (overlap == overlaps.end()) return;
+  const std::size_t v = input(*c.query, "velocity.x");  // after the sphere's center and radius
+  const double t = a.values[output(*c.query, "time")];
+  Case there{find_query(overlap->second), c.scalar, {}, "relation", 0, 0, {}};
+  there.values.assign(c.values.begin(), c.values.begin() + 4);
+  there.values.insert(there.values.end(), c.values.begin() + long(v) + 3, c.values.end());
+  double growth = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double step = c.values[v + k] * t, at = c.values[k] + step;
+    if (!std::isfinite(at)) return;
+    there.values[k] = c.scalar == Scalar::float32 ? double(float(at)) : at;
+    growth += 2 * ulp(t, c.scalar) * std::abs(c.values[v + k]) + ulp(step, c.scalar) + ulp(at, c.scalar);
+  }
+  // The sum itself is rounded, and so is the radius.
+  const double radius = c.values[3] + 2 * growth;
+  there.values[3] = radius + 2 * ulp(radius, c.scalar);
+  if (c.scalar == Scalar::float32) there.values[3] = double(float(there.values[3]));
+  ASSERT_EQ(there.values.size(), there.query->inputs.size());
+  EXPECT_TRUE(asked_here(s, there).yes) << case_to_json(c).dump();
+}
+
+TEST_P(CertifiedPostconditions, FollowFromEveryAnswer) {
+  const auto [query, subject] = GetParam();
+  const std::size_t time = output(*query, "time"), solid = input(*query, "solid");
+  const bool weights = output(*query, "weights.x") < query->outputs.size();
+  for (std::uint64_t i = 0; i < 2000 && !HasFailure(); ++i) {
+    const Case c = generate(*query, subject->scalar, 23, i);
+    const Answer a = asked_here(*subject, c);
+    if (!a.yes) continue;
+    if (weights) expect_weights_add_up(c, a);
+    if (query->kind != Kind::impact) continue;
+    expect_touch_at_impact(c, a, *subject);
+    const bool leaves_a_shell = solid < query->inputs.size() && c.values[solid] == 0;
+    if (a.values[time] > 0 && !leaves_a_shell && !has_no_size_somewhere(c)) expect_against_the_motion(c, a);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Relations, CertifiedPostconditions, testing::ValuesIn([] {
+                           std::vector<Pairing> certified;
+                           for (const Pairing& p : our_pairings()) {
+                             if (is_certified(*p.subject)) certified.push_back(p);
+                           }
+                           return certified;
+                         }()),
+                         testing::PrintToStringParamName());
+
+/// The oracle as a subject that gives decisions only.
+class RelatedTruths : public testing::TestWithParam<NamedQuery> {};
+
+TEST_P(RelatedTruths, KeepEveryRelationOfTheirDecisions) {
+  const Query& query = *GetParam().query;
+  if (!decides(query.kind)) GTEST_SKIP() << "the answer is always yes";
+  const auto truth = [](const Case& c) {
+    Answer a;
+    a.yes = truth_is_yes(c);
+    a.given = 0;
+    return a;
+  };
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const Case c = generate(query, Scalar::float64, 13, i);
+    for (const Relation& r : relations()) {
+      const auto partners = r.of(c, i);
+      if (!partners) continue;
+      std::vector<Answer> others;
+      for (const Case& other : partners->cases) others.push_back(truth(other));
+      ASSERT_NE(partners->compare(truth(c), others), Agreement::decisions_differ)
+          << r.name << "\n" << case_to_json(c).dump() << "\n" << case_to_json(partners->cases[0]).dump();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, RelatedTruths, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+TEST(Relations, EachApplyToManyCasesOfSomeQuery) {
+  constexpr std::uint64_t cases = 400;
+  std::map<std::string_view, std::uint64_t> most;
+  for (const Query& q : catalogue()) {
+    std::map<std::string_view, std::uint64_t> here;
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      const Case c = generate(q, Scalar::float64, 5, i);
+      for (const Relation& r : relations()) here[r.name] += r.of(c, i).has_value();
+    }
+    for (const auto& [name, count] : here) most[name] = std::max(most[name], count);
+  }
+  for (const Relation& r : relations()) EXPECT_GE(most[r.name], cases / 100) << r.name;
+}
+
+TEST(Relations, GivePartnersThatAreValidAndExactInTheirScalar) {
+  for (const Query& q : catalogue()) {
+    for (Scalar scalar : scalars) {
+      for (std::uint64_t i = 0; i < 100; ++i) {
+        const Case c = generate(q, scalar, 17, i);
+        for (const Relation& r : relations()) {
+          const auto partners = r.of(c, i);
+          if (!partners) continue;
+          for (const Case& other : partners->cases) {
+            ASSERT_FALSE(other.query->broken(other.values)) << r.name << " " << q.name;
+            for (double x : other.values) ASSERT_TRUE(representable(x, scalar)) << r.name << " " << q.name;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// The certified tier with a mistake of the kind that libraries make.
+using Mistake = Answer (*)(std::span<const double>);
+
+const Answer& right(std::string_view query, std::span<const double> values) {
+  static thread_local Answer a;
+  a = find_subject("collide-certified-double")->offering(query).answer(values);
+  return a;
+}
+
+Subject mistaken(std::string_view query, Mistake answer) {
+  Subject s = *find_subject("collide-certified-double");
+  for (Offering& o : s.offerings) {
+    if (o.query == query) o.answer = answer;
+  }
+  return s;
+}
+
+int broken_among(const Relation& r, std::string_view query, const Subject& s, int cases, bool bit_for_bit = false) {
+  int broken = 0;
+  for (int i = 0; i < cases; ++i) {
+    const Case c = generate(*find_query(query), Scalar::float64, 19, std::uint64_t(i));
+    const auto f = examined(r, c, std::uint64_t(i), s, bit_for_bit);
+    broken += f && !f->broken.empty();
+  }
+  return broken;
+}
+
+struct Planted {
+  std::string_view relation, query;
+  Mistake mistake;
+};
+
+class EachRelation : public testing::TestWithParam<Planted> {};
+
+TEST_P(EachRelation, CatchesAMistakeOfItsKind) {
+  const auto& [relation, query, mistake] = GetParam();
+  const Subject wrong = mistaken(query, mistake);
+  EXPECT_GT(broken_among(*find_relation(relation), query, wrong, 300, true), 0);
+  EXPECT_EQ(broken_among(*find_relation(relation), query, *find_subject("collide-certified-double"), 300, true), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Planted, EachRelation,
+    testing::Values(
+        Planted{"scaled-lengths", "sphere_sphere_overlap",  // an absolute tolerance
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  w[3] += 0.05;
+                  return right("sphere_sphere_overlap", w);
+                }},
+        Planted{"scaled-time", "moving_sphere_passes_sphere",  // a limit that is cut off
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  w[11] = std::min(w[11], 1.0);
+                  return right("moving_sphere_passes_sphere", w);
+                }},
+        Planted{"reflected", "closest_point_segment",  // a sign
+                [](std::span<const double> v) {
+                  Answer a = right("closest_point_segment", v);
+                  if (v[0] > 0) a.values[0] += 0.5;
+                  return a;
+                }},
+        Planted{"permuted-axes", "sphere_box_overlap",  // one axis forgotten
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  w[2] = w[6];
+                  return right("sphere_box_overlap", w);
+                }},
+        Planted{"translated", "moving_point_sphere",  // relative to the origin
+                [](std::span<const double> v) {
+                  Answer a = right("moving_point_sphere", v);
+                  if (v[0] > 8) a.yes = false, a.values[0] = HUGE_VAL;
+                  return a;
+                }},
+        Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  w[6] = 2 * v[6] - v[9], w[7] = 2 * v[7] - v[10], w[8] = 2 * v[8] - v[11];
+                  return right("moving_point_triangle", w);
+                }},
+        Planted{"swapped", "box_box_overlap",  // the second box's size taken for the first
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  w[13] = w[3];
+                  return right("box_box_overlap", w);
+                }},
+        Planted{"another-hint", "box_box_overlap",  // a hint that decides
+                [](std::span<const double> v) {
+                  Answer a = right("box_box_overlap", v);
+                  if (v[20] == 3) a.yes = false;
+                  return a;
+                }},
+        Planted{"later-start", "moving_sphere_box",  // a horizon
+                [](std::span<const double> v) {
+                  Answer a = right("moving_sphere_box", v);
+                  if (a.yes && a.values[0] > 0.75) a.yes = false, a.values[0] = HUGE_VAL;
+                  return a;
+                }},
+        Planted{"grown-size", "sphere_sphere_penetration",  // a contained sphere as if it were apart
+                [](std::span<const double> v) {
+                  Answer a = right("sphere_sphere_penetration", v);
+                  if (v[3] > 1.5) a.yes = false, a.values[0] = -1;
+                  return a;
+                }},
+        Planted{"two-triangles", "moving_point_rectangle",  // the second triangle is forgotten
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  for (std::size_t k = 0; k < 3; ++k) w[15 + k] = w[6 + k];
+                  return right("moving_point_rectangle", w);
+                }},
+        Planted{"same-decision", "sphere_box_overlap",  // open instead of closed
+                [](std::span<const double> v) {
+                  Answer a = right("sphere_box_overlap", v);
+                  if (right("sphere_box_penetration", v).values[0] == 0) a.yes = false;
+                  return a;
+                }}),
+    [](const auto& planted) {
+      std::string name(planted.param.relation);
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
+
+}  // namespace
+}  // namespace nearmiss
