@@ -3,6 +3,7 @@
 option(NEARMISS_TESTS "Build the tests" ON)
 option(NEARMISS_FCL "Build FCL as a subject, where it is installed" ON)
 set(NEARMISS_ADD "" CACHE STRING "CMake files that add libraries of your own, separated by semicolons; see docs/bring-your-own.md")
+option(NEARMISS_D3 "Draw pages with D3, where it is installed" ON)
 option(NEARMISS_WERROR "Treat warnings as errors" OFF)
 set(NEARMISS_SANITIZE "" CACHE STRING "Sanitizers, separated by commas: address,undefined")
 option(NEARMISS_COVERAGE "Instrument for coverage" OFF)

@@ -34,6 +34,8 @@ const Bad bad_command_lines[] = {
     {"unknown_command", {"rum"}, {"unknown command 'rum'", "run"}},
     {"unknown_option", {"run", "--frobnicate", "--out", "OUT"}, {"--frobnicate"}},
     {"surplus_word", {"run", "fast", "--out", "OUT"}, {"fast"}},
+    {"extremes_without_cases", {"extremes", "--cases", "0", "--out", "OUT"}, {"--cases", "0"}},
+    {"extremes_of_an_unknown_query", {"extremes", "--query", "moving_box", "--out", "OUT"}, {"--query", "moving_box"}},
     {"unknown_query",
      {"run", "--query", "moving_spere_box", "--out", "OUT"},
      {"--query", "moving_spere_box", "moving_sphere_box"}},

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include "corpus/bad_input.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/extremes.hpp"
+#include "reports/interrupt.hpp"
+#include "reports/run.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::uint64_t default_cases = 30, most_cases = 1'000'000;
+
+class ExtremesCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {
+        "extremes",
+        "map where subjects break down, far out, tiny, huge, fast or nearly parallel",
+        {"Generated cases of every chosen query are moved over planes: distance from the origin and size of everything; "
+         "speed, ratio of sizes, and nearly parallel directions, where the query has them. At each place every chosen "
+         "subject is asked, and the worst proved errors and the wrong decisions are kept. Contracts play no part: "
+         "places where nothing is promised are measured like all others, and nothing found there is a violation.",
+         "The folder receives extremes.json and, where the Debian package node-d3 was there at build, extremes.html: one "
+         "page with everything in it, a heat map for each query and subject. Interrupted, it writes what it has.",
+         "The table has a row for each query and subject: wrong decisions in each direction, answers that are not finite, "
+         "and the largest proved errors. BACKWARD: how far inputs would have to move to make an answer right, in units "
+         "of the scalar's epsilon. FORWARD: the distance of a number from the exact one, in units in the last place."},
+        {{"0", "It was written."},
+         {"2", "Wrong arguments, an output that cannot be written, or it was interrupted."}},
+        {{"nearmiss extremes", "Every query and subject."},
+         {"nearmiss extremes --query moving_sphere_box --subject collide-fast-float --cases 200 --out far",
+          "One heat map for each plane, into the folder far."}}};
+  }
+  void declare(CLI::App& app) override {
+    selection_.declare_subjects(app);
+    selection_.declare_queries(app);
+    add_whole_number(app, "-n,--cases", cases_, fmt::format("Cases at each place. Default: {}", default_cases), 1,
+                     most_cases);
+    add_whole_number(app, "--seed", seed_, "Of the generator. Default: 1", 0,
+                     std::numeric_limits<std::uint64_t>::max());
+    app.add_option("-o,--out", out_, "The folder. Default: reports/runs/TIME-SEED of the source tree")->type_name("DIR");
+  }
+  int run(const CLI::App&) override {
+    const std::uint64_t seed = seed_.value_or(1);
+    catch_interrupts();
+    Extremes extremes({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
+                       selection_.queries(), selection_.subjects(), seed, cases_.value_or(default_cases)});
+    extremes.sweep();
+    extremes.write();
+    fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
+    return interrupted() ? 2 : 0;
+  }
+
+ private:
+  Selection selection_;
+  std::optional<std::uint64_t> cases_, seed_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> extremes_command() { return std::make_unique<ExtremesCommand>(); }
+
+}  // namespace nearmiss

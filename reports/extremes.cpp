@@ -1,0 +1,219 @@
+#include "reports/extremes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "corpus/bad_input.hpp"
+#include "corpus/codec.hpp"
+#include "reports/interrupt.hpp"
+#include "reports/pretty_json.hpp"
+#include "reports/report.hpp"
+#include "reports/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Promises nothing, everywhere: every answer is measured.
+constexpr collide::Contract no_promise{};
+
+void count(ExtremesCell& cell, const Finding& f) {
+  if (f.verdict == Verdict::broke) ++cell.broke;
+  if (f.verdict == Verdict::cannot_answer) ++cell.no_answer;
+  if (f.verdict == Verdict::broke || f.verdict == Verdict::cannot_answer) return;
+  ++cell.cases;
+  cell.false_hits += f.disagreement == Disagreement::false_hit;
+  cell.false_misses += f.disagreement == Disagreement::false_miss;
+  cell.not_finite += f.disagreement == Disagreement::not_finite;
+  if (std::isfinite(f.forward_ulps)) cell.forward_ulps = std::max(cell.forward_ulps, f.forward_ulps);
+  if (f.backward) cell.backward_epsilon = std::max(cell.backward_epsilon, f.backward->above);
+}
+
+template <class Member>
+Json matrix(const ExtremesMap& m, Member member) {
+  const std::size_t columns = values_of(m.plane.x).size();
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < m.cells.size(); i += columns) {
+    Json row = Json::array();
+    for (std::size_t k = i; k < i + columns; ++k) row.push_back(member(m.cells[k]));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json axis_to_json(SweepAxis axis) {
+  const auto values = values_of(axis);
+  return {{"axis", name_of(axis).name},
+          {"unit", name_of(axis).unit},
+          {"values", std::vector<double>(values.begin(), values.end())}};
+}
+
+Json map_to_json(const ExtremesMap& m) {
+  return {{"query", m.query->name},
+          {"subject", m.subject->name},
+          {"scalar", name_of(m.subject->scalar)},
+          {"x", axis_to_json(m.plane.x)},
+          {"y", axis_to_json(m.plane.y)},
+          {"cases", matrix(m, [](const ExtremesCell& c) { return c.cases; })},
+          {"false_hits", matrix(m, [](const ExtremesCell& c) { return c.false_hits; })},
+          {"false_misses", matrix(m, [](const ExtremesCell& c) { return c.false_misses; })},
+          {"not_finite", matrix(m, [](const ExtremesCell& c) { return c.not_finite; })},
+          {"broke", matrix(m, [](const ExtremesCell& c) { return c.broke; })},
+          {"no_answer", matrix(m, [](const ExtremesCell& c) { return c.no_answer; })},
+          {"forward_ulps", matrix(m, [](const ExtremesCell& c) { return c.forward_ulps; })},
+          {"backward_epsilon", matrix(m, [](const ExtremesCell& c) {
+             return c.backward_epsilon < 0 ? Json(nullptr) : Json(c.backward_epsilon);
+           })}};
+}
+
+/// Puts `text` where the template has `mark`, once.
+void put(std::string& page, std::string_view mark, std::string_view text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error(fmt::format("extremes.html has no {}", mark));
+  page.replace(at, mark.size(), text);
+}
+
+/// No "</script>" can end the element that the data stand in.
+std::string for_a_script(std::string text) {
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
+  return text;
+}
+
+}  // namespace
+
+Extremes::Extremes(ExtremesSettings settings) : settings_(std::move(settings)) {
+  std::error_code error;
+  std::filesystem::create_directories(settings_.folder, error);
+  if (error) {
+    throw BadInput(fmt::format("{}: the folder cannot be made: {}", settings_.folder.string(), error.message()));
+  }
+  for (const Query* q : settings_.queries) {
+    for (const SweepPlane& plane : planes_of(*q)) {
+      for (const Subject* s : settings_.subjects) {
+        if (s->offering(q->name).answer == nullptr) continue;
+        const std::size_t cells = values_of(plane.x).size() * values_of(plane.y).size();
+        maps_.push_back({q, s, plane, std::vector<ExtremesCell>(cells)});
+        total_ += cells * settings_.cases;
+      }
+    }
+  }
+}
+
+void Extremes::sweep() {
+  for (const Query* q : settings_.queries) {
+    for (const SweepPlane& plane : planes_of(*q)) {
+      for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+        progress_.doing(fmt::format("{}, {} and {}", q->name, name_of(plane.x).name, name_of(plane.y).name));
+        fill(*q, scalar, plane);
+        if (interrupted()) return;
+      }
+    }
+  }
+}
+
+void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) {
+  std::vector<ExtremesMap*> asked;
+  for (ExtremesMap& m : maps_) {
+    const bool same_plane = m.plane.x == plane.x && m.plane.y == plane.y;
+    if (m.query == &query && m.subject->scalar == scalar && same_plane) asked.push_back(&m);
+  }
+  if (asked.empty()) return;
+  const auto xs = values_of(plane.x), ys = values_of(plane.y);
+  const std::size_t batch = Workers::capacity_for(query);
+  for (std::size_t cell = 0; cell < xs.size() * ys.size() && !interrupted(); ++cell) {
+    std::vector<Case> cases;
+    for (std::uint64_t i = 0; i < settings_.cases; ++i) {
+      auto c = sweep_case(query, scalar, settings_.seed, i, plane, xs[cell % xs.size()], ys[cell / xs.size()]);
+      if (c) cases.push_back(std::move(*c));
+    }
+    for (std::size_t at = 0; at < cases.size() && !interrupted(); at += batch) {
+      const std::span<const Case> some(cases.data() + at, std::min(batch, cases.size() - at));
+      for (const ExtremesMap* m : asked) workers_.send(*m->subject, some);
+      for (ExtremesMap* m : asked) {
+        const auto answers = workers_.receive(*m->subject);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          count(m->cells[cell], judge(some[i], answers[i], no_promise, Detail::verdict));
+        }
+      }
+    }
+    done_ += asked.size() * settings_.cases;
+    progress_.tell(done_, total_, std::nullopt, 0);
+  }
+}
+
+nlohmann::ordered_json Extremes::to_json() const {
+  Json j{{"schema", 1},
+         {"state", interrupted() ? "interrupted" : "finished"},
+         {"command", settings_.command},
+         {"seed", settings_.seed},
+         {"cases_per_cell", settings_.cases},
+         {"maps", Json::array()}};
+  for (const ExtremesMap& m : maps_) {
+    const bool begun = std::any_of(m.cells.begin(), m.cells.end(),
+                                   [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer > 0; });
+    if (begun || !interrupted()) j["maps"].push_back(map_to_json(m));
+  }
+  j["environment"] = environment_to_json();
+  return j;
+}
+
+std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) {
+#ifdef NEARMISS_D3_FILE
+  std::string page = read_file(NEARMISS_SOURCE_FOLDER "/reports/extremes.html");
+  put(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
+  put(page, "/*DATA*/", for_a_script(report.dump()));
+  return page;
+#else
+  (void)report;
+  return std::nullopt;
+#endif
+}
+
+void Extremes::write() const {
+  const Json report = to_json();
+  write_file(settings_.folder / "extremes.json", report.dump() + "\n");
+  if (const auto drawn = page(report)) write_file(settings_.folder / "extremes.html", *drawn);
+}
+
+std::string Extremes::table() const {
+  std::vector<std::vector<std::string>> rows{
+      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "NO ANSWER", "BACKWARD", "FORWARD"}};
+  for (const Query* q : settings_.queries) {
+    bool first = true;
+    for (const Subject* s : settings_.subjects) {
+      ExtremesCell all;
+      bool any = false;
+      for (const ExtremesMap& m : maps_) {
+        if (m.query != q || m.subject != s) continue;
+        any = true;
+        for (const ExtremesCell& c : m.cells) {
+          all.cases += c.cases, all.false_hits += c.false_hits, all.false_misses += c.false_misses;
+          all.not_finite += c.not_finite, all.broke += c.broke, all.no_answer += c.no_answer;
+          all.forward_ulps = std::max(all.forward_ulps, c.forward_ulps);
+          all.backward_epsilon = std::max(all.backward_epsilon, c.backward_epsilon);
+        }
+      }
+      if (!any) continue;
+      if (std::exchange(first, false)) rows.push_back({std::string(q->name)});
+      rows.push_back({"  " + s->name, count_text(all.cases), count_text(all.false_hits), count_text(all.false_misses),
+                      count_text(all.not_finite), count_text(all.broke), count_text(all.no_answer),
+                      all.backward_epsilon < 0 ? "-" : "> " + epsilons_text(all.backward_epsilon),
+                      fmt::format("{:.3g}", all.forward_ulps)});
+    }
+  }
+  return table_text(rows, "", 1);
+}
+
+std::string Extremes::summary() const {
+  const bool drawn = std::filesystem::exists(settings_.folder / "extremes.html");
+  return fmt::format("{}{}, {} asked; {}{}", interrupted() ? "interrupted: " : "", plural_text(maps_.size(), "map"),
+                     plural_text(done_, "case"), (settings_.folder / "extremes.json").string(),
+                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3");
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,107 @@
+/// The maps of extremes: their JSON, their page, and that they show what is there to see.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/sweep.hpp"
+#include "impl/subject/subject.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+
+json swept(const TemporaryFolder& folder, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"extremes", "--out", (folder / "out").string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Ran ran = nearmiss(arguments);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  return json::parse(read_file(folder / "out/extremes.json"));
+}
+
+const json& map_of(const json& report, const std::string& subject, const std::string& y) {
+  for (const json& m : report.at("maps")) {
+    if (m.at("subject") == subject && m.at("y").at("axis") == y) return m;
+  }
+  throw std::logic_error("no map of " + subject);
+}
+
+TEST(Extremes, WriteJsonThatTheSchemaTakesAndAPageWithTheData) {
+  const TemporaryFolder folder;
+  const json report = swept(folder, {"--query", "sphere_sphere_overlap", "--query", "moving_point_plane", "--cases", "2"});
+  EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
+  EXPECT_EQ(report.at("state"), "finished");
+  for (const json& m : report.at("maps")) {
+    const std::size_t columns = m.at("x").at("values").size(), rows = m.at("y").at("values").size();
+    for (const char* matrix : {"cases", "false_hits", "false_misses", "forward_ulps", "backward_epsilon"}) {
+      ASSERT_EQ(m.at(matrix).size(), rows);
+      for (const json& row : m.at(matrix)) ASSERT_EQ(row.size(), columns);
+    }
+  }
+  const auto file = folder / "out/extremes.html";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "SKIP_ this build found no node-d3";
+  const std::string page = read_file(file);
+  const std::string open = R"(<script type="application/json" id="data">)";
+  const std::size_t begin = page.find(open) + open.size();
+  std::string data = page.substr(begin, page.find("</script>", begin) - begin);
+  EXPECT_EQ(json::parse(data), report);
+  EXPECT_NE(page.find("https://d3js.org v5."), std::string::npos);
+  for (const char* other_file : {"<script src", "<link", "<img", "@import"}) {
+    EXPECT_EQ(page.find(other_file), std::string::npos) << "a page that needs another file";
+  }
+}
+
+TEST(Extremes, ShowThatFloatEndsBeforeDoubleAndThatCertifiedStaysRight) {
+  const TemporaryFolder folder;
+  const json report = swept(folder, {"--query", "sphere_sphere_overlap", "--cases", "20"});
+  const auto sum = [](const json& matrix, std::size_t first_row, std::size_t rows) {
+    std::uint64_t all = 0;
+    for (std::size_t j = first_row; j < first_row + rows; ++j) {
+      for (const json& count : matrix.at(j)) all += count.get<std::uint64_t>();
+    }
+    return all;
+  };
+  const json &fast_float = map_of(report, "collide-fast-float", "scale"),
+             &fast_double = map_of(report, "collide-fast-double", "scale");
+  const auto scales = values_of(SweepAxis::scale);
+  const std::size_t rows = scales.size(), last = rows - 1;
+  EXPECT_EQ(sum(fast_float.at("cases"), last, 1), 0u) << "2^1000 in float";
+  EXPECT_GT(sum(fast_double.at("cases"), last, 1), 0u);
+  const auto wrong = [&](const json& m) {
+    return sum(m.at("false_hits"), 0, rows) + sum(m.at("false_misses"), 0, rows) + sum(m.at("not_finite"), 0, rows);
+  };
+  EXPECT_GT(wrong(fast_float), 0u) << "squares of tiny and huge numbers";
+  EXPECT_GT(wrong(fast_double), 0u);
+  EXPECT_EQ(wrong(map_of(report, "collide-certified-double", "scale")), 0u);
+}
+
+TEST(Extremes, GiveTheSameMapsForTheSameSeed) {
+  const TemporaryFolder one, two;
+  const std::vector<std::string> words{"--query", "moving_point_plane", "--subject", "collide-fast-float", "--cases", "5"};
+  EXPECT_EQ(swept(one, words).at("maps"), swept(two, words).at("maps"));
+}
+
+TEST(Sweeps, MakeCasesThatAreValidAndExactInTheirScalarForMostPlaces) {
+  for (const Query& q : catalogue()) {
+    for (const SweepPlane& plane : planes_of(q)) {
+      int made = 0, places = 0;
+      for (const double x : values_of(plane.x)) {
+        for (const double y : values_of(plane.y)) {
+          ++places;
+          const auto c = sweep_case(q, Scalar::float64, 1, 3, plane, x, y);
+          if (!c) continue;
+          ++made;
+          ASSERT_FALSE(q.broken(c->values));
+          EXPECT_EQ(sweep_case(q, Scalar::float64, 1, 3, plane, x, y)->values, c->values);
+        }
+      }
+      EXPECT_GE(made, places * 9 / 10) << q.name << " " << name_of(plane.x).name << " " << name_of(plane.y).name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
