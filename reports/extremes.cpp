@@ -71,15 +71,20 @@ Json map_to_json(const ExtremesMap& m) {
            })}};
 }
 
+bool begun(const ExtremesMap& m) {
+  return std::any_of(m.cells.begin(), m.cells.end(),
+                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer > 0; });
+}
+
 /// Puts `text` where the template has `mark`, once.
-void put(std::string& page, std::string_view mark, std::string_view text) {
+[[maybe_unused]] void put(std::string& page, std::string_view mark, std::string_view text) {
   const std::size_t at = page.find(mark);
   if (at == std::string::npos) throw std::logic_error(fmt::format("extremes.html has no {}", mark));
   page.replace(at, mark.size(), text);
 }
 
 /// No "</script>" can end the element that the data stand in.
-std::string for_a_script(std::string text) {
+[[maybe_unused]] std::string for_a_script(std::string text) {
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
   return text;
 }
@@ -136,7 +141,7 @@ void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) 
       for (const ExtremesMap* m : asked) workers_.send(*m->subject, some);
       for (ExtremesMap* m : asked) {
         const auto answers = workers_.receive(*m->subject);
-        for (std::size_t i = 0; i < some.size(); ++i) {
+        for (std::size_t i = 0; i < some.size() && !interrupted(); ++i) {
           count(m->cells[cell], judge(some[i], answers[i], no_promise, Detail::verdict));
         }
       }
@@ -154,9 +159,7 @@ nlohmann::ordered_json Extremes::to_json() const {
          {"cases_per_cell", settings_.cases},
          {"maps", Json::array()}};
   for (const ExtremesMap& m : maps_) {
-    const bool begun = std::any_of(m.cells.begin(), m.cells.end(),
-                                   [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer > 0; });
-    if (begun || !interrupted()) j["maps"].push_back(map_to_json(m));
+    if (begun(m) || !interrupted()) j["maps"].push_back(map_to_json(m));
   }
   j["environment"] = environment_to_json();
   return j;
@@ -211,7 +214,8 @@ std::string Extremes::table() const {
 
 std::string Extremes::summary() const {
   const bool drawn = std::filesystem::exists(settings_.folder / "extremes.html");
-  return fmt::format("{}{}, {} asked; {}{}", interrupted() ? "interrupted: " : "", plural_text(maps_.size(), "map"),
+  const auto maps = std::uint64_t(std::count_if(maps_.begin(), maps_.end(), begun));
+  return fmt::format("{}{}, {} asked; {}{}", interrupted() ? "interrupted: " : "", plural_text(maps, "map"),
                      plural_text(done_, "case"), (settings_.folder / "extremes.json").string(),
                      drawn ? " and extremes.html" : "; no page, for this build found no node-d3");
 }

@@ -78,6 +78,20 @@ TEST(Extremes, ShowThatFloatEndsBeforeDoubleAndThatCertifiedStaysRight) {
   EXPECT_EQ(wrong(map_of(report, "collide-certified-double", "scale")), 0u);
 }
 
+TEST(Extremes, WriteWhatTheyHaveWhenInterrupted) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  const std::string script = "'" NEARMISS_PROGRAM "' extremes --cases 100000 --out '" + out +
+                             "' & run=$!; while [ ! -e '" + out + "' ]; do sleep 0.05; done; sleep 0.3; " +
+                             "kill -INT $run; wait $run";
+  const Ran ran = run_program("bash", {"-m", "-c", script});
+  EXPECT_EQ(ran.exit_code, 2) << ran.out << ran.err;
+  const json report = json::parse(read_file(folder / "out/extremes.json"));
+  EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
+  EXPECT_EQ(report.at("state"), "interrupted");
+  EXPECT_TRUE(last_line(ran.out).starts_with("interrupted: ")) << ran.out;
+}
+
 TEST(Extremes, GiveTheSameMapsForTheSameSeed) {
   const TemporaryFolder one, two;
   const std::vector<std::string> words{"--query", "moving_point_plane", "--subject", "collide-fast-float", "--cases", "5"};
