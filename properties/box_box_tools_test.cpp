@@ -24,7 +24,7 @@ class BoxBoxTools : public testing::Test {
     // x, y, z, w: no turn, half a turn, quarter turns, a third of a turn about the diagonal.
     const std::vector<collide::Quaternion<T>> turns{{0, 0, 0, 1}, {1, 0, 0, 0}, {1, 0, 0, 1},
                                                     {0, 1, 0, 1}, {0, 0, 1, -1}, {1, 1, 1, 1}};
-    const std::vector<collide::Vec3<T>> centers{{0, 0, 0}, {3, 0, 0}, {4, 1, 0}, {-2, 5, 1}, {3, 3, -6}};
+    const std::vector<collide::Vec3<T>> centers{{0, 0, 0}, {3, 0, 0}, {4, 1, 0}, {-2, 5, 1}, {3, 3, -6}, {6, 0, -1}};
     for (const auto& turn1 : turns) {
       for (const auto& turn2 : turns) {
         for (const auto& center : centers) look(Box{{1, 0, -1}, {1, 2, 0}, turn1}, Box{center, {3, 1, 2}, turn2});
