@@ -11,7 +11,6 @@
 #include <bit>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -20,6 +19,7 @@
 #endif
 
 #include "benchmarks/contender.hpp"
+#include "benchmarks/machine.hpp"
 #include "nearmiss/benchmark_entries.hpp"  // written by CMake: enter_all()
 
 namespace nearmiss::benchmarks {
@@ -142,15 +142,6 @@ bool take_scene_count(int& argc, char** argv) {
     return true;
   }
   return true;
-}
-
-/// As the kernel names it; empty where it does not.
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "";
 }
 
 }  // namespace

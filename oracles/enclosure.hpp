@@ -48,6 +48,8 @@ struct Enclosure {
   int worst = -1;
   /// Upper bound of that distance: equal to `ulps` but for the width of the enclosure.
   double ulps_at_most = 0;
+  /// The largest such upper bound among all answers: no exact answer with the given yes or no is further away.
+  double ulps_at_most_of_any = 0;
 
   bool decided() const { return may_be_yes != may_be_no; }
 };

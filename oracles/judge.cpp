@@ -236,7 +236,8 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
 
   // The decision: interval first, exact where it cannot tell.
   Enclosure here = x.within(0);
-  if (!here.decided() || (detail == Detail::full)) {
+  const bool vague = !(here.ulps_at_most_of_any - here.ulps <= 0.1);
+  if (!here.decided() || detail == Detail::full || (detail == Detail::forward && vague)) {
     if (!here.decided()) f.decided_by = Stage::exact;
     here = x.exactly();
   }

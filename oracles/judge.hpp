@@ -65,6 +65,7 @@ struct Finding {
 /// How much to find out beyond the verdict.
 enum class Detail {
   verdict,  ///< as little work as the verdict takes; numbers only where they came for free
+  forward,  ///< the forward error too, to a tenth of an ulp
   full,     ///< exact forward error and the backward bound, for a report
 };
 

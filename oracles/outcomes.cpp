@@ -77,7 +77,7 @@ void Tally::count_everything() {
   result_.error.fill({-infinity, infinity});
   result_.mismatched = 0;
   result_.ulps = result_.absolute = 0;
-  result_.ulps_at_most = infinity;
+  result_.ulps_at_most = result_.ulps_at_most_of_any = infinity;
 }
 
 void Tally::count(bool yes, std::span<const Bounds> errors, const std::optional<Bounds>& turn) {
@@ -99,6 +99,7 @@ void Tally::count(bool yes, std::span<const Bounds> errors, const std::optional<
     }
   }
   if (mismatched == 0) result_.may_match = true;
+  result_.ulps_at_most_of_any = std::max(result_.ulps_at_most_of_any, ulps_at_most);
   const bool better = !any_ || std::popcount(mismatched) < std::popcount(result_.mismatched) ||
                       (std::popcount(mismatched) == std::popcount(result_.mismatched) && ulps < result_.ulps);
   if (better) {

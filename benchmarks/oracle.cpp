@@ -1,0 +1,173 @@
+/// Times the judge on every query: cases of collide's fast tier, whose answers are known before. Google
+/// Benchmark's own options apply; --cases=N sets how many cases each measurement has.
+///
+///   QUERY/judge/SCALAR       plain scenes: the decision, the contract and the proved backward bound
+///   QUERY/forward/SCALAR     the same and the forward error to a tenth of an ulp
+///   QUERY/degenerate/SCALAR  as judge, of the generator's cases that only the exact stage decides
+///   QUERY/worst/SCALAR       everything that a report has, of one case: the costliest of all these, of raw
+///                            numbers and of far-scaled ones
+///
+/// Counters: cases per second; exact, the share of the cases that the exact stage decided; found_in, how many
+/// of the generator's cases were looked through for the degenerate ones.
+#include <benchmark/benchmark.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+
+#include "benchmarks/machine.hpp"
+#include "corpus/generator.hpp"
+#include "corpus/raw_numbers.hpp"
+#include "impl/subject/subject.hpp"
+#include "oracles/judge.hpp"
+
+namespace nearmiss::benchmarks {
+
+namespace {
+
+std::size_t count = 1024;
+
+struct Asked {
+  Case question;
+  Answer answer;
+};
+
+struct Pairing {
+  const Query* query;
+  Scalar scalar;
+  const Offering* offering;
+
+  Asked ask(Case c) const { return {c, offering->answer(c.values)}; }
+  Finding judged(const Asked& a, Detail detail) const { return judge(a.question, a.answer, offering->contract, detail); }
+};
+
+bool decided_by_interval(const Case& c) {
+  const std::vector<double> still(c.values.size(), 0.0);
+  return c.query->oracle.interval(c.values, still, Answer{}, c.scalar).decided();
+}
+
+std::vector<Asked> plain_scenes(const Pairing& p) {
+  std::vector<Asked> all;
+  for (std::uint64_t i = 0; all.size() < count; ++i) {
+    Case c = generate(*p.query, p.scalar, 2024, i);
+    if (c.moves.empty()) all.push_back(p.ask(std::move(c)));
+  }
+  return all;
+}
+
+struct Degenerate {
+  std::vector<Asked> cases;
+  std::uint64_t found_in = 0;
+};
+
+/// At most a quarter of the count; fewer, or none, where they are rare.
+Degenerate degenerate(const Pairing& p) {
+  Degenerate found;
+  for (; found.found_in < 64 * count && found.cases.size() < std::max<std::size_t>(count / 4, 1); ++found.found_in) {
+    Case c = generate(*p.query, p.scalar, 2025, found.found_in);
+    if (!decided_by_interval(c)) found.cases.push_back(p.ask(std::move(c)));
+  }
+  return found;
+}
+
+double thread_cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
+}
+
+/// Of some repetitions the least: what slows one alone is the machine.
+Asked costliest(const Pairing& p) {
+  std::vector<Asked> all = degenerate(p).cases;
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(p.ask(raw_case(*p.query, p.scalar, i)));
+    all.push_back(p.ask(far_scaled_case(*p.query, p.scalar, 2026, i)));
+  }
+  double most = -1;
+  const Asked* worst = nullptr;
+  for (const Asked& a : all) {
+    double least = HUGE_VAL;
+    for (int repetition = 0; repetition < 3 && least > most; ++repetition) {
+      const double begin = thread_cpu_ms();
+      benchmark::DoNotOptimize(p.judged(a, Detail::full));
+      least = std::min(least, thread_cpu_ms() - begin);
+    }
+    if (least > most) most = least, worst = &a;
+  }
+  return *worst;
+}
+
+/// The share of the judged cases that the exact stage decided; empty where none was judged for its decision.
+void set_counters(benchmark::State& state, const Pairing& p, const std::vector<Asked>& cases, Detail detail) {
+  std::size_t exact = 0;
+  for (const Asked& a : cases) exact += p.judged(a, detail).decided_by == Stage::exact;
+  state.counters["exact"] = double(exact) / double(cases.size());
+  state.counters["cases"] = double(cases.size());
+  state.SetItemsProcessed(state.iterations());
+}
+
+void time_cases(benchmark::State& state, const Pairing& p, const std::vector<Asked>& cases, Detail detail) {
+  if (cases.empty()) return state.SkipWithError("none of the generator's cases");
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(p.judged(cases[i], detail));
+    if (++i == cases.size()) i = 0;
+  }
+  set_counters(state, p, cases, detail);
+}
+
+void enter(const Pairing& p, const char* way, void (*measure)(benchmark::State&, const Pairing&)) {
+  const std::string name = std::string(p.query->name) + "/" + way + "/" + std::string(name_of(p.scalar));
+  benchmark::RegisterBenchmark(name.c_str(), [p, measure](benchmark::State& s) { measure(s, p); });
+}
+
+void enter_all() {
+  for (const Query& q : catalogue()) {
+    for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+      const Subject* fast = find_subject("collide-fast-" + std::string(name_of(scalar)));
+      const Pairing p{&q, scalar, &fast->offering(q.name)};
+      enter(p, "judge", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::verdict); });
+      enter(p, "forward", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::forward); });
+      enter(p, "degenerate", [](benchmark::State& s, const Pairing& x) {
+        const Degenerate d = degenerate(x);
+        time_cases(s, x, d.cases, Detail::verdict);
+        s.counters["found_in"] = double(d.found_in);
+      });
+      enter(p, "worst", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, {costliest(x)}, Detail::full); });
+    }
+  }
+}
+
+/// Takes --cases=N out of the arguments; false where N is not positive.
+bool take_case_count(int& argc, char** argv) {
+  constexpr std::string_view option = "--cases=";
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (!argument.starts_with(option)) continue;
+    count = std::strtoull(argv[i] + option.size(), nullptr, 10);
+    std::copy(argv + i + 1, argv + argc, argv + i);
+    --argc;
+  }
+  return count > 0;
+}
+
+}  // namespace
+
+}  // namespace nearmiss::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace nearmiss::benchmarks;
+  if (!take_case_count(argc, argv)) {
+    std::cerr << "--cases must be a positive number\n";
+    return 2;
+  }
+  benchmark::AddCustomContext("flags", NEARMISS_BENCHMARK_FLAGS);
+  benchmark::AddCustomContext("processor", processor());
+  benchmark::AddCustomContext("cases", std::to_string(count));
+  enter_all();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
