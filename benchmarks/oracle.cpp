@@ -2,17 +2,19 @@
 /// Benchmark's own options apply; --cases=N sets how many cases each measurement has.
 ///
 ///   QUERY/judge/SCALAR       plain scenes: the decision, the contract and the proved backward bound
-///   QUERY/forward/SCALAR     the same and the forward error to a tenth of an ulp
+///   QUERY/wrong/SCALAR       the same, each answer off by a part in 4096, or else with the opposite decision
+///   QUERY/forward/SCALAR     as judge, and the forward error to a tenth of an ulp
 ///   QUERY/degenerate/SCALAR  as judge, of the generator's cases that only the exact stage decides
 ///   QUERY/worst/SCALAR       everything that a report has, of one case: the costliest of all these, of raw
 ///                            numbers and of far-scaled ones
+///   QUERY/stages/SCALAR      as judge, of all that the generator draws
 ///
-/// Counters: cases per second; exact, the share of the cases that the exact stage decided; found_in, how many
-/// of the generator's cases were looked through for the degenerate ones.
+/// Counters: exact, the share of the cases that the exact stage decided; cases, how many there were.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 
@@ -56,17 +58,35 @@ std::vector<Asked> plain_scenes(const Pairing& p) {
   return all;
 }
 
-struct Degenerate {
-  std::vector<Asked> cases;
-  std::uint64_t found_in = 0;
-};
+std::vector<Asked> all_sorts(const Pairing& p) {
+  std::vector<Asked> all;
+  for (std::uint64_t i = 0; i < count; ++i) all.push_back(p.ask(generate(*p.query, p.scalar, 2024, i)));
+  return all;
+}
+
+/// The plain scenes with answers that are all wrong: a number that is given and not zero is a little off, and
+/// where there is none the decision.
+std::vector<Asked> with_wrong_answers(const Pairing& p) {
+  std::vector<Asked> all = plain_scenes(p);
+  for (Asked& a : all) {
+    bool off = false;
+    for (std::size_t i = 0; i < p.query->outputs.size(); ++i) {
+      const Role role = p.query->outputs[i].role;
+      if (role == Role::flag || role == Role::index || role == Role::normal || !std::isfinite(a.answer.values[i])) continue;
+      off = off || a.answer.values[i] != 0;
+      a.answer.values[i] *= 1 + 0x1p-12;
+    }
+    if (!off) a.answer.yes = !a.answer.yes;
+  }
+  return all;
+}
 
 /// At most a quarter of the count; fewer, or none, where they are rare.
-Degenerate degenerate(const Pairing& p) {
-  Degenerate found;
-  for (; found.found_in < 64 * count && found.cases.size() < std::max<std::size_t>(count / 4, 1); ++found.found_in) {
-    Case c = generate(*p.query, p.scalar, 2025, found.found_in);
-    if (!decided_by_interval(c)) found.cases.push_back(p.ask(std::move(c)));
+std::vector<Asked> degenerate(const Pairing& p) {
+  std::vector<Asked> found;
+  for (std::uint64_t i = 0; i < 64 * count && found.size() < std::max<std::size_t>(count / 4, 1); ++i) {
+    Case c = generate(*p.query, p.scalar, 2025, i);
+    if (!decided_by_interval(c)) found.push_back(p.ask(std::move(c)));
   }
   return found;
 }
@@ -79,7 +99,7 @@ double thread_cpu_ms() {
 
 /// Of some repetitions the least: what slows one alone is the machine.
 Asked costliest(const Pairing& p) {
-  std::vector<Asked> all = degenerate(p).cases;
+  std::vector<Asked> all = degenerate(p);
   for (std::size_t i = 0; i < count; ++i) {
     all.push_back(p.ask(raw_case(*p.query, p.scalar, i)));
     all.push_back(p.ask(far_scaled_case(*p.query, p.scalar, 2026, i)));
@@ -98,7 +118,6 @@ Asked costliest(const Pairing& p) {
   return *worst;
 }
 
-/// The share of the judged cases that the exact stage decided; empty where none was judged for its decision.
 void set_counters(benchmark::State& state, const Pairing& p, const std::vector<Asked>& cases, Detail detail) {
   std::size_t exact = 0;
   for (const Asked& a : cases) exact += p.judged(a, detail).decided_by == Stage::exact;
@@ -128,13 +147,13 @@ void enter_all() {
       const Subject* fast = find_subject("collide-fast-" + std::string(name_of(scalar)));
       const Pairing p{&q, scalar, &fast->offering(q.name)};
       enter(p, "judge", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::verdict); });
-      enter(p, "forward", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::forward); });
-      enter(p, "degenerate", [](benchmark::State& s, const Pairing& x) {
-        const Degenerate d = degenerate(x);
-        time_cases(s, x, d.cases, Detail::verdict);
-        s.counters["found_in"] = double(d.found_in);
+      enter(p, "wrong", [](benchmark::State& s, const Pairing& x) {
+        time_cases(s, x, with_wrong_answers(x), Detail::verdict);
       });
+      enter(p, "forward", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::forward); });
+      enter(p, "degenerate", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, degenerate(x), Detail::verdict); });
       enter(p, "worst", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, {costliest(x)}, Detail::full); });
+      enter(p, "stages", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, all_sorts(x), Detail::verdict); });
     }
   }
 }

@@ -10,7 +10,9 @@
 #include <CGAL/Sqrt_extension.h>
 
 #include <array>
+#include <memory>
 #include <stdexcept>
+#include <variant>
 
 #include <collide/vec3.hpp>
 
@@ -19,17 +21,79 @@ namespace nearmiss::oracle {
 /// Bounds rounded outward; the rounding mode must be upward (CGAL's protector).
 using Interval = CGAL::Interval_nt<false>;
 using Rational = CGAL::Gmpq;
-/// a + b sqrt(c) with rational a, b, c. Numbers over different roots can be compared, not added.
-using Exact = CGAL::Sqrt_extension<Rational, Rational, CGAL::Tag_true, CGAL::Tag_true>;
+
+/// a + b sqrt(c) with rational a, b, c: CGAL's Sqrt_extension where there is a root, a rational alone where
+/// there is none, as in most operations. Numbers over different roots can be compared, not added.
+class Exact {
+ public:
+  Exact() = default;
+  Exact(int x) : value_(Rational(x)) {}
+  explicit Exact(double x) : value_(Rational(x)) {}
+  explicit Exact(Rational x) : value_(std::move(x)) {}
+  /// a + b sqrt(c), with c not negative.
+  Exact(const Rational& a, const Rational& b, const Rational& c) : Exact(Extended(a, b, c)) {}
+
+  bool is_extended() const { return value_.index() == 1; }
+  const Rational& a0() const { return is_extended() ? extension()->a0() : rational(); }
+  const Rational& a1() const { return extension()->a1(); }      ///< never zero
+  const Rational& root() const { return extension()->root(); }
+
+  CGAL::Sign sign() const { return is_extended() ? extension()->sign() : CGAL::sign(rational()); }
+  CGAL::Comparison_result compare(const Exact& y) const {
+    if (is_extended() || y.is_extended()) return extended().compare(y.extended(), false);
+    return CGAL::compare(rational(), y.rational());
+  }
+
+  friend Exact operator-(const Exact& x) {
+    return x.is_extended() ? Exact(-*x.extension()) : Exact(Rational(-x.rational()));
+  }
+  friend Exact operator+(const Exact& x, const Exact& y) {
+    if (plain(x, y)) return Exact(Rational(x.rational() + y.rational()));
+    return Exact(x.extended() + y.extended());
+  }
+  friend Exact operator-(const Exact& x, const Exact& y) {
+    if (plain(x, y)) return Exact(Rational(x.rational() - y.rational()));
+    return Exact(x.extended() - y.extended());
+  }
+  friend Exact operator*(const Exact& x, const Exact& y) {
+    if (plain(x, y)) return Exact(Rational(x.rational() * y.rational()));
+    return Exact(x.extended() * y.extended());
+  }
+  friend Exact operator/(const Exact& x, const Exact& y) {
+    if (plain(x, y)) return Exact(Rational(x.rational() / y.rational()));
+    return Exact(x.extended() / y.extended());
+  }
+
+ private:
+  using Extended = CGAL::Sqrt_extension<Rational, Rational, CGAL::Tag_true, CGAL::Tag_true>;
+
+  explicit Exact(const Extended& x) {
+    if (x.is_extended() && x.a1() != 0) {
+      value_ = std::make_shared<const Extended>(x);
+    } else {
+      value_ = x.a0();
+    }
+  }
+  const Rational& rational() const { return *std::get_if<0>(&value_); }
+  const std::shared_ptr<const Extended>& extension() const { return *std::get_if<1>(&value_); }
+  Extended extended() const { return is_extended() ? *extension() : Extended(rational()); }
+  /// Neither has a root. Two different roots have no sum within a + b sqrt(c).
+  static bool plain(const Exact& x, const Exact& y) {
+    if (x.is_extended() && y.is_extended() && x.root() != y.root()) throw std::logic_error("oracle: two square roots");
+    return !x.is_extended() && !y.is_extended();
+  }
+
+  std::variant<Rational, std::shared_ptr<const Extended>> value_;
+};
 
 // Signs. "may be" is the only question an algorithm can ask. Written so that NaN means "anything".
 
 inline bool may_be_negative(const Interval& x) { return !(x.inf() >= 0); }
 inline bool may_be_positive(const Interval& x) { return !(x.sup() <= 0); }
 inline bool may_be_zero(const Interval& x) { return !(x.inf() > 0) && !(x.sup() < 0); }
-inline bool may_be_negative(const Exact& x) { return CGAL::sign(x) == CGAL::NEGATIVE; }
-inline bool may_be_positive(const Exact& x) { return CGAL::sign(x) == CGAL::POSITIVE; }
-inline bool may_be_zero(const Exact& x) { return CGAL::sign(x) == CGAL::ZERO; }
+inline bool may_be_negative(const Exact& x) { return x.sign() == CGAL::NEGATIVE; }
+inline bool may_be_positive(const Exact& x) { return x.sign() == CGAL::POSITIVE; }
+inline bool may_be_zero(const Exact& x) { return x.sign() == CGAL::ZERO; }
 template <class N>
 bool may_be_at_most_zero(const N& x) { return may_be_negative(x) || may_be_zero(x); }
 template <class N>
@@ -39,8 +103,8 @@ bool surely_zero(const N& x) { return !may_be_negative(x) && !may_be_positive(x)
 
 inline bool may_be_less(const Interval& a, const Interval& b) { return !(a.inf() >= b.sup()); }
 inline bool may_be_at_most(const Interval& a, const Interval& b) { return !(a.inf() > b.sup()); }
-inline bool may_be_less(const Exact& a, const Exact& b) { return a.compare(b, false) == CGAL::SMALLER; }
-inline bool may_be_at_most(const Exact& a, const Exact& b) { return a.compare(b, false) != CGAL::LARGER; }
+inline bool may_be_less(const Exact& a, const Exact& b) { return a.compare(b) == CGAL::SMALLER; }
+inline bool may_be_at_most(const Exact& a, const Exact& b) { return a.compare(b) != CGAL::LARGER; }
 
 // Within a branch that assumes a sign, the interval loses the part that contradicts it.
 
@@ -85,12 +149,12 @@ inline bool narrow(Exact&, const Exact&) { return true; }
 inline Interval square(const Interval& x) { return CGAL::square(x); }
 inline Exact square(const Exact& x) { return x * x; }
 inline Interval magnitude(const Interval& x) { return CGAL::abs(x); }
-inline Exact magnitude(const Exact& x) { return CGAL::sign(x) == CGAL::NEGATIVE ? Exact(-x) : x; }
+inline Exact magnitude(const Exact& x) { return x.sign() == CGAL::NEGATIVE ? Exact(-x) : x; }
 
 /// The square root of a number that is not negative in the branch at hand.
 inline Interval root(const Interval& x) { return CGAL::sqrt(assume_at_least_zero(x)); }
 inline Exact root(const Exact& x) {
-  if (x.is_extended() && x.a1() != 0) throw std::logic_error("oracle: a square root of a square root");
+  if (x.is_extended()) throw std::logic_error("oracle: a square root of a square root");
   if (x.a0() == 0) return Exact(0);
   return Exact(Rational(0), Rational(1), x.a0());
 }

@@ -13,26 +13,30 @@ namespace nearmiss::oracle {
 
 namespace {
 
-/// A number of 128 bits; every operation below rounds to nearest, with a relative error of 2^-128.
+/// A number of 256 bits; every operation below rounds to nearest, with a relative error of 2^-256.
 class Wide {
  public:
-  Wide() { mpfr_init2(value_, 128); }
+  Wide() { mpfr_init2(value_, 256); }
   explicit Wide(const Rational& q) : Wide() { mpfr_set_q(value_, q.mpq(), MPFR_RNDN); }
   ~Wide() { mpfr_clear(value_); }
   Wide(const Wide&) = delete;
   Wide& operator=(const Wide&) = delete;
 
   mpfr_t& get() { return value_; }
-  /// Doubles around the number, for at most ten operations since its exact inputs.
-  Bounds around() const {
+  const mpfr_t& get() const { return value_; }
+  /// Doubles around the number, which at most ten operations on numbers up to `largest` made of exact ones.
+  Bounds around(const Wide& largest) const {
     Wide slack;
-    mpfr_div_2ui(slack.value_, value_, 120, MPFR_RNDN);
-    mpfr_abs(slack.value_, slack.value_, MPFR_RNDN);
+    mpfr_div_2ui(slack.value_, largest.value_, 250, MPFR_RNDU);
+    mpfr_abs(slack.value_, slack.value_, MPFR_RNDU);
     Wide end;
     mpfr_sub(end.value_, value_, slack.value_, MPFR_RNDD);
     const double low = mpfr_get_d(end.value_, MPFR_RNDD);
     mpfr_add(end.value_, value_, slack.value_, MPFR_RNDU);
     return {low, mpfr_get_d(end.value_, MPFR_RNDU)};
+  }
+  bool is_at_least(const Wide& x, unsigned long over_two_to) const {
+    return mpfr_zero_p(value_) == 0 && mpfr_get_exp(value_) + mpfr_exp_t(over_two_to) > mpfr_get_exp(x.value_);
   }
 
  private:
@@ -53,22 +57,25 @@ double unit_of(const Answer& about, const Layout::Part& part, std::span<const Bo
 }  // namespace
 
 Bounds bounds(const Exact& x) {
-  if (!x.is_extended() || x.a1() == 0) {
+  if (!x.is_extended()) {
     const auto [low, high] = CGAL::to_interval(x.a0());
     return {low, high};
   }
-  Wide a(x.a0()), b(x.a1()), value(x.root());
+  Wide a(x.a0()), b(x.a1()), value(x.root()), sum;
   mpfr_sqrt(value.get(), value.get(), MPFR_RNDN);
   mpfr_mul(value.get(), value.get(), b.get(), MPFR_RNDN);
-  if (CGAL::sign(x.a0()) * CGAL::sign(x.a1()) != CGAL::NEGATIVE) {
-    mpfr_add(value.get(), a.get(), value.get(), MPFR_RNDN);
-    return value.around();
+  mpfr_add(sum.get(), a.get(), value.get(), MPFR_RNDN);
+  if (CGAL::sign(x.a0()) * CGAL::sign(x.a1()) != CGAL::NEGATIVE) return sum.around(sum);
+  constexpr unsigned long bits_to_lose = 100;  // of 250
+  if (sum.is_at_least(a, bits_to_lose)) {
+    const Wide& larger = mpfr_cmpabs(a.get(), value.get()) > 0 ? a : value;
+    return sum.around(larger);
   }
-  // Opposite signs cancel: divide the exact norm by the conjugate, whose terms add up.
+  // What nearly cancels: divide the exact norm by the conjugate, whose terms add up.
   Wide norm(Rational(x.a0() * x.a0() - x.a1() * x.a1() * x.root()));
   mpfr_sub(value.get(), a.get(), value.get(), MPFR_RNDN);
   mpfr_div(value.get(), norm.get(), value.get(), MPFR_RNDN);
-  return value.around();
+  return value.around(value);
 }
 
 void Tally::count_everything() {

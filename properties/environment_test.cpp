@@ -3,6 +3,8 @@
 
 #include <cfenv>
 
+#include "corpus/generator.hpp"
+#include "impl/subject/subject.hpp"
 #include "oracles/environment.hpp"
 #include "oracles/judge.hpp"
 
@@ -37,6 +39,49 @@ TEST_P(RoundingMode, TheJudgeSaysTheSameAndKeepsTheMode) {
   EXPECT_EQ(agrees.verdict, Verdict::agrees);
   EXPECT_EQ(differs.verdict, Verdict::violates_contract);
   EXPECT_EQ(after, GetParam());
+}
+
+bool same(const Bounds& a, const Bounds& b) { return (a.empty() && b.empty()) || (a.low == b.low && a.high == b.high); }
+
+/// Each query's oracle, both stages: the mode that it is entered in changes no bit.
+TEST_P(RoundingMode, EveryQueryIsJudgedTheSame) {
+  constexpr std::uint64_t cases = 40;
+  int by_exact = 0, wrong = 0;
+  for (const Query& query : catalogue()) {
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      std::fesetround(FE_TONEAREST);
+      const Case c = generate(query, i % 2 ? Scalar::float32 : Scalar::float64, 14, i);
+      const Subject& fast = *find_subject(i % 2 ? "collide-fast-float" : "collide-fast-double");
+      const Offering& offering = fast.offering(query.name);
+      Answer answer = offering.answer(c.values);
+      if (i % 4 > 1) answer.yes = !answer.yes;
+      const Finding f = judge(c, answer, offering.contract, Detail::full);
+      const Truth t = truth_of(c);
+      std::fesetround(GetParam());
+      const Finding g = judge(c, answer, offering.contract, Detail::full);
+      const Truth u = truth_of(c);
+      const int after = std::fegetround();
+      std::fesetround(FE_TONEAREST);
+      ASSERT_EQ(after, GetParam());
+      ASSERT_TRUE(f.verdict == g.verdict && f.disagreement == g.disagreement && f.truth_yes == g.truth_yes &&
+                  f.decided_by == g.decided_by && f.clause == g.clause && f.worst == g.worst &&
+                  f.forward_ulps == g.forward_ulps && f.forward_absolute == g.forward_absolute &&
+                  f.unit_error == g.unit_error && f.backward.has_value() == g.backward.has_value() &&
+                  (!f.backward || f.backward->above == g.backward->above))
+          << query.name << ", case " << i;
+      ASSERT_TRUE(t.yes == u.yes && t.margin_at_least == u.margin_at_least && t.alternatives.size() == u.alternatives.size())
+          << query.name << ", case " << i;
+      for (std::size_t k = 0; k < t.alternatives.size(); ++k) {
+        for (std::size_t n = 0; n < query.outputs.size(); ++n) {
+          ASSERT_TRUE(same(t.alternatives[k].values[n], u.alternatives[k].values[n])) << query.name << ", case " << i;
+        }
+      }
+      by_exact += f.decided_by == Stage::exact;
+      wrong += f.backward.has_value();
+    }
+  }
+  EXPECT_GT(by_exact, 0);
+  EXPECT_GT(wrong, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, RoundingMode, testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));

@@ -253,6 +253,11 @@ void Run::write_index(RunState state) {
       if (const auto t = tallies_.find({q, s}); t != tallies_.end()) j["tallies"].push_back(tally_to_json(t->second));
     }
   }
+  j["stages"] = Json::array();
+  for (const Query* q : settings_.queries) {
+    const Stages stages = stages_of(*q);
+    j["stages"].push_back({{"query", q->name}, {"interval", stages.interval}, {"exact", stages.exact}});
+  }
   j["not_offered"] = Json::array();
   for (const Query* q : settings_.queries) {
     for (const Subject* s : settings_.subjects) {
@@ -337,7 +342,33 @@ std::string Run::table() const {
       rows.push_back(table_row(found->second));
     }
   }
-  return table_text(rows, "", 1);
+  return table_text(rows, "", 1) + stages_text();
+}
+
+Run::Stages Run::stages_of(const Query& query) const {
+  Stages stages;
+  for (const Subject* s : settings_.subjects) {
+    const auto found = tallies_.find({&query, s});
+    if (found == tallies_.end()) continue;
+    stages.interval += found->second.decided_by_interval;
+    stages.exact += found->second.decided_by_exact;
+  }
+  return stages;
+}
+
+std::string Run::stages_text() const {
+  Stages all;
+  const Query* most = nullptr;
+  for (const Query* q : settings_.queries) {
+    const Stages stages = stages_of(*q);
+    all.interval += stages.interval;
+    all.exact += stages.exact;
+    if (most == nullptr || stages.exact_share() > stages_of(*most).exact_share()) most = q;
+  }
+  if (all.exact == 0) return "\nIntervals decided every case.\n";
+  return fmt::format("\nThe exact stage decided {}, most often of {}: {}; intervals decided the others.\n",
+                     percent_text(all.exact, all.interval + all.exact), most->name,
+                     percent_text(stages_of(*most).exact, stages_of(*most).interval + stages_of(*most).exact));
 }
 
 }  // namespace nearmiss

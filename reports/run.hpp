@@ -74,7 +74,7 @@ class Run {
   /// Violations and breakages.
   std::uint64_t bad() const;
   std::uint64_t cases() const;
-  /// A table for people: one row for each query and subject.
+  /// A table for people: one row for each query and subject, and how often the exact stage had to decide.
   std::string table() const;
   /// Headline and file of the worst reports, one for each query, subject and fault; empty without any.
   std::string worst_findings() const;
@@ -90,6 +90,13 @@ class Run {
     std::string file, id, query, subject, verdict, disagreement, headline;
     std::optional<double> above;
   };
+  /// How often each of the oracle's stages decided, of all subjects together.
+  struct Stages {
+    std::uint64_t interval = 0, exact = 0;
+    double exact_share() const { return exact == 0 ? 0 : double(exact) / double(interval + exact); }
+  };
+  Stages stages_of(const Query& query) const;
+  std::string stages_text() const;
   Tally& tally(const Query& query, const Subject& subject);
   std::vector<const Subject*> asked(const Query& query, Scalar scalar) const;
   void take(const Case& question, const Subject& subject, const Answer& answer, const Finding& f);

@@ -122,6 +122,21 @@ TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
     for (const auto& v : t["verdicts"].items()) sum += v.value().get<std::uint64_t>();
     EXPECT_EQ(sum, 700u);
   }
+  EXPECT_EQ(index["stages"].size(), catalogue().size());
+  std::uint64_t exact = 0;
+  for (const json& stages : index["stages"]) {
+    std::uint64_t interval_of_subjects = 0, exact_of_subjects = 0;
+    for (const json& t : index["tallies"]) {
+      if (t["query"] != stages["query"]) continue;
+      interval_of_subjects += t["decided_by"]["interval"].get<std::uint64_t>();
+      exact_of_subjects += t["decided_by"]["exact"].get<std::uint64_t>();
+    }
+    EXPECT_EQ(stages["interval"], interval_of_subjects);
+    EXPECT_EQ(stages["exact"], exact_of_subjects);
+    exact += exact_of_subjects;
+  }
+  EXPECT_GT(exact, 0u);
+  EXPECT_NE(ran.out.find("The exact stage decided"), std::string::npos);
   EXPECT_EQ(index["summary"].get<std::string>().substr(0, 10), last_line(ran.out).substr(0, 10));
 }
 
