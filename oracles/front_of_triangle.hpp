@@ -1,6 +1,7 @@
 /// A moving point and the front of a triangle. Shared by the oracles of triangles and rectangles.
 #pragma once
 
+#include "oracles/residual.hpp"
 #include "oracles/times.hpp"
 
 namespace nearmiss::oracle {
@@ -37,6 +38,9 @@ FrontHit<N> front_hit(const Vector<N>& p, const Vector<N>& v, const std::array<V
   N time = time_across(height, approach);
   Vector<N> place;
   if (!narrow_to_range(time, p, v, low, high) || !place_in_range(time, p, v, low, high, place)) return hit;
+  if constexpr (is_enclosure<N>) {
+    if (!may_be_zero(approach) && !narrow_to_crossing(p, v, corner, n, time, place)) return hit;
+  }
   hit.may_hit = true;
   hit.may_miss = may_miss;
   hit.impact = {time, answer_vector(place), answer_vector(n)};

@@ -4,6 +4,7 @@
 
 #include "oracles/point_and_box.hpp"
 #include "oracles/ray_and_box.hpp"
+#include "oracles/residual.hpp"
 
 namespace nearmiss::oracle {
 
@@ -13,9 +14,16 @@ void moving_point_box(const collide::inputs::moving_point_box<N>& q, Out& out) {
   const Vector<N> origin = vector(q.box.center), half = vector(q.box.half);
   const RayAndBox<N> r{into(axes, minus(vector(q.point), origin)), into(axes, vector(q.velocity)), negated(half), half};
   const auto contact = [&](const N& time, const Vector<N>& place) {
-    const auto location = answer_vector(plus(origin, out_of(axes, place)));
+    Vector<N> location = plus(origin, out_of(axes, place));
+    if constexpr (is_enclosure<N>) {  // where the point has moved, with no box in it
+      const Vector<N> point = vector(q.point), velocity = vector(q.velocity);
+      if (is_moderate(time) && is_moderate(point) && is_moderate(velocity)) {
+        const Vector<N> moved = plus(point, times(velocity, time));
+        for (int i = 0; i < 3; ++i) location[i] = meet(location[i], moved[i]);
+      }
+    }
     for_each_possible_region(place, half, [&](const Sides& sides) {
-      out.yes({time, location, {}}, normal_cone(axes, sides));
+      out.yes({time, answer_vector(location), {}}, normal_cone(axes, sides));
     });
   };
   if (may_start_in(r)) {

@@ -4,9 +4,11 @@
 #include <collide/moving_sphere_box.hpp>
 
 #include <cmath>
+#include <optional>
 
 #include "oracles/first_contact.hpp"
 #include "oracles/point_and_box.hpp"
+#include "oracles/residual.hpp"
 
 namespace nearmiss::oracle {
 
@@ -18,6 +20,7 @@ struct Motion {
   Vector<N> origin;             // the box's center, in the world
   Vector<N> start, step, half;  // of the sphere's center, in the box's frame
   N radius;
+  Vector<N> from, velocity;     // the same start and step, in the world
 
   Vector<N> at(const N& time) const { return plus(start, times(step, time)); }
   Vector<N> to_world(const Vector<N>& local) const { return plus(origin, out_of(axes, local)); }
@@ -29,6 +32,44 @@ struct Contact {
   collide::Impact<N> impact;
   Normals<N> normals;
 };
+
+/// The center at that time in the box's frame, turned only after it has moved; empty near overflow.
+template <class N>
+std::optional<Vector<N>> turned_last(const Motion<N>& m, const N& time) {
+  if constexpr (is_enclosure<N>) {
+    const bool moderate = is_moderate(m.from) && is_moderate(m.velocity) && is_moderate(m.half) && is_moderate(m.radius);
+    if (moderate && is_moderate(time)) return into(m.axes, plus(m.from, times(m.velocity, time)));
+  }
+  return std::nullopt;
+}
+
+/// Narrows the time about a fixed one: by the distance from the region's feature that is left there, over
+/// its slope. False where nothing is left.
+template <class N>
+bool narrow_about_middle(const Motion<N>& m, const Sides& sides, N& time) {
+  if constexpr (is_enclosure<N>) {
+    if (!is_moderate(time)) return true;
+    const N t0(near_middle(time));
+    const auto at_t0 = turned_last(m, t0), at_any = turned_last(m, join(time, t0));
+    if (!at_t0 || !at_any) return true;
+    N left(0), slope(0);
+    for (int i = 0; i < 3; ++i) {
+      if (sides[i] == 0) continue;
+      const N face = sides[i] > 0 ? m.half[i] : N(-m.half[i]);
+      if (beyond(sides) == 1) {
+        left = N(sides[i]) * ((*at_t0)[i] - face) - m.radius;
+        slope = N(sides[i]) * m.step[i];
+      } else {
+        left = left + square(N((*at_t0)[i] - face));
+        slope = slope + N(2) * m.step[i] * ((*at_any)[i] - face);
+      }
+    }
+    if (beyond(sides) > 1) left = left - square(m.radius);
+    if (may_be_zero(slope) || !is_moderate(left)) return true;
+    return narrow(time, N(t0 - left / slope));
+  }
+  return true;
+}
 
 /// Appends the earlier root of the region's quadratic, where the center is then in that region; `w`
 /// encloses the times at which it is.
@@ -58,11 +99,14 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
   }
   if (!may_be_at_least_zero(time)) return;
   time = assume_at_least_zero(time);
+  if (!narrow_about_middle(m, sides, time)) return;
   Vector<N> contact = m.at(time), normal{N(0), N(0), N(0)};
+  const std::optional<Vector<N>> tighter = turned_last(m, time);
+  for (int i = 0; tighter && i < 3; ++i) contact[i] = meet(contact[i], (*tighter)[i]);
   for (int i = 0; i < 3; ++i) {
     if (!may_be_on_side(contact[i], m.half[i], sides[i])) return;
     if (sides[i] == 0) continue;
-    const N away = e[i] + v[i] * time;
+    const N away = meet(N(e[i] + v[i] * time), N(contact[i] - (sides[i] > 0 ? m.half[i] : N(-m.half[i]))));
     normal[i] = sides[i] > 0 ? N(assume_at_least_zero(away)) : N(assume_at_most_zero(away));
     contact[i] = sides[i] > 0 ? m.half[i] : N(-m.half[i]);
   }
@@ -189,7 +233,8 @@ void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out)
   const auto axes = rotation_axes<N>(q.box.orientation);
   const Vector<N> origin = vector(q.box.center);
   const Motion<N> m{axes, origin, into(axes, minus(vector(q.sphere.center), origin)),
-                    into(axes, vector(q.velocity)), vector(q.box.half), q.sphere.radius};
+                    into(axes, vector(q.velocity)), vector(q.box.half), q.sphere.radius,
+                    minus(vector(q.sphere.center), origin), vector(q.velocity)};
   if (!start(m, out)) return;
 
   Window near;  // the sphere's shadow on each axis reaches the box's

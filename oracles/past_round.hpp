@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "oracles/residual.hpp"
 #include "oracles/times.hpp"
 
 namespace nearmiss::oracle {
@@ -117,7 +118,14 @@ struct RoundPast {
       }
     };
     const Vector<N> normal{unit(c.away[0]), unit(c.away[1]), unit(c.away[2])};
-    impact.location = answer_vector(plus(c.on_axis, times(normal, m.radius)));
+    Vector<N> location = plus(c.on_axis, times(normal, m.radius));
+    if constexpr (is_enclosure<N>) {  // as seen from the moving center
+      if (c.time.sup() > 0 && is_moderate(c.time) && is_moderate(m.at) && is_moderate(m.step)) {
+        const Vector<N> seen = minus(plus(m.at, times(m.step, c.time)), times(normal, m.own));
+        for (int i = 0; i < 3; ++i) location[i] = meet(location[i], seen[i]);
+      }
+    }
+    impact.location = answer_vector(location);
     impact.normal = answer_vector(normal);
     out.yes(impact, may_be_zero(distance) ? Normals<N>::any() : Normals<N>::as_given());
   }
@@ -211,7 +219,27 @@ struct RoundPast {
     const Vector<N> from_second = minus(center, d);
     if (!may_belong_to_tube(center, from_second)) return;
     const N s = share(center);
-    roots.push_back({time, plus(m.end[0], times(d, s)), within_reach(minus(center, times(d, s))), Part::tube});
+    RoundContact<N> c{time, plus(m.end[0], times(d, s)), within_reach(minus(center, times(d, s))), Part::tube};
+    if constexpr (is_enclosure<N>) {
+      if (!may_be_zero(length2) && !narrow_about_middle(c, s)) return;
+    }
+    roots.push_back(c);
+  }
+
+  /// The same about a fixed time and a fixed share of the second end; false where nothing is left.
+  bool narrow_about_middle(RoundContact<N>& c, const N& s) const {
+    if constexpr (is_enclosure<N>) {
+      if (!is_moderate(m.at) || !is_moderate(m.step) || !is_moderate(m.end[0]) || !is_moderate(m.end[1])) return true;
+      if (!is_moderate(c.time) || !is_moderate(N(N(1) / length2))) return true;
+      const N s0(near_middle(s));
+      const Vector<N> middle = plus(times(m.end[0], N(N(1) - s0)), times(m.end[1], s0));
+      const Vector<N> from = minus(m.at, middle);
+      if (!narrow_to_reach(from, m.step, &d, length2, m.reach(), c.time)) return false;
+      const Vector<N> center = plus(from, times(m.step, c.time));
+      const Vector<N> on = times(d, N(inner(center, d) / length2));
+      return narrow(c.on_axis, plus(middle, on)) && narrow(c.away, minus(center, on));
+    }
+    return true;
   }
 
   /// `from` moved on; unknown where the time has no end.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "oracles/first_contact.hpp"
+#include "oracles/residual.hpp"
 
 namespace nearmiss::oracle {
 
@@ -297,13 +298,14 @@ class SphereAndTriangle {
   /// |(w x e) x (v x e)|^2 = |e|^2 (e . (w x v))^2.
   N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(inner(e_[i], outer(w, v_))); }
 
-  void add_root(const N& time, const Place& place, const Vector<N>& x, bool surely) {
+  /// `away` leads from the place to the center.
+  void add_root(const N& time, const Place& place, const Vector<N>& away, bool surely) {
     Contact c{{time, answer_vector(place.point), {}, {}}};
     set_weights(c, place.weights);
     if (may_be_zero(r_)) {
       c.normals = place.cone;
     } else {
-      Vector<N> unit = times(minus(x, place.point), N(N(1) / r_));
+      Vector<N> unit = times(away, N(N(1) / r_));
       for (N& y : unit) y = assume_within(y, -1.0, 1.0);
       c.impact.normal = answer_vector(unit);
     }
@@ -324,8 +326,12 @@ class SphereAndTriangle {
     if (window.empty()) return;
     const auto time = root_time(w, v_, square(r_), moment2(w), window, surely);
     if (!time) return;
-    const Vector<N> x = at(*time);
-    if (may_be_at_vertex(i, x)) add_root(*time, vertex(i), x, false);
+    N narrowed = *time;
+    if constexpr (is_enclosure<N>) {
+      if (!narrow_to_reach(w, v_, nullptr, N(0), r_, narrowed)) return;
+    }
+    const Vector<N> x = at(narrowed);
+    if (may_be_at_vertex(i, x)) add_root(narrowed, vertex(i), minus(x, corner_[i]), false);
   }
 
   void edge_root(int i) {
@@ -343,7 +349,66 @@ class SphereAndTriangle {
     const N along = inner(minus(x, corner_[i]), e_[i]);
     const bool between = !may_be_negative(along) && !may_be_positive(N(along - e2_[i]));
     if (surely && between) surely_by_ = std::min(surely_by_, bounds(*time).high);
-    if (may_be_at_edge(i, x)) add_root(*time, on_edge(i, minus(x, corner_[i])), x, false);
+    if (!may_be_at_edge(i, x)) return;
+    Place place = on_edge(i, minus(x, corner_[i]));
+    Vector<N> away = minus(x, place.point);
+    N narrowed = *time;
+    if (edge_about_middle(i, narrowed, place, away)) add_root(narrowed, place, away, false);
+  }
+
+  // The same contacts about a fixed time and a fixed place on the feature; false where nothing is left.
+
+  bool all_moderate(const N& time) const {
+    if constexpr (is_enclosure<N>) {
+      bool all = is_moderate(p_) && is_moderate(v_) && is_moderate(time) && is_moderate(r_);
+      for (const Vector<N>& c : corner_) all = all && is_moderate(c);
+      return all;
+    } else {
+      return true;
+    }
+  }
+
+  bool edge_about_middle(int i, N& time, Place& place, Vector<N>& away) const {
+    if constexpr (is_enclosure<N>) {
+      const int j = (i + 1) % 3;
+      if (!all_moderate(time) || !is_moderate(N(N(1) / e2_[i]))) return true;
+      const N s0(near_middle(place.weights[j]));
+      const Vector<N> middle = plus(times(corner_[i], N(N(1) - s0)), times(corner_[j], s0)), from = minus(p_, middle);
+      if (!narrow_to_reach(from, v_, &e_[i], e2_[i], r_, time)) return false;
+      const Vector<N> center = plus(from, times(v_, time));
+      const N further = inner(center, e_[i]) / e2_[i];
+      const Vector<N> on = times(e_[i], further);
+      return narrow(place.point, plus(middle, on)) && narrow(away, minus(center, on)) &&
+             narrow(place.weights[j], N(s0 + further)) && narrow(place.weights[i], N(N(1) - s0 - further));
+    }
+    return true;
+  }
+
+  bool face_about_middle(N& time, Place& place) const {
+    if constexpr (is_enclosure<N>) {
+      if (!all_moderate(time) || !is_moderate(N(N(1) / n2_))) return true;
+      const double t0 = near_middle(time);
+      std::array<double, 3> x0;
+      for (int k = 0; k < 3; ++k) x0[k] = near_middle(p_[k]) + near_middle(v_[k]) * t0;
+      const std::array<double, 2> weight = near_weights(corner_, x0);
+      if (!(std::abs(weight[0]) < 0x1p20 && std::abs(weight[1]) < 0x1p20)) return true;
+      const Vector<N> middle = combined(corner_, weight), from = minus(p_, middle);
+      // The squared height is the squared distance less that within the plane, which is about zero.
+      const Vector<N> at_t0 = plus(from, times(v_, N(t0))), at_any = plus(from, times(v_, join(time, N(t0))));
+      const N beyond = norm2(at_t0) - norm2(outer(n_, at_t0)) / n2_ - square(r_);
+      const N slope = inner(n_, v_) * inner(n_, at_any) / n2_;
+      if (!may_be_zero(slope) && is_moderate(beyond)) {
+        if (!narrow(time, N(N(t0) - beyond / (N(2) * slope)))) return false;
+      }
+      const Vector<N> center = plus(from, times(v_, time));
+      if (!narrow(place.point, plus(middle, minus(center, times(n_, N(inner(n_, center) / n2_)))))) return false;
+      const Vector<N> fixed{N(N(1) - N(weight[0]) - N(weight[1])), N(weight[0]), N(weight[1])};
+      for (int i = 0; i < 3; ++i) {
+        const int k = (i + 2) % 3;
+        if (!narrow(place.weights[k], N(fixed[k] - inner(out_[i], center) / n2_))) return false;
+      }
+    }
+    return true;
   }
 
   /// An edge that may be a point: within its length of the ball about its vertex.
@@ -354,7 +419,8 @@ class SphereAndTriangle {
       const auto from = earliest(w, v_, square(reach), moment2(w));
       if (!from || *from > near_.to) return;
       const N time(std::max(*from, near_.from), near_.to);
-      add_root(time, on_edge(i, w), at(time), false);
+      const Place place = on_edge(i, w);
+      add_root(time, place, minus(at(time), place.point), false);
     }
   }
 
@@ -376,6 +442,7 @@ class SphereAndTriangle {
     Place place = in_face(x);
     const Vector<N> touching = minus(x, times(n_, N(r_ * length / n2_)));
     for (int k = 0; k < 3; ++k) place.point[k] = meet(place.point[k], touching[k]);
+    if (!face_about_middle(time, place)) return;
     Contact c{{time, answer_vector(place.point), {}, {}}};
     set_weights(c, place.weights);
     Vector<N> unit = times(n_, N(length / n2_));
@@ -399,7 +466,8 @@ class SphereAndTriangle {
       if (!from || *from > near_.to) return;
       const N time(std::max(*from, near_.from), near_.to);
       const Vector<N> x = at(time);
-      add_root(time, in_face(x), x, false);
+      const Place place = in_face(x);
+      add_root(time, place, minus(x, place.point), false);
     }
   }
 
