@@ -2,8 +2,8 @@
 ///
 ///   oracle_power [--cases=N] [QUERY ...]
 ///
-/// Of each plain scene the inputs are widened by 2^24 epsilon of double. The enclosure's width is compared with that of the hull
-/// of the exact answers to inputs within: random ones and, for each number of the answer, the two corners
+/// Of each plain scene the inputs are widened by 2^24 epsilon of double. The enclosure's width is compared with
+/// that of the hull of the exact answers to inputs within: random ones and, for each number of the answer, the two corners
 /// to which its slopes point. Exit code 1 where a query's median is above four times.
 #include <fmt/format.h>
 
@@ -157,10 +157,11 @@ int run(const std::vector<std::string>& names, std::uint64_t scenes) {
 
 Written by `build/release/benchmarks/oracle_power`; the same command makes it anew.
 
-An enclosure that is too wide excuses errors. The inputs of {} plain scenes of each query are widened by 2^24 ε of double. The width of the
-enclosure is compared with that of the hull of exact answers to inputs within the widening: random ones and, for
-each number of the answer, the two corners to which its slopes point. A vector counts by its widest number. Scenes whose
-decision is not the same throughout are left out; so are queries whose answers are decisions, flags and indices alone.
+An enclosure that is too wide excuses errors. The inputs of {} plain scenes of each query are widened by 2^24 ε of
+double. The width of the enclosure is compared with that of the hull of exact answers to inputs within the widening:
+random ones and, for each number of the answer, the two corners to which its slopes point. A vector counts by its widest
+number. Scenes whose decision is not the same throughout are left out; so are answers that are decisions, flags and
+indices alone.
 
 | query | part | median | 90 % | 99 % |
 |---|---|---|---|---|
