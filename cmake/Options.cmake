@@ -2,6 +2,9 @@
 
 option(NEARMISS_TESTS "Build the tests" ON)
 option(NEARMISS_FCL "Build FCL as a subject, where it is installed" ON)
+option(NEARMISS_CCD "Build libccd as a subject, where it is installed" ON)
+option(NEARMISS_BULLET "Build Bullet as a subject, where it is installed" ON)
+option(NEARMISS_ODE "Build ODE as a subject, where it is installed" ON)
 set(NEARMISS_ADD "" CACHE STRING "CMake files that add libraries of your own, separated by semicolons; see docs/bring-your-own.md")
 option(NEARMISS_D3 "Draw pages with D3, where it is installed" ON)
 option(NEARMISS_WERROR "Treat warnings as errors" OFF)

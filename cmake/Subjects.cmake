@@ -34,11 +34,9 @@ Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
   set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECT_LIBRARIES ${arg_LIBRARIES})
 endfunction()
 
-# Writes the list of all subjects and makes the library that holds them.
-function(nearmiss_finish_subjects)
-  get_property(subjects GLOBAL PROPERTY NEARMISS_SUBJECTS)
-  get_property(sources GLOBAL PROPERTY NEARMISS_SUBJECT_SOURCES)
-  get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_LIBRARIES)
+# Writes the source `file` that lists subjects. A program that compiles one of its own links no other subject.
+function(nearmiss_write_subjects file)  # SUBJECT ...
+  set(subjects ${ARGN})
   set(text "// Written by CMake.\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
   foreach(s IN LISTS subjects)
     string(APPEND text "Subject subject_${s}();\n")
@@ -48,7 +46,15 @@ function(nearmiss_finish_subjects)
     string(APPEND text "      subject_${s}(),\n")
   endforeach()
   string(APPEND text "  };\n}\n}\n")
-  file(GENERATE OUTPUT ${NEARMISS_GENERATED}/subjects/all.cpp CONTENT "${text}")
+  file(GENERATE OUTPUT ${file} CONTENT "${text}")
+endfunction()
+
+# Writes the list of all subjects and makes the library that holds them.
+function(nearmiss_finish_subjects)
+  get_property(subjects GLOBAL PROPERTY NEARMISS_SUBJECTS)
+  get_property(sources GLOBAL PROPERTY NEARMISS_SUBJECT_SOURCES)
+  get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_LIBRARIES)
+  nearmiss_write_subjects(${NEARMISS_GENERATED}/subjects/all.cpp ${subjects})
   add_library(nearmiss_subjects STATIC ${sources} ${NEARMISS_GENERATED}/subjects/all.cpp
     ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp ${PROJECT_SOURCE_DIR}/impl/subject/worker.cpp)
   target_link_libraries(nearmiss_subjects PUBLIC nearmiss_flags collide PRIVATE ${libraries})

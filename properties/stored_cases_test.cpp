@@ -5,6 +5,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
+#include "impl/subject/worker.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -41,9 +42,18 @@ TEST_P(StoredCases, AreNamedAfterTheTruth) {
   }
 }
 
+/// Our own are asked in this process, where a sanitizer sees them; others may crash, as some are stored for.
+Finding found(const Case& c, const Subject& subject, Worker& worker) {
+  if (subject.name.starts_with("collide-")) return examined(c, subject);
+  const Offering& offering = subject.offering(c.query->name);
+  const std::vector<Answer> answers = worker.ask(offering, c.values, c.values.size());
+  return judge(c, answers.front(), offering.contract, Detail::verdict);
+}
+
 /// An open bug is a stored case that expects the violation: it fails here on the day it is fixed.
 TEST_P(StoredCases, MeetTheirExpectations) {
   const Query& query = *GetParam().query;
+  Worker worker;
   for (const StoredCase& s : stored_cases(query)) {
     for (const Expected& e : s.expected) {
       const Subject* subject = find_subject(e.subject);
@@ -54,7 +64,8 @@ TEST_P(StoredCases, MeetTheirExpectations) {
       Case c = s.question;
       ASSERT_TRUE(fits(c, subject->scalar)) << s.file << ": " << e.subject << " cannot hold its numbers";
       c.scalar = subject->scalar;
-      const Finding f = examined(c, *subject);
+      ASSERT_NE(subject->offering(query.name).answer, nullptr) << s.file << ": " << e.subject << " does not offer it";
+      const Finding f = found(c, *subject, worker);
       EXPECT_EQ(name_of(f.verdict), e.verdict) << s.file << ", " << e.subject << ": " << f.clause;
       if (!e.disagreement.empty()) {
         EXPECT_EQ(name_of(f.disagreement), e.disagreement) << s.file << ", " << e.subject;

@@ -201,6 +201,7 @@ class Explanation {
   }
 
   std::string promise() const {
+    const char* it = held_to_one_measure() ? "It is held to" : "It promises";
     const Finding& f = r_.finding;
     if (f.verdict == Verdict::within_contract) {
       return r_.contract.backward == collide::Contract::none && r_.contract.forward == collide::Contract::none
@@ -209,10 +210,10 @@ class Explanation {
     }
     if (f.verdict != Verdict::violates_contract || f.disagreement == Disagreement::not_finite) return "";
     if (f.clause.starts_with("backward")) {
-      return fmt::format("It promises a backward error of at most {} epsilon, which is {} times less",
+      return fmt::format("{} a backward error of at most {} epsilon, which is {} times less", it,
                          epsilons_text(r_.contract.backward), factor());
     }
-    return "It promises " + f.clause;
+    return fmt::format("{} {}", it, f.clause);
   }
   std::string factor() const {
     const double above = r_.finding.backward->above;

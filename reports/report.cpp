@@ -4,12 +4,48 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace nearmiss {
 
 namespace {
 
-/// Every referee that offers the query and can hold the case's numbers, but for the subject itself.
+/// The factor, a power of two, that brings the largest position or size of the case to [1, 2); empty where that is not
+/// exact or changes nothing. Lengths, speeds and plane offsets are scaled, so times stay as they are.
+std::optional<double> to_unit_scale(const Case& c) {
+  double largest = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Role role = c.query->inputs[i].role;
+    if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
+  }
+  if (!(largest > 0) || std::ilogb(largest) == 0) return std::nullopt;
+  return std::ldexp(1.0, -std::ilogb(largest));
+}
+
+std::optional<Case> scaled(const Case& question, double factor) {
+  Case c = question;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Role role = c.query->inputs[i].role;
+    const bool scales =
+        role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset;
+    if (!scales) continue;
+    c.values[i] *= factor;
+    if (c.values[i] / factor != question.values[i] || !representable(c.values[i], c.scalar)) return std::nullopt;
+  }
+  return c;
+}
+
+/// The answer to a scaled case as one to the case itself.
+Answer scaled_back(const Query& query, Answer a, double factor) {
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    const Role role = query.outputs[i].role;
+    if (role == Role::position || role == Role::depth) a.values[i] /= factor;
+  }
+  return a;
+}
+
+/// Every referee that offers the query and can hold the case's numbers, but for the subject itself: asked
+/// as a user would, and once more at unit scale, since their tolerances are lengths.
 std::vector<Opinion> second_opinions(const Case& question, const Subject& subject, Workers& workers) {
   std::vector<Opinion> opinions;
   for (const Subject& referee : subjects()) {
@@ -20,6 +56,11 @@ std::vector<Opinion> second_opinions(const Case& question, const Subject& subjec
     if (!same) continue;
     const Answer answer = workers.ask(referee, *same);
     opinions.push_back({referee.name, referee.version, answer, judge(*same, answer, {}, Detail::full)});
+    const std::optional<double> factor = to_unit_scale(*same);
+    const std::optional<Case> unit = factor ? scaled(*same, *factor) : std::nullopt;
+    if (!unit) continue;
+    const Answer again = scaled_back(*same->query, workers.ask(referee, *unit), *factor);
+    opinions.push_back({referee.name + " at unit scale", referee.version, again, judge(*same, again, {}, Detail::full)});
   }
   return opinions;
 }

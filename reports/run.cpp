@@ -61,8 +61,7 @@ std::string percent_text(std::uint64_t part, std::uint64_t whole) {
 
 /// Violations by kind of disagreement: a false hit is never added to a false miss.
 std::vector<std::string> table_row(const Tally& t) {
-  const auto violations = [&](Disagreement d) { return t.violations[std::size_t(d)]; };
-  const std::uint64_t hits = violations(Disagreement::false_hit), misses = violations(Disagreement::false_miss);
+  const std::uint64_t hits = t.violations_by(Disagreement::false_hit), misses = t.violations_by(Disagreement::false_miss);
   return {"  " + t.subject->name,
           count_text(t.cases),
           count_text(t.of(Verdict::agrees)),
@@ -167,6 +166,10 @@ void Run::take(const Case& question, const Subject& subject, const Answer& answe
   Tally& t = tally(*question.query, subject);
   t.count(f);
   ++cases_;
+  if (settings_.by_class) {
+    if (question.moves.empty()) by_class_[{&subject, "none"}].count(f);
+    for (const auto& move : question.moves) by_class_[{&subject, std::string(move)}].count(f);
+  }
   if (!is_bad(f)) return;
   ++bad_;
   if (keeper_.keep(t, f)) pending_.push_back({question, &subject, answer});
@@ -342,6 +345,14 @@ std::string Run::table() const {
       rows.push_back(table_row(found->second));
     }
   }
+  if (settings_.queries.size() > 1) rows.push_back({"all queries"});
+  for (const Subject* s : settings_.subjects) {
+    Tally all{nullptr, s};
+    for (const auto& [key, t] : tallies_) {
+      if (key.second == s) all.add(t);
+    }
+    if (settings_.queries.size() > 1 && all.cases > 0) rows.push_back(table_row(all));
+  }
   return table_text(rows, "", 1) + stages_text();
 }
 
@@ -369,6 +380,22 @@ std::string Run::stages_text() const {
   return fmt::format("\nThe exact stage decided {}, most often of {}: {}; intervals decided the others.\n",
                      percent_text(all.exact, all.interval + all.exact), most->name,
                      percent_text(stages_of(*most).exact, stages_of(*most).interval + stages_of(*most).exact));
+}
+
+std::string Run::table_by_class() const {
+  std::vector<std::vector<std::string>> rows{{"", "CASES", "FALSE HIT", "FALSE MISS", "WRONG", "BROKE"}};
+  for (const Subject* s : settings_.subjects) {
+    bool first = true;
+    for (const auto& [key, t] : by_class_) {
+      if (key.first != s) continue;
+      if (std::exchange(first, false)) rows.push_back({s->name});
+      const std::uint64_t hits = t.violations_by(Disagreement::false_hit);
+      const std::uint64_t misses = t.violations_by(Disagreement::false_miss);
+      rows.push_back({"  " + key.second, count_text(t.cases), count_text(hits), count_text(misses),
+                      count_text(t.of(Verdict::violates_contract) - hits - misses), count_text(t.of(Verdict::broke))});
+    }
+  }
+  return table_text(rows, "", 1);
 }
 
 }  // namespace nearmiss

@@ -38,6 +38,7 @@ struct RunSettings {
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 0;
   std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop, if not by number of cases
+  bool by_class = false;  ///< count by the generator's moves as well, for table_by_class()
 };
 
 class Run {
@@ -76,6 +77,8 @@ class Run {
   std::uint64_t cases() const;
   /// A table for people: one row for each query and subject, and how often the exact stage had to decide.
   std::string table() const;
+  /// For every subject its findings among the cases that each move of the generator made; with settings().by_class.
+  std::string table_by_class() const;
   /// Headline and file of the worst reports, one for each query, subject and fault; empty without any.
   std::string worst_findings() const;
   const RunSettings& settings() const { return settings_; }
@@ -109,6 +112,7 @@ class Run {
   Clock::time_point begin_, indexed_;
   Workers workers_;
   std::map<std::pair<const Query*, const Subject*>, Tally> tallies_;
+  std::map<std::pair<const Subject*, std::string>, Tally> by_class_;
   Keeper keeper_;
   std::vector<Pending> pending_;
   std::vector<Written> written_;

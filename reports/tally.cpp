@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "reports/report.hpp"
@@ -22,6 +23,21 @@ void Tally::count(const Finding& f) {
   ++(f.decided_by == Stage::interval ? decided_by_interval : decided_by_exact);
   if (f.truth_yes) ++truth_yes;
   if (std::isfinite(f.forward_ulps)) worst_forward = std::max(worst_forward, f.forward_ulps);
+}
+
+void Tally::add(const Tally& other) {
+  const auto sum = [](auto& to, const auto& from) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  cases += other.cases;
+  sum(verdicts, other.verdicts);
+  sum(within_contract, other.within_contract);
+  sum(violations, other.violations);
+  decided_by_interval += other.decided_by_interval;
+  decided_by_exact += other.decided_by_exact;
+  truth_yes += other.truth_yes;
+  worst_backward = std::max(worst_backward, other.worst_backward);
+  worst_forward = std::max(worst_forward, other.worst_forward);
 }
 
 nlohmann::ordered_json tally_to_json(const Tally& t) {

@@ -28,7 +28,10 @@ struct Tally {
   double worst_forward = 0;     ///< in ulps, where the decision is right
 
   void count(const Finding& f);
+  /// The counts of another query or subject added to these.
+  void add(const Tally& other);
   std::uint64_t of(Verdict v) const { return verdicts[std::size_t(v)]; }
+  std::uint64_t violations_by(Disagreement d) const { return violations[std::size_t(d)]; }
   std::uint64_t bad() const { return of(Verdict::violates_contract) + of(Verdict::broke); }
   std::uint64_t decided() const { return decided_by_interval + decided_by_exact; }
 };

@@ -3,6 +3,7 @@
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/distance.h>
 #include <fcl/narrowphase/detail/gjk_solver_indep.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 
@@ -18,9 +19,40 @@ namespace nearmiss::adapters {
 
 namespace in = collide::inputs;
 
+/// The catalogue's shapes as FCL's.
+struct FclShapes {
+  static fcl::Vector3d vector(const Vec3d& v) { return {v.x, v.y, v.z}; }
+  static fcl::Transform3d at(const Vec3d& p) {
+    fcl::Transform3d t = fcl::Transform3d::Identity();
+    t.translation() = vector(p);
+    return t;
+  }
+  static fcl::Sphered shape(const collide::Sphere<double>& s) { return fcl::Sphered(s.radius); }
+  static fcl::Transform3d pose(const collide::Sphere<double>& s) { return at(s.center); }
+  static fcl::Boxd shape(const collide::Box<double>& b) { return {2 * b.half.x, 2 * b.half.y, 2 * b.half.z}; }
+  static fcl::Transform3d pose(const collide::Box<double>& b) {
+    fcl::Transform3d t = at(b.center);
+    const auto [x, y, z, w] = unit(b.orientation);
+    t.linear() = fcl::Quaterniond(w, x, y, z).toRotationMatrix();
+    return t;
+  }
+  static fcl::Capsuled shape(const collide::Capsule<double>& c) { return {c.radius, length(c.p1 - c.p0)}; }
+  static fcl::Transform3d pose(const collide::Capsule<double>& c) {
+    fcl::Transform3d t = at(c.p0 * 0.5 + c.p1 * 0.5);
+    const Vec3d along = c.p1 - c.p0;
+    if (length(along) > 0) {
+      t.linear() = fcl::Quaterniond::FromTwoVectors(fcl::Vector3d::UnitZ(), vector(along)).toRotationMatrix();
+    }
+    return t;
+  }
+  /// What lies behind the plane; FCL itself brings the normal to unit length.
+  static fcl::Halfspaced shape(const collide::Plane<double>& p) { return {vector(p.normal), -p.offset}; }
+  static fcl::Transform3d pose(const collide::Plane<double>&) { return fcl::Transform3d::Identity(); }
+};
+
 /// One way to use FCL: a solver for static questions, a solver for motions.
 template <fcl::GJKSolverType static_solver, fcl::CCDSolverType motion_solver>
-struct Fcl {
+struct Fcl : FclShapes {
   using Number = double;
   static constexpr bool referee = true;
   static std::string version() { return "FCL 0.7"; }
@@ -115,34 +147,6 @@ struct Fcl {
   using Solver = std::conditional_t<static_solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
                                     fcl::detail::GJKSolver_indep<double>>;
 
-  static fcl::Vector3d vector(const Vec3d& v) { return {v.x, v.y, v.z}; }
-  static fcl::Transform3d at(const Vec3d& p) {
-    fcl::Transform3d t = fcl::Transform3d::Identity();
-    t.translation() = vector(p);
-    return t;
-  }
-  static fcl::Sphered shape(const collide::Sphere<double>& s) { return fcl::Sphered(s.radius); }
-  static fcl::Transform3d pose(const collide::Sphere<double>& s) { return at(s.center); }
-  static fcl::Boxd shape(const collide::Box<double>& b) { return {2 * b.half.x, 2 * b.half.y, 2 * b.half.z}; }
-  static fcl::Transform3d pose(const collide::Box<double>& b) {
-    fcl::Transform3d t = at(b.center);
-    const auto& q = b.orientation;
-    t.linear() = fcl::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-    return t;
-  }
-  static fcl::Capsuled shape(const collide::Capsule<double>& c) { return {c.radius, length(c.p1 - c.p0)}; }
-  static fcl::Transform3d pose(const collide::Capsule<double>& c) {
-    fcl::Transform3d t = at(c.p0 * 0.5 + c.p1 * 0.5);
-    const Vec3d along = c.p1 - c.p0;
-    if (length(along) > 0) {
-      t.linear() = fcl::Quaterniond::FromTwoVectors(fcl::Vector3d::UnitZ(), vector(along)).toRotationMatrix();
-    }
-    return t;
-  }
-  /// What lies behind the plane; FCL itself brings the normal to unit length.
-  static fcl::Halfspaced shape(const collide::Plane<double>& p) { return {vector(p.normal), -p.offset}; }
-  static fcl::Transform3d pose(const collide::Plane<double>&) { return fcl::Transform3d::Identity(); }
-
   /// With `result`, contacts are asked for as well.
   template <class A, class B>
   static bool meet(const A& a, const B& b, fcl::CollisionResultd* result) {
@@ -211,6 +215,68 @@ struct Fcl {
   }
 };
 
+/// FCL's signed distance, negative where two shapes overlap: by another way than its collision, GJK and EPA of one of
+/// its solvers. GST_LIBCCD builds a ball from triangles, which may take minutes; GST_INDEP asserts where shapes touch.
+template <fcl::GJKSolverType solver>
+struct FclDistance : FclShapes {
+  using Number = double;
+  static std::string version() { return "FCL 0.7"; }
+
+  /// DistanceRequest::distance_tolerance is 1e-6, a length; so the scene's lengths are to be at least 1/16. In units of
+  /// 2^-53, relative to that, up to the next power of two.
+  template <class Q>
+  static collide::Contract contract() {
+    return {.backward = 0x1p38, .lowest = -4, .highest = 300};
+  }
+  template <class Q>
+  static std::string equivalence() {
+    return "minus FCL's signed distance";
+  }
+  template <class Q>
+  static std::string why_not() {
+    if constexpr (requires(const Q& q) { q.plane; } && !requires(const Q& q) { q.velocity; }) {
+      return "FCL 0.7 has no distance to a plane or half-space, and crashes when it is asked for one (its issue 623)";
+    }
+    if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
+                  std::is_same_v<Q, in::sphere_box_penetration<double>>) {
+      return "GST_LIBCCD builds the ball from triangles, which may take minutes";
+    }
+    return "it is no distance; see the subject fcl";
+  }
+
+  static auto answer(const in::sphere_sphere_penetration<double>& q)
+    requires(solver == fcl::GST_INDEP)
+  {
+    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
+  }
+  static auto answer(const in::sphere_box_penetration<double>& q)
+    requires(solver == fcl::GST_INDEP)
+  {
+    return depth<collide::Penetration<double>>(q.sphere, q.box);
+  }
+  static auto answer(const in::box_box_penetration<double>& q) {
+    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
+  }
+
+ private:
+  template <class Depth, class A, class B>
+  static Partly<Depth> depth(const A& a, const B& b) {
+    fcl::DistanceRequestd request(false, true);
+    request.gjk_solver_type = solver;
+    fcl::DistanceResultd result;
+    const auto shape_a = shape(a);
+    const auto shape_b = shape(b);
+    fcl::distance(&shape_a, pose(a), &shape_b, pose(b), request, result);
+    Depth d;
+    d.depth = -result.min_distance;  // the function's own value is -1 for GST_INDEP wherever they overlap
+    // Of boxes apart the query asks for the gap along an axis of theirs, which their distance is not.
+    if (std::is_same_v<Depth, collide::BoxPenetration<double>> && d.depth < 0) return only(d, {});
+    return only(d, {"depth"});
+  }
+};
+
+using FclDistanceLibccd = FclDistance<fcl::GST_LIBCCD>;
+using FclDistanceIndep = FclDistance<fcl::GST_INDEP>;
 using FclDefault = Fcl<fcl::GST_LIBCCD, fcl::CCDC_NAIVE>;
 using FclIndep = Fcl<fcl::GST_INDEP, fcl::CCDC_NAIVE>;
 using FclConservativeAdvancement = Fcl<fcl::GST_INDEP, fcl::CCDC_CONSERVATIVE_ADVANCEMENT>;

@@ -28,6 +28,16 @@ inline collide::Sphere<double> ball_around(const collide::Triangle<double>& t) {
   return {t.v0, std::max(length(t.v1 - t.v0), length(t.v2 - t.v0))};
 }
 
+/// The quaternion at unit length, rounded; of any length but zero.
+inline collide::Quaternion<double> unit(const collide::Quaternion<double>& q) {
+  const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
+  const double scale = std::exp2(-std::floor(std::log2(largest)));  // exact, so that no square overflows
+  if (!std::isfinite(scale)) return q;
+  const double x = q.x * scale, y = q.y * scale, z = q.z * scale, w = q.w * scale;
+  const double n = std::sqrt(x * x + y * y + z * z + w * w);
+  return {x / n, y / n, z / n, w / n};
+}
+
 inline double power_of_two_above(double x) { return x > 0 ? std::exp2(std::ceil(std::log2(x))) : 0.0; }
 
 /// The least power of two that carries a ball past `target`; 0 where it does not move or starts past it.

@@ -79,6 +79,11 @@ struct Subject {
 const std::vector<Subject>& subjects();
 /// For the rest of the process. Pointers into subjects() that were taken before do not stay valid.
 void add_subject(Subject subject);
+/// From now on every subject promises, in place of its own contracts, a backward error of at most `error`, relative to
+/// the largest number of each group, for inputs of any size: one measure for all.
+void hold_all_to(double error);
+/// True after hold_all_to.
+bool held_to_one_measure();
 /// nullptr when there is none of that name.
 const Subject* find_subject(std::string_view name);
 

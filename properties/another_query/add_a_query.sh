@@ -31,7 +31,7 @@ grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no tab
 
 # The same depth as the presets' build folders: unchanged sources come from the compiler cache.
 build=$copy/build/release
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_TESTS=OFF \
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_CCD=OFF -DNEARMISS_BULLET=OFF -DNEARMISS_ODE=OFF -DNEARMISS_TESTS=OFF \
   -DNEARMISS_ADD="$copy/docs/example-library/nearmiss.cmake" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "cmake refuses the new query"; }
 cmake --build "$build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||

@@ -1,0 +1,196 @@
+/// libccd 2.1 as a subject: its GJK with EPA, and its MPR (Minkowski portal refinement), asked directly. Shapes are
+/// support functions, so that spheres, boxes, triangles and swept spheres are given exactly, but for the rotation of
+/// a box, which is rounded to a matrix.
+#pragma once
+
+#include <ccd/ccd.h>
+#include <ccd/vec3.h>
+
+#include <array>
+#include <cmath>
+#include <concepts>
+
+#include "impl/adapters/motion.hpp"
+#include "impl/subject/adapter.hpp"
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from oracles/catalogue.def
+
+namespace nearmiss::adapters {
+
+namespace in = collide::inputs;
+
+enum class CcdAlgorithm { gjk, mpr };
+
+template <CcdAlgorithm algorithm>
+struct Ccd {
+  using Number = double;
+  static constexpr bool referee = true;
+  static std::string version() { return "libccd 2.1"; }
+
+  /// ccd.h: epa_tolerance and mpr_tolerance are 1e-4 by default, lengths; so the scene's lengths are to be at least 1.
+  /// In units of 2^-53, up to the next power of two.
+  template <class Q>
+  static collide::Contract contract() {
+    return {.backward = 0x1p40, .lowest = 0, .highest = 300};
+  }
+  template <class Q>
+  static std::string equivalence() {
+    return requires(const Q& q) { q.limit; } ? "the sphere's way as one convex shape" : "";
+  }
+  template <class Q>
+  static std::string why_not() {
+    if constexpr (std::same_as<Q, in::sphere_sphere_penetration<double>> ||
+                  std::same_as<Q, in::sphere_box_penetration<double>>) {
+      return "EPA of a ball ends after seconds or never: it builds the ball from triangles";
+    } else if constexpr (requires(const Q& q) { q.plane; }) {
+      return "libccd's shapes are bounded, and a plane is not";
+    } else if constexpr (requires(const Q& q) { q.velocity; } || requires(const Q& q) { q.ray; }) {
+      return "libccd knows no motions";
+    } else if constexpr (requires(const Q& q) { q.box1; }) {
+      return "libccd knows no boxes, only support functions";
+    }
+    return "libccd answers whether and how deep two convex shapes overlap";
+  }
+
+  static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
+  static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
+  static auto answer(const in::box_box_overlap<double>& q) {
+    return only(collide::BoxOverlap<double>{meet(q.box1, q.box2), -1}, {});
+  }
+  static auto answer(const in::sphere_triangle_overlap<double>& q) { return decided(q.sphere, q.triangle); }
+  static auto answer(const in::aabox_triangle_overlap<double>& q) { return decided(q.box, q.triangle); }
+
+  static auto answer(const in::box_box_penetration<double>& q) {
+    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
+  }
+  /// EPA would have to build the ball from triangles.
+  static auto answer(const in::sphere_sphere_penetration<double>& q)
+    requires(algorithm == CcdAlgorithm::mpr)
+  {
+    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
+  }
+  static auto answer(const in::sphere_box_penetration<double>& q)
+    requires(algorithm == CcdAlgorithm::mpr)
+  {
+    return depth<collide::Penetration<double>>(q.sphere, q.box);
+  }
+
+  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q.sphere, q.velocity, q.box, q); }
+  static auto answer(const in::moving_sphere_passes_sphere<double>& q) {
+    return passes(q.sphere, q.velocity, q.fixed, q);
+  }
+
+ private:
+  /// The hull of at most three points, or a box, with a ball around each of its points.
+  struct Convex {
+    int corners = 0;
+    std::array<Vec3d, 3> corner{};
+    Vec3d half{};
+    std::array<Vec3d, 3> axes{};
+    double radius = 0;
+
+    Vec3d center() const {
+      Vec3d sum{};
+      for (int i = 0; i < corners; ++i) sum = sum + corner[i] / double(corners);
+      return sum;
+    }
+    Vec3d support(const Vec3d& direction) const {
+      Vec3d best = corner[0];
+      for (int i = 1; i < corners; ++i) {
+        if (dot(corner[i], direction) > dot(best, direction)) best = corner[i];
+      }
+      const std::array<double, 3> reach{half.x, half.y, half.z};
+      for (int i = 0; i < 3; ++i) {
+        if (reach[i] > 0) best = best + axes[i] * (dot(axes[i], direction) < 0 ? -reach[i] : reach[i]);
+      }
+      const double norm = length(direction);
+      return radius > 0 && norm > 0 ? best + direction * (radius / norm) : best;
+    }
+  };
+
+  static Convex convex(const collide::Sphere<double>& s) { return {1, {s.center}, {}, {}, s.radius}; }
+  static Convex convex(const collide::Triangle<double>& t) { return {3, {t.v0, t.v1, t.v2}, {}, {}, 0}; }
+  static Convex convex(const collide::Capsule<double>& c) { return {2, {c.p0, c.p1}, {}, {}, c.radius}; }
+  static Convex convex(const collide::Box<double>& b) {
+    const auto [x, y, z, w] = unit(b.orientation);
+    return {1,
+            {b.center},
+            b.half,
+            {Vec3d{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+             Vec3d{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+             Vec3d{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}},
+            0};
+  }
+  /// Its corners are given exactly, so that no center is needed.
+  struct Corners {
+    Vec3d min, max;
+    Vec3d center() const { return min * 0.5 + max * 0.5; }
+    Vec3d support(const Vec3d& d) const {
+      return {d.x < 0 ? min.x : max.x, d.y < 0 ? min.y : max.y, d.z < 0 ? min.z : max.z};
+    }
+  };
+  static Corners convex(const collide::AABox<double>& b) { return {b.min, b.max}; }
+
+  template <class S>
+  static void support(const void* shape, const ccd_vec3_t* direction, ccd_vec3_t* point) {
+    const Vec3d p = static_cast<const S*>(shape)->support({direction->v[0], direction->v[1], direction->v[2]});
+    ccdVec3Set(point, p.x, p.y, p.z);
+  }
+  template <class S>
+  static void center(const void* shape, ccd_vec3_t* point) {
+    const Vec3d p = static_cast<const S*>(shape)->center();
+    ccdVec3Set(point, p.x, p.y, p.z);
+  }
+  template <class A, class B>
+  static ccd_t settings() {
+    ccd_t ccd;
+    CCD_INIT(&ccd);
+    ccd.support1 = support<A>;
+    ccd.support2 = support<B>;
+    ccd.center1 = center<A>;
+    ccd.center2 = center<B>;
+    ccd.max_iterations = 1000;  // the default is no limit
+    return ccd;
+  }
+
+  template <class A, class B>
+  static bool meet(const A& first, const B& second) {
+    const auto a = convex(first);
+    const auto b = convex(second);
+    const ccd_t ccd = settings<std::remove_cv_t<decltype(a)>, std::remove_cv_t<decltype(b)>>();
+    return (algorithm == CcdAlgorithm::gjk ? ccdGJKIntersect(&a, &b, &ccd) : ccdMPRIntersect(&a, &b, &ccd)) != 0;
+  }
+  template <class A, class B>
+  static collide::Decision<double> decided(const A& a, const B& b) {
+    return {meet(a, b)};
+  }
+  /// Depth and direction; libccd's position is another point than the one asked for.
+  template <class Depth, class A, class B>
+  static Partly<Depth> depth(const A& first, const B& second) {
+    const auto a = convex(first);
+    const auto b = convex(second);
+    const ccd_t ccd = settings<std::remove_cv_t<decltype(a)>, std::remove_cv_t<decltype(b)>>();
+    double deep = 0;
+    ccd_vec3_t direction, position;
+    const int apart = algorithm == CcdAlgorithm::gjk ? ccdGJKPenetration(&a, &b, &ccd, &deep, &direction, &position)
+                                                     : ccdMPRPenetration(&a, &b, &ccd, &deep, &direction, &position);
+    Depth d;
+    d.depth = -1;
+    if (apart != 0) return only(d, {});  // it says no more than that
+    d.depth = deep;
+    d.normal = {direction.v[0], direction.v[1], direction.v[2]};
+    return only(d, {"depth", "normal"});
+  }
+  template <class B, class Q>
+  static Reply<collide::Decision<double>> passes(const collide::Sphere<double>& sphere, const Vec3d& velocity,
+                                                 const B& b, const Q& q) {
+    const double until = q.forever ? time_to_pass(sphere.center, sphere.radius, velocity, ball_around(b)) : q.limit;
+    const Vec3d end = sphere.center + velocity * until;
+    if (!finite(end)) return CannotAnswer{"the end of the motion is not finite"};
+    return decided(collide::Capsule<double>{sphere.center, end, sphere.radius}, b);
+  }
+};
+
+using CcdGjk = Ccd<CcdAlgorithm::gjk>;
+using CcdMpr = Ccd<CcdAlgorithm::mpr>;
+
+}  // namespace nearmiss::adapters
