@@ -210,6 +210,51 @@ TEST(Run, ReportsTheTunnellingOfFcl) {
   }
 }
 
+TEST(Run, MeasuresThoseThatPromiseNothing) {
+  if (find_subject("bullet") == nullptr) GTEST_SKIP() << "Bullet is not part of this build";
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"run", "-s", "bullet", "-q", "moving_point_capsule", "-q", "moving_point_box", "-n",
+                                     "300", "--seed", "1", "--out", (folder / "r").string()};
+  const Ran own = nearmiss(arguments);
+  EXPECT_EQ(own.exit_code, 0) << own.out << own.err;
+  arguments.insert(arguments.end(), {"--measure", "1e-6", "--by-class"});
+  const Ran measured = nearmiss(arguments);
+  EXPECT_EQ(measured.exit_code, 1) << measured.err;
+  EXPECT_NE(measured.out.find("\nall queries\n"), std::string::npos) << measured.out;
+  EXPECT_NE(measured.out.find("  small-lattice "), std::string::npos) << measured.out;
+  const json index = index_of(folder / "r");
+  std::uint64_t bad = 0;
+  for (const json& t : index["tallies"]) bad += t["verdicts"]["violates contract"].get<std::uint64_t>();
+  EXPECT_GT(bad, 0u);
+}
+
+/// The tolerance of libccd is a length: it takes two small balls that overlap for apart, until they are scaled up.
+TEST(Report, AsksRefereesAtUnitScaleToo) {
+  if (find_subject("libccd-gjk") == nullptr) GTEST_SKIP() << "libccd is not part of this build";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "case.json";
+  write_file(file, R"({"query": "sphere_sphere_overlap", "scalar": "double", "inputs": {
+    "sphere1": {"center": [-4.76837158203125e-07, 1.5735626220703125e-05, -2.0503997802734375e-05],
+                "radius": 1.3589859008789062e-05},
+    "sphere2": {"center": [-2.0265579223632812e-05, 1.3828277587890625e-05, 3.0994415283203125e-06],
+                "radius": 1.5020370483398438e-05}}})");
+  const Ran ran = nearmiss({"replay", "--json", "-s", "collide-fast-double", file.string()});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const json report = json::parse(ran.out).at(0);
+  EXPECT_EQ(complaints(report, "report.schema.json"), "");
+  std::set<std::string> names;
+  for (const json& r : report["referees"]) {
+    names.insert(r["name"].get<std::string>());
+    if (r["name"] == "libccd-gjk") {
+      EXPECT_EQ(r["agrees_on_decision"], false);
+    }
+    if (r["name"] == "libccd-gjk at unit scale") {
+      EXPECT_EQ(r["agrees_on_decision"], true);
+    }
+  }
+  EXPECT_TRUE(names.contains("libccd-gjk") && names.contains("libccd-gjk at unit scale")) << report["referees"];
+}
+
 TEST(Run, TellsProgressOnStandardErrorOnly) {
   const TemporaryFolder folder;
   const Ran ran = nearmiss({"run", "-n", "200", "--out", (folder / "r").string()});
