@@ -130,6 +130,7 @@ void draw_scene(Draft& draft);
 struct Move {
   std::string_view name, what;
   bool (*apply)(Draft& draft);
+  bool extreme = false;  ///< leaves moderate magnitudes; the last ones of the table
 };
 std::span<const Move> moves();
 

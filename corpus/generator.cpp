@@ -71,16 +71,29 @@ void apply(Draft& d, const std::bitset<most_moves>& chosen, std::vector<std::str
   }
 }
 
-std::bitset<most_moves> choose(Random& random, int count) {
+std::size_t count_of_ordinary_moves() {
+  static const auto count = std::size_t(std::count_if(moves().begin(), moves().end(), [](const Move& m) { return !m.extreme; }));
+  return count;
+}
+
+std::bitset<most_moves> choose(Random& random, int count, std::size_t among) {
   std::bitset<most_moves> chosen;
-  for (; count > 0; --count) chosen.set(random.below(moves().size()));
+  for (; count > 0; --count) chosen.set(random.below(among));
+  return chosen;
+}
+
+/// One of those that leave moderate magnitudes.
+std::bitset<most_moves> choose_extreme(Random& random) {
+  std::bitset<most_moves> chosen;
+  const std::size_t ordinary = count_of_ordinary_moves();
+  chosen.set(ordinary + random.below(moves().size() - ordinary));
   return chosen;
 }
 
 /// Half of the cases that are not scenes start on a grid, where touches and ties are exact.
 std::bitset<most_moves> choose_for_new_case(Random& random) {
   constexpr std::size_t small_lattice = 0, dyadic_grid = 1;
-  auto chosen = choose(random, random.between(1, 4));
+  auto chosen = choose(random, random.between(1, 4), count_of_ordinary_moves());
   if (random.one_in(2)) chosen.set(random.one_in(3) ? dyadic_grid : small_lattice);
   return chosen;
 }
@@ -90,7 +103,11 @@ bool attempt(Case& c, const Plan& plan, Random& random) {
   Draft draft(plan, c.scalar, random, c.values);
   draw_scene(draft);
   if (random.one_in(2)) apply(draft, choose_for_new_case(random), c.moves);
-  return moderate(draft) && !c.query->broken(c.values);
+  if (!moderate(draft)) return false;
+  constexpr std::size_t one_extreme_in = 40;
+  if (random.one_in(one_extreme_in)) apply(draft, choose_extreme(random), c.moves);
+  const bool finite = std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); });
+  return finite && !c.query->broken(c.values);
 }
 
 }  // namespace
@@ -185,7 +202,7 @@ void mutate(Case& c, std::uint64_t seed) {
   constexpr int attempts = 16;
   for (int i = 0; i < attempts; ++i) {
     Draft draft(plan_of(*c.query), c.scalar, random, c.values);
-    apply(draft, choose(random, random.between(1, 3)), c.moves);
+    apply(draft, choose(random, random.between(1, 3), moves().size()), c.moves);
     if (c.moves.size() > moves_before && !c.query->broken(c.values)) return;
     c.values = before;
     c.moves.resize(moves_before);
@@ -195,10 +212,16 @@ void mutate(Case& c, std::uint64_t seed) {
 std::span<const MoveName> move_names() {
   static const std::vector<MoveName> names = [] {
     std::vector<MoveName> all;
-    for (const Move& m : moves()) all.push_back({m.name, m.what});
+    for (const Move& m : moves()) all.push_back({m.name, m.what, m.extreme});
     return all;
   }();
   return names;
+}
+
+bool has_extreme_move(const Case& c) {
+  return std::any_of(moves().begin(), moves().end(), [&](const Move& m) {
+    return m.extreme && std::find(c.moves.begin(), c.moves.end(), m.name) != c.moves.end();
+  });
 }
 
 std::string_view known_move(std::string_view name) {

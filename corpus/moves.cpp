@@ -80,6 +80,65 @@ bool between_positions(Draft& d) {
   return true;
 }
 
+/// 1e-16 ... 1e-2, and its sign.
+double tiny(Draft& d, int least = 2, int most = 16) {
+  double x = d.random.sign();
+  for (int i = d.random.between(least, most); i > 0; --i) x /= 10;
+  return x;
+}
+
+/// Three corners nearly on a line.
+bool sliver(Draft& d) {
+  for (const Thing& thing : d.plan.things) {
+    if (thing.positions.size() < 3) continue;
+    const std::size_t at = d.random.below(3);
+    const Numbers a = d.vector(thing.positions[(at + 1) % 3]), b = d.vector(thing.positions[(at + 2) % 3]);
+    const double weight = 0.125 * d.random.between(-2, 10), off = tiny(d, 1) * d.unit;
+    Numbers corner;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = a[k] + weight * (b[k] - a[k]) + off * d.random.uniform(-1, 1);
+    d.set_vector(thing.positions[at], corner);
+    return true;
+  }
+  return false;
+}
+
+// Whole things.
+
+/// Two things made of the same members are the same set.
+bool coincident_things(Draft& d) {
+  const auto& things = d.plan.things;
+  for (std::size_t i = 0; i + 1 < things.size(); ++i) {
+    const Thing &a = things[i], &b = things[i + 1];
+    if (a.positions.size() != b.positions.size() || a.sizes.size() != b.sizes.size() || a.sizes.empty()) continue;
+    for (std::size_t k = 0; k < a.positions.size(); ++k) d.set_vector(b.positions[k], d.vector(a.positions[k]));
+    for (std::size_t k = 0; k < a.sizes.size(); ++k) d.set(b.sizes[k], d[a.sizes[k]]);
+    if (d.plan.rotations.size() == 2 && d.random.one_in(2)) {
+      for (std::size_t k = 0; k < 4; ++k) d.set(d.plan.rotations[1] + k, d[d.plan.rotations[0] + k]);
+    }
+    return true;
+  }
+  return false;
+}
+
+/// One thing deep inside of another that has a size.
+bool contained(Draft& d) {
+  const auto& things = d.plan.things;
+  if (things.size() < 2 || d.random.one_in(2)) return false;  // half as often: nearly all of them are hits
+  const std::size_t outer = d.random.below(things.size());
+  const Thing &around = things[outer], &small = things[outer == 0 ? 1 : 0];
+  if (around.sizes.empty()) return false;
+  double least = HUGE_VAL;
+  for (std::size_t i : around.sizes) least = std::min(least, d[i]);
+  const Numbers center = d.vector(d.random.pick(around.positions));
+  for (std::size_t v : small.positions) {
+    Numbers at = d.random_vector(0.25 * least);
+    for (std::size_t k = 0; k < 3; ++k) at[k] += center[k];
+    d.set_vector(v, at);
+  }
+  for (std::size_t i : small.sizes) d.set(i, 0.25 * least * d.random.uniform(0, 1));
+  return true;
+}
+
 // Sizes.
 
 bool zero_size(Draft& d) {
@@ -104,7 +163,7 @@ bool equal_sizes(Draft& d) {
 
 bool size_ratio(Draft& d) {
   if (d.plan.sizes.empty()) return false;
-  const int orders = d.random.between(1, d.orders(8, 30));
+  const int orders = d.random.between(1, d.orders(12, 40));  // 40: 1e12
   const double factor = std::ldexp(1.0, d.random.one_in(2) ? orders : -orders);
   d.scale(d.random.pick(d.plan.sizes), factor);
   return true;
@@ -182,6 +241,15 @@ bool parallel(Draft& d) {
 bool antiparallel(Draft& d) {
   return direct(d, [&](const Numbers& x) { return scaled(x, -d.random.power_of_two(-2, 2)); });
 }
+/// Parallel or antiparallel but for 1e-16 ... 1e-2 radians.
+bool near_parallel(Draft& d) {
+  return direct(d, [&](const Numbers& x) {
+    Numbers along = scaled(x, d.random.sign() * d.random.power_of_two(-2, 2));
+    const double angle = tiny(d), length = std::max({std::abs(along[0]), std::abs(along[1]), std::abs(along[2])});
+    for (double& component : along) component += angle * length * d.random.uniform(-1, 1);
+    return along;
+  });
+}
 bool orthogonal(Draft& d) {
   return direct(d, [&](const Numbers& x) {
     const std::size_t i = d.random.below(3), j = (i + 1) % 3;
@@ -203,6 +271,30 @@ bool axis_rotation(Draft& d) {
   for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, 0);
   d.set(begin + first, length);
   if (d.random.one_in(2)) d.set(begin + second, d.random.sign() * length);
+  return true;
+}
+
+/// A turn by an angle with rational sine and cosine, as 3/5 and 4/5, and lengths that stay whole in the turned frame.
+bool pythagorean_rotation(Draft& d) {
+  if (d.plan.rotations.empty()) return false;
+  constexpr int halves[][2] = {{1, 2}, {1, 3}, {2, 3}, {1, 4}, {3, 4}};  // tangents of half the angle
+  const auto& [n, m] = halves[d.random.below(std::size(halves))];
+  const std::size_t begin = d.random.pick(d.plan.rotations), axis = d.random.below(3);
+  for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, k == 3 ? m : k == axis ? n * d.random.sign() : 0.0);
+  for (Role role : {Role::position, Role::size}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.scale(i, n * n + m * m);
+  }
+  return true;
+}
+
+/// A right angle as programs write it: with the rounded sine and cosine of half of it.
+bool rounded_right_angle(Draft& d) {
+  if (d.plan.rotations.empty()) return false;
+  const std::size_t begin = d.random.pick(d.plan.rotations), axis = d.random.below(3);
+  constexpr double pi = 3.14159265358979323846;
+  const double half = d.random.sign() * d.random.between(1, 3) * pi / 4;
+  for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, k == 3 ? std::cos(half) : k == axis ? std::sin(half) : 0.0);
+  d.repair();
   return true;
 }
 
@@ -300,6 +392,59 @@ bool touch_by_position(Draft& d) {
   return true;
 }
 
+/// A plane at a right angle to an axis touches a thing, from either side; a box that it touches stands upright.
+bool touch_by_plane(Draft& d) {
+  const auto& offsets = d.plan.numbers[std::size_t(Role::offset)];
+  if (offsets.empty() || d.plan.things.empty()) return false;
+  const std::size_t at = d.random.pick(offsets), k = d.random.below(3);  // its normal are the three numbers before
+  const Thing& thing = d.random.pick(d.plan.things);
+  if (thing.sizes.size() == 3) identity_rotation(d);
+  const double length = d.random.power_of_two(-1, 1), side = d.random.sign(), over = d.random.sign();
+  for (std::size_t i = 0; i < 3; ++i) d.set(at - 3 + i, i == k ? side * length : 0.0);
+  const double reached = d.vector(d.random.pick(thing.positions))[k] + over * reach_along(d, thing, k);
+  d.set(at, -side * length * reached);
+  return true;
+}
+
+/// The first thing touches another along an axis; its motion there is set by `make` from the axis and the side on
+/// which it stands.
+template <class Make>
+bool touch_and_move(Draft& d, Make make) {
+  const auto& things = d.plan.things;
+  if (d.plan.velocities.empty() || things.size() < 2) return false;
+  const Thing &a = things[0], &b = things[1 + d.random.below(things.size() - 1)];
+  const std::size_t k = d.random.below(3);
+  const double side = d.random.sign();
+  Numbers at = d.vector(d.random.pick(b.positions));
+  at[k] += side * (reach_along(d, a, k) + reach_along(d, b, k));
+  d.set_vector(a.positions.front(), at);
+  Numbers velocity = d.vector(d.plan.velocities.front());
+  make(k, side, at, velocity);
+  d.set_vector(a.positions.front(), at);
+  d.set_vector(d.plan.velocities.front(), velocity);
+  return true;
+}
+
+/// Motion along a touching face, from the touch on or from before it.
+bool grazing(Draft& d) {
+  return touch_and_move(d, [&](std::size_t k, double, Numbers& at, Numbers& velocity) {
+    velocity[k] = 0;
+    if (d.random.one_in(2)) return;
+    const double before = d.random.between(1, 4);
+    for (std::size_t i = 0; i < 3; ++i) at[i] -= before * velocity[i];
+  });
+}
+
+/// Straight against a face or away from it, from the touch on or from before it.
+bool head_on(Draft& d) {
+  return touch_and_move(d, [&](std::size_t k, double side, Numbers& at, Numbers& velocity) {
+    const double speed = velocity[k] == 0 ? d.unit : std::abs(velocity[k]);
+    velocity = {};
+    velocity[k] = d.random.one_in(3) ? side * speed : -side * speed;
+    if (!d.random.one_in(3)) at[k] += side * speed * d.random.between(1, 4);
+  });
+}
+
 // Transforms of everything.
 
 bool far_offset(Draft& d) {
@@ -308,7 +453,7 @@ bool far_offset(Draft& d) {
   for (double& x : offset) {
     const double sign = d.random.one_in(3) ? 0.0 : d.random.sign();
     const int times = d.random.between(1, 7);
-    x = sign * times * d.random.power_of_two(0, d.orders(10, 40));
+    x = sign * times * d.random.power_of_two(0, d.orders(12, 48));  // 7 * 2^47: 1e15
   }
   for (std::size_t v : d.plan.positions) {
     const Numbers x = d.vector(v);
@@ -340,6 +485,70 @@ bool ulp_nudge(Draft& d) {
   return any;
 }
 
+/// A number that may have any value: of a position, velocity, direction or rotation.
+bool some_signed_number(Draft& d, std::size_t& at) {
+  at = d.random.below(d.plan.query->inputs.size());
+  const Role role = d.plan.query->inputs[at].role;
+  return role == Role::position || role == Role::velocity || role == Role::direction || role == Role::rotation;
+}
+
+/// 1e-15 ... 1e-3 of itself.
+bool relative_nudge(Draft& d) {
+  const std::size_t at = d.random.below(d.plan.query->inputs.size());
+  const Role role = d.plan.query->inputs[at].role;
+  if (role == Role::flag || role == Role::index || d[at] == 0) return false;
+  d.scale(at, 1 + tiny(d, 3, 15));
+  d.repair();
+  return true;
+}
+
+bool negative_zero(Draft& d) {
+  bool any = false;
+  for (std::size_t i = 0; i < d.plan.query->inputs.size(); ++i) {
+    const Role role = d.plan.query->inputs[i].role;
+    if (role == Role::flag || role == Role::index || d[i] != 0 || std::signbit(d[i]) || d.random.one_in(3)) continue;
+    d.set(i, -0.0);
+    any = true;
+  }
+  return any;
+}
+
+bool neighbour_of_one(Draft& d) {
+  std::size_t at;
+  if (!some_signed_number(d, at)) return false;
+  d.set(at, d.random.sign());
+  d.step_ulps(at, d.random.between(-2, 2));
+  d.repair();
+  return true;
+}
+
+/// All lengths at the end of the scalar's range: 2^-149 or 2^-1074 among them, or the largest finite numbers.
+bool extreme_scale(Draft& d) {
+  const int lowest = d.orders(-149, -1074), highest = d.orders(127, 1023);
+  double largest = 0;
+  for (Role role : {Role::position, Role::velocity, Role::size}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) largest = std::max(largest, std::abs(d[i]));
+  }
+  if (largest == 0) return false;
+  const int now = std::ilogb(largest);
+  const int wanted = d.random.one_in(2) ? d.random.between(lowest, lowest / 2) : d.random.between(highest / 2, highest);
+  for (Role role : {Role::position, Role::velocity, Role::size}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.set(i, std::ldexp(d[i], wanted - now));
+  }
+  d.repair();
+  return true;
+}
+
+/// One number at the very end of the scalar's range.
+bool largest_or_least(Draft& d) {
+  std::size_t at;
+  if (!some_signed_number(d, at)) return false;
+  const double least = std::ldexp(1.0, d.orders(-149, -1074) + d.random.between(0, 3));
+  d.set(at, d.random.sign() * (d.random.one_in(2) ? largest_finite(d.scalar) : least));
+  d.repair();
+  return true;
+}
+
 /// The closed table. Applied in this order, so that what is exact is made before it is moved, and the
 /// last ulps are changed at the very end.
 constexpr Move table[] = {
@@ -349,11 +558,16 @@ constexpr Move table[] = {
     {"shared-coordinate", "a coordinate copied from another position", shared_coordinate},
     {"zero-component", "one number of a vector is 0", zero_component},
     {"between-positions", "a position on the segment or in the plane of others", between_positions},
+    {"sliver", "three corners nearly on a line: 1e-1 ... 1e-16 off it", sliver},
+    {"coincident-things", "two things are the same set", coincident_things},
+    {"contained", "one thing deep inside of another", contained},
     {"zero-size", "one size is 0", zero_size},
     {"all-sizes-zero", "a shape without any size", all_sizes_zero},
     {"equal-sizes", "two sizes are the same", equal_sizes},
     {"size-ratio", "one size tiny or huge", size_ratio},
     {"axis-rotation", "a quaternion of a right angle or a half turn", axis_rotation},
+    {"pythagorean-rotation", "a turn with rational sine and cosine", pythagorean_rotation},
+    {"rounded-right-angle", "a right angle by rounded sines and cosines", rounded_right_angle},
     {"identity-rotation", "no shape is turned", identity_rotation},
     {"near-axis-rotation", "1e-3 ... 1e-16 from a right angle", near_axis_rotation},
     {"equal-rotations", "two shapes turned alike", equal_rotations},
@@ -361,16 +575,25 @@ constexpr Move table[] = {
     {"scaled-rotation", "a quaternion whose length is not 1", scaled_rotation},
     {"touch-by-size", "a size equal to a coordinate's distance: upright shapes touch", touch_by_size},
     {"touch-by-position", "a center as far along one axis as both shapes reach", touch_by_position},
+    {"touch-by-plane", "a plane across an axis that just reaches a shape", touch_by_plane},
     {"zero-velocity", "no motion", zero_velocity},
     {"axis-velocity", "motion along one axis", axis_velocity},
     {"aimed-at-position", "motion straight at a vertex or center", aimed_at_position},
     {"parallel", "a velocity or direction along another one or along an edge", parallel},
     {"antiparallel", "the same, against it", antiparallel},
+    {"near-parallel", "the same, 1e-2 ... 1e-16 radians off, either way", near_parallel},
     {"orthogonal", "a velocity or direction at an exact right angle to another one or to an edge", orthogonal},
+    {"grazing", "motion along a touching face, from the touch on or before it", grazing},
+    {"head-on", "motion straight against a face or away from it, from the touch on or before it", head_on},
     {"scaled-velocity", "the same motion, much slower or faster", scaled_velocity},
     {"far-offset", "everything far from the origin", far_offset},
     {"scaled-lengths", "all lengths times a power of two", scaled_lengths},
+    {"negative-zero", "zeros that have a sign", negative_zero},
+    {"neighbour-of-one", "a number that is 1 or -1 but for up to 2 ulps", neighbour_of_one},
+    {"relative-nudge", "one number moved by 1e-3 ... 1e-15 of itself", relative_nudge},
     {"ulp-nudge", "up to three numbers moved by 1 to 3 ulps", ulp_nudge},
+    {"extreme-scale", "all lengths at an end of the scalar's range, subnormal or nearly infinite", extreme_scale, true},
+    {"largest-or-least", "one number the largest finite one, or the least above zero", largest_or_least, true},
 };
 
 }  // namespace

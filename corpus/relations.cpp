@@ -50,7 +50,8 @@ Agreement compare(const Query& query, const Answer& a, const Answer& b) {
   if (a.status != b.status || a.status != Answer::Status::answered) return Agreement::same;  // nothing to compare
   if (a.yes != b.yes) return Agreement::decisions_differ;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    if (a.gives(i) && b.gives(i) && a.values[i] != b.values[i]) return Agreement::numbers_differ;
+    const bool neither_is_a_number = std::isnan(a.values[i]) && std::isnan(b.values[i]);
+    if (a.gives(i) && b.gives(i) && a.values[i] != b.values[i] && !neither_is_a_number) return Agreement::numbers_differ;
   }
   return Agreement::same;
 }

@@ -243,7 +243,11 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
   }
   f.truth_yes = here.may_be_yes;
   const bool decision_differs = f.truth_yes != answer.yes;
-  if (const int bad = infinite(query, answer); bad >= 0 && !x.exactly().may_match) return not_finite(bad);
+  // An infinite number is held to the same bound as any other: on a knife's edge it may be right next door.
+  const auto right_next_door = [&] { return std::isfinite(contract.backward) && x.within(contract.backward).may_match; };
+  if (const int bad = infinite(query, answer); bad >= 0 && !x.exactly().may_match && !right_next_door()) {
+    return not_finite(bad);
+  }
   if (!decision_differs) take_forward(here, f);
   if (here.may_match) {
     f.verdict = Verdict::agrees;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <filesystem>
@@ -54,7 +55,9 @@ TEST_P(Generator, KeepsToModerateMagnitudes) {
   for (Scalar scalar : scalars) {
     const double largest = scalar == Scalar::float32 ? 0x1p18 : 0x1p60;
     for (std::uint64_t i = 0; i < 20000; ++i) {
-      for (double x : generate(query, scalar, 7, i).values) ASSERT_LE(std::abs(x), largest) << "case " << i;
+      const Case c = generate(query, scalar, 7, i);
+      if (has_extreme_move(c)) continue;
+      for (double x : c.values) ASSERT_LE(std::abs(x), largest) << "case " << i;
     }
   }
 }

@@ -1,0 +1,206 @@
+/// The generator's balance: both decisions, every kind of feature, ties, and the knife's edge, each often enough.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector sub(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A case and one right answer to it by the names of their vectors. What is counted here is only classed, not judged:
+/// doubles are enough.
+class Scene {
+ public:
+  Scene(const Case& c, const Alternative& a) : case_(c), alternative_(a) {}
+
+  std::optional<Vector> given(const std::string& name) const {
+    return three(case_.query->inputs, name, [&](std::size_t i) { return case_.values[i]; });
+  }
+  std::optional<Vector> answered(const std::string& name) const {
+    return three(case_.query->outputs, name, [&](std::size_t i) { return middle(i); });
+  }
+  double given_number(const std::string& name) const {
+    for (std::size_t i = 0; i < case_.values.size(); ++i) {
+      if (case_.query->inputs[i].name == name) return case_.values[i];
+    }
+    return 0;
+  }
+  std::optional<int> index() const {
+    for (std::size_t i = 0; i < case_.query->outputs.size() && i < alternative_.count; ++i) {
+      if (case_.query->outputs[i].role == Role::index) return int(middle(i));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double middle(std::size_t i) const { return alternative_.values[i].low / 2 + alternative_.values[i].high / 2; }
+  template <class Number>
+  std::optional<Vector> three(const std::vector<Field>& fields, const std::string& name, Number number) const {
+    for (std::size_t i = 0; i + 2 < fields.size(); ++i) {
+      const bool there = &fields == &case_.query->inputs || i + 2 < alternative_.count;
+      if (fields[i].name == name + ".x" && there) return Vector{number(i), number(i + 1), number(i + 2)};
+    }
+    return std::nullopt;
+  }
+
+  const Case& case_;
+  const Alternative& alternative_;
+};
+
+/// Relative to the sizes at hand, for classing only.
+constexpr double at_most = 1e-9;
+
+std::string_view corner_kind(int coordinates_at_their_end) {
+  constexpr std::string_view kinds[] = {"inside", "face", "edge", "vertex"};
+  return kinds[coordinates_at_their_end];
+}
+
+std::string_view of_box(const Vector& local, const Vector& half) {
+  const double size = std::max({half[0], half[1], half[2], std::abs(local[0]), std::abs(local[1]), std::abs(local[2])});
+  int ends = 0;
+  for (std::size_t k = 0; k < 3; ++k) ends += std::abs(std::abs(local[k]) - half[k]) <= at_most * size;
+  return corner_kind(ends);
+}
+
+Vector turned_back(const Vector& v, const Vector& u, double w) {  // by the inverse of the quaternion u, w
+  const Vector once = cross(v, u), twice = cross(once, u);
+  const double n = dot(u, u) + w * w;
+  Vector out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = v[k] + 2 * (w * once[k] + twice[k]) / n;
+  return out;
+}
+
+/// Which feature of the fixed thing an answer lies on; empty where the query has none to tell.
+std::string feature_of(const Scene& s) {
+  if (const auto w = s.answered("weights")) {
+    const auto zeros = std::count_if(w->begin(), w->end(), [](double x) { return std::abs(x) <= at_most; });
+    return std::string(zeros == 0 ? "face" : zeros == 1 ? "edge" : "vertex");
+  }
+  if (const auto i = s.index()) return *i < 0 ? "" : fmt::format("index {}", *i);
+  auto point = s.answered("location");
+  if (!point) point = s.answered("contact");
+  if (!point) point = s.answered("point");
+  if (!point) return "";
+  if (const auto half = s.given("box.half")) {
+    const Vector u = *s.given("box.orientation");
+    return std::string(of_box(turned_back(sub(*point, *s.given("box.center")), u, s.given_number("box.orientation.w")), *half));
+  }
+  if (const auto low = s.given("aabox.min")) {
+    const Vector high = *s.given("aabox.max");
+    Vector center, half;
+    for (std::size_t k = 0; k < 3; ++k) center[k] = (*low)[k] / 2 + high[k] / 2, half[k] = high[k] / 2 - (*low)[k] / 2;
+    return std::string(of_box(sub(*point, center), half));
+  }
+  if (const auto p0 = s.given("capsule.p0")) {
+    const auto normal = s.answered("normal");
+    const Vector axis = sub(*s.given("capsule.p1"), *p0);
+    if (!normal || dot(axis, axis) == 0) return "";
+    return std::abs(dot(*normal, axis)) <= at_most * std::sqrt(dot(axis, axis)) ? "tube" : "end";
+  }
+  for (const char* thing : {"segment", "triangle", "rectangle"}) {
+    bool vertex = false;
+    for (int v = 0; v < 4; ++v) {
+      const auto corner = s.given(fmt::format("{}.v{}", thing, v));
+      if (!corner) continue;
+      const Vector off = sub(*point, *corner);
+      vertex = vertex || dot(off, off) <= at_most * at_most * (1 + dot(*point, *point));
+    }
+    if (s.given(fmt::format("{}.v0", thing))) return vertex ? "vertex" : "between";
+  }
+  return "";
+}
+
+/// Shares of the first cases of a stream.
+struct Balance {
+  int cases = 0, yes = 0, ties = 0, knifes_edge = 0;
+  std::map<std::string, int> features;
+
+  std::string text() const {
+    const auto percent = [&](int n) { return fmt::format("{:.1f}", 100.0 * n / cases); };
+    std::string all = fmt::format("yes {} ties {} edge {}", percent(yes), percent(ties), percent(knifes_edge));
+    for (const auto& [name, count] : features) all += fmt::format(", {} {}", name, percent(count));
+    return all;
+  }
+};
+
+/// A decision that an input within 4 epsilon would turn.
+bool on_the_knifes_edge(const Truth& t) { return t.margin_at_least < 4; }
+
+Balance balance_of(const Query& query, Scalar scalar, int cases) {
+  Balance b;
+  b.cases = cases;
+  for (int i = 0; i < cases; ++i) {
+    const Case c = generate(query, scalar, 1, std::uint64_t(i));
+    const Truth t = truth_of(c);
+    b.yes += t.yes;
+    b.knifes_edge += decides(query.kind) && on_the_knifes_edge(t);
+    b.ties += t.alternatives.size() > 1 || (!t.alternatives.empty() && t.alternatives.front().many_normals);
+    std::set<std::string> features;
+    for (const Alternative& a : t.alternatives) features.insert(feature_of(Scene(c, a)));
+    for (const std::string& f : features) {
+      if (!f.empty()) ++b.features[f];
+    }
+  }
+  return b;
+}
+
+/// Every query's features: what its answers can lie on. Empty for those without.
+std::vector<std::string> features_of(const Query& query) {
+  const auto has = [](const std::vector<Field>& fields, std::string_view beginning) {
+    return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.name.starts_with(beginning); });
+  };
+  if (has(query.outputs, "weights")) return {"face", "edge", "vertex"};
+  if (has(query.outputs, "edge")) return {"index 0", "index 1", "index 2"};
+  if (query.name == "box_box_overlap" || query.name == "box_box_penetration") {
+    std::vector<std::string> axes;
+    for (int i = 0; i < 15; ++i) axes.push_back(fmt::format("index {}", i));
+    return axes;
+  }
+  const bool place = has(query.outputs, "location") || has(query.outputs, "contact") || has(query.outputs, "point.");
+  if (place && (has(query.inputs, "box.") || has(query.inputs, "aabox."))) return {"face", "edge", "vertex"};
+  if (place && has(query.inputs, "capsule")) return {"tube", "end"};
+  if (place && (has(query.inputs, "segment") || has(query.inputs, "rectangle"))) return {"between", "vertex"};
+  return {};
+}
+
+class GeneratorBalance : public testing::TestWithParam<NamedQuery> {};
+
+TEST_P(GeneratorBalance, ReachesEveryFeatureTieAndKnifesEdgeOftenEnough) {
+  const Query& query = *GetParam().query;
+  constexpr int cases = 1000;
+  const Balance b = balance_of(query, Scalar::float64, cases);
+  RecordProperty("balance", b.text());
+  if (decides(query.kind)) {
+    // Half diagonals that are sums of three squares hardly ever add up to a distance.
+    const int least = query.name == "box_box_conservative" ? 5 : 10;
+    EXPECT_GE(b.knifes_edge, cases * least / 1000) << b.text();
+    EXPECT_GE(std::min(b.yes, cases - b.yes), cases * (query.name == "box_box_conservative" ? 8 : 15) / 100) << b.text();
+  }
+  for (const std::string& f : features_of(query)) {
+    const auto found = b.features.find(f);
+    EXPECT_GE(found == b.features.end() ? 0 : found->second, cases * 5 / 1000) << f << ": " << b.text();
+  }
+  if (std::getenv("NEARMISS_PRINT_BALANCE") != nullptr) fmt::print("{}: {}\n", query.name, b.text());
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, GeneratorBalance, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss
