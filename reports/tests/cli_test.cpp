@@ -142,7 +142,7 @@ TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
 
 TEST(Run, TakesOnlyWhatWasChosen) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-q", "bounce_direction", "-n",
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-q", "bounce_direction", "--seed", "1", "-n",
                             "100", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
   EXPECT_EQ(index_of(folder / "r")["tallies"].size(), 2u);
@@ -150,7 +150,7 @@ TEST(Run, TakesOnlyWhatWasChosen) {
 
 TEST(Run, StopsWhenTheTimeIsOver) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "--seconds", "0.5", "--out", (folder / "r").string()});
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "--seconds", "0.5", "--seed", "1", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
   const json index = index_of(folder / "r");
   for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0) << t["query"] << ": every query gets its turn";

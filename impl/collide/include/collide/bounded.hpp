@@ -100,8 +100,8 @@ struct Bounded {
   /// Of two numbers whose order is open, either is within both errors of the larger.
   friend Bounded larger(const Bounded& a, const Bounded& b) noexcept {
     const double of_larger = if_less(a.value, b.value, b.error, a.error);
-    const double error = if_less(open(a, b), magnitude(b.value - a.value), of_larger, collide::larger(a.error, b.error));
-    return {collide::larger(a.value, b.value), error};
+    return {collide::larger(a.value, b.value),
+            if_less(open(a, b), magnitude(b.value - a.value), of_larger, collide::larger(a.error, b.error))};
   }
   friend Bounded smaller(const Bounded& a, const Bounded& b) noexcept { return -larger(-a, -b); }
 };

@@ -115,6 +115,24 @@ FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>
   return foot;
 }
 
+/// edge1 x edge2, the normal of the triangle with these edges. Of a thin one rounding leaves the product a part along
+/// the edges, perhaps as large as itself, which is taken off where they are longest.
+template <class Tier, class T>
+Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
+  const Vec3<T> n = Tier::cross(edge1, edge2);
+  if constexpr (MachineNumber<T>) {
+    Vec3<T> longest = edge1;
+    T longest2 = Tier::dot(edge1, edge1);
+    const T other2 = Tier::dot(edge2, edge2);
+    if (T(16) * Tier::dot(n, n) >= longest2 * other2) return n;  // an angle with a sine of a quarter or more
+    if (other2 > longest2) longest = edge2, longest2 = other2;
+    const Vec3<T> edge3 = edge2 - edge1;
+    if (const T third2 = Tier::dot(edge3, edge3); third2 > longest2) longest = edge3, longest2 = third2;
+    if (longest2 > T(0)) return n - longest * (Tier::dot(n, longest) / longest2);
+  }
+  return n;
+}
+
 template <class T>
 std::array<Vec3<T>, 3> corners(const Triangle<T>& t) noexcept { return {t.v0, t.v1, t.v2}; }
 

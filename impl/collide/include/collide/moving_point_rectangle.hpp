@@ -30,7 +30,7 @@ Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
   T time = std::numeric_limits<T>::infinity();
   Vec3<T> normal{};
   const auto meet = [&](const Vec3<T>& edge1, const Vec3<T>& edge2) {
-    const Vec3<T> n = Tier::cross(edge1, edge2);
+    const Vec3<T> n = detail::normal_of<Tier>(edge1, edge2);
     const T approach = -Tier::dot(n, velocity), behind = Tier::dot(n, a);
     if (!(approach > T(0) && behind <= T(0))) return;
     const T at = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, edge1, edge2);

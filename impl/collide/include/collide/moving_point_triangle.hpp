@@ -113,7 +113,7 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                       point, velocity, triangle);
   }
   const Vec3<T> edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
-  const Vec3<T> n = Tier::cross(edge1, edge2);
+  const Vec3<T> n = detail::normal_of<Tier>(edge1, edge2);
   const T approach = -Tier::dot(n, velocity);
   if (!(approach > T(0))) return Impact<T>::miss();
   const Vec3<T> a = triangle.v0 - point;

@@ -17,7 +17,7 @@ struct PreparedTriangle {
 template <class Tier = Fast, class T>
 PreparedTriangle<T> prepare_triangle(const Triangle<T>& triangle) noexcept {
   const Vec3<T> edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
-  const Vec3<T> normal = Tier::cross(edge1, edge2);
+  const Vec3<T> normal = detail::normal_of<Tier>(edge1, edge2);
   return {triangle, edge1, edge2, normal, unit<Tier>(normal)};
 }
 
