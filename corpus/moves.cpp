@@ -529,7 +529,7 @@ bool extreme_scale(Draft& d) {
   for (Role role : {Role::position, Role::velocity, Role::size}) {
     for (std::size_t i : d.plan.numbers[std::size_t(role)]) largest = std::max(largest, std::abs(d[i]));
   }
-  if (largest == 0) return false;
+  if (largest == 0 || !std::isfinite(largest)) return false;
   const int now = std::ilogb(largest);
   const int wanted = d.random.one_in(2) ? d.random.between(lowest, lowest / 2) : d.random.between(highest / 2, highest);
   for (Role role : {Role::position, Role::velocity, Role::size}) {

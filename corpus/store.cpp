@@ -68,7 +68,9 @@ Expected expectation_from(const json& j, const std::string& where, const std::st
 
 fs::path corpus_folder() {
   const char* told = std::getenv("NEARMISS_CORPUS");
-  return told != nullptr && *told != '\0' ? told : NEARMISS_CORPUS_FOLDER;
+  if (told == nullptr || *told == '\0') return NEARMISS_CORPUS_FOLDER;
+  if (!fs::is_directory(told)) throw BadInput(fmt::format("NEARMISS_CORPUS is {}: there is no such folder", told));
+  return told;
 }
 
 StoredCase read_stored_case(const fs::path& file) {

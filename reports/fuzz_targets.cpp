@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <system_error>
@@ -30,9 +31,17 @@ constexpr auto grace = 3s;
 
 /// A target of a plain build has a main of its own and cannot fuzz; libFuzzer's options are in the file.
 bool has_libfuzzer(const fs::path& file) {
+  constexpr std::string_view mark("\0max_total_time\0", 16);
   std::ifstream in(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  return bytes.find(std::string_view("\0max_total_time\0", 16)) != std::string::npos;
+  std::string block(std::size_t{1} << 20, '\0');
+  std::size_t kept = 0;  // the end of the last block, in which the mark may begin
+  while (in.read(block.data() + kept, std::streamsize(block.size() - kept)) || in.gcount() > 0) {
+    const std::size_t filled = kept + std::size_t(in.gcount());
+    if (std::string_view(block).substr(0, filled).find(mark) != std::string_view::npos) return true;
+    kept = std::min(filled, mark.size() - 1);
+    std::copy_n(block.data() + filled - kept, kept, block.data());
+  }
+  return false;
 }
 
 std::vector<fs::path> usual_folders() {

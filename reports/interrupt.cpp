@@ -13,7 +13,7 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = [](int) { requested = 1; };
   action.sa_flags = int(SA_RESETHAND);
-  for (const int s : {SIGINT, SIGTERM}) sigaction(s, &action, nullptr);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) sigaction(s, &action, nullptr);
 }
 
 bool interrupted() { return requested != 0; }

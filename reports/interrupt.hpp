@@ -1,9 +1,9 @@
-/// SIGINT and SIGTERM as a request to stop at the next good moment.
+/// SIGINT, SIGTERM and SIGHUP as a request to stop at the next good moment.
 #pragma once
 
 namespace nearmiss {
 
-/// The first SIGINT or SIGTERM from now on only makes interrupted() true; a second one ends the process.
+/// The first of them from now on only makes interrupted() true; a second one ends the process.
 void catch_interrupts();
 bool interrupted();
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "reports/text.hpp"
 
@@ -11,10 +12,15 @@ namespace nearmiss {
 
 using namespace std::chrono_literals;
 
+void say_on_stderr(const std::string& text) noexcept {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), told_(begin_) {}
 
 Progress::~Progress() {
-  if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
+  if (shown_ && terminal_) say_on_stderr("\r\033[K");
 }
 
 void Progress::doing(std::string what) { what_ = std::move(what); }
@@ -26,8 +32,7 @@ void Progress::tell(std::uint64_t done, std::optional<std::uint64_t> total, std:
   told_ = now;
   shown_ = true;
   const std::string text = line(done, total, seconds_left, findings);
-  fmt::print(stderr, "{}", terminal_ ? "\r\033[K" + text : "nearmiss: " + text + "\n");
-  std::fflush(stderr);
+  say_on_stderr(terminal_ ? "\r\033[K" + text : "nearmiss: " + text + "\n");
 }
 
 std::string Progress::line(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,

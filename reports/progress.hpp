@@ -34,6 +34,9 @@ class Progress {
   bool shown_ = false;
 };
 
+/// Text for people on standard error. Whether it can be written is no matter: work goes on, and the exit code stays.
+void say_on_stderr(const std::string& text) noexcept;
+
 /// "1 h 02 min", "3 min 05 s", "12 s", "0.4 s".
 std::string duration_text(double seconds);
 

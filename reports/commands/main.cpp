@@ -10,6 +10,7 @@
 #include "oracles/environment.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/manual_page.hpp"
+#include "reports/progress.hpp"
 #include "reports/text.hpp"
 #include "reports/version.hpp"
 
@@ -127,7 +128,7 @@ std::vector<std::string> with_negative_values(const std::vector<std::string>& ar
 
 int complain(std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
-  fmt::print(stderr, "nearmiss: {}\n", what);
+  say_on_stderr("nearmiss: " + what + "\n");
   return 2;
 }
 

@@ -170,9 +170,9 @@ class NightlyCommand : public Command {
     const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
+    catch_interrupts();
     const FuzzTargets found =
         find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());
-    catch_interrupts();
     Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), all.queries(), all.subjects(),
              seed, end});
     fmt::print("seed {}, for {}, into {}\n{}\n", seed, duration_text(seconds), run.settings().folder.string(),

@@ -25,7 +25,7 @@ class ReplayCommand : public Command {
          "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
         judging_exit_status(),
         {{"nearmiss replay reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings again."},
-         {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/tunnel.json", "One subject, a stored case."},
+         {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/hit-corner.json", "One subject, a stored case."},
          {"nearmiss replay --json case.json", "As a JSON array of reports."}}};
   }
   void declare(CLI::App& app) override {

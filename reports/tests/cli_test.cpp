@@ -257,7 +257,7 @@ TEST(Report, AsksRefereesAtUnitScaleToo) {
 
 TEST(Run, TellsProgressOnStandardErrorOnly) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "-n", "200", "--out", (folder / "r").string()});
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-n", "200", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.out.find('\r'), std::string::npos);
   EXPECT_EQ(ran.err, "") << "short work says nothing";
 }
@@ -330,7 +330,7 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   fs::create_directory(folder / "targets");
   const fs::path target = folder.file("targets/fuzz_moving_sphere_box", fuzz_target(seed, artifact));
   fs::permissions(target, fs::perms::owner_all);
-  const Ran ran = nearmiss({"nightly", "--minutes", "0.1", "--seed", "3", "--fuzz-targets",
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.25", "--seed", "3", "--fuzz-targets",
                             (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   const json index = index_of(folder / "r");
@@ -355,10 +355,11 @@ TEST(Nightly, FailsWithATargetThatEndsWithAnError) {
   const fs::path target =
       folder.file("targets/fuzz_" + query, "#!/bin/sh\nexit 77\n" + std::string("\0max_total_time\0", 16));
   fs::permissions(target, fs::perms::owner_all);
-  const Ran ran = nearmiss({"nightly", "--minutes", "0.1", "--fuzz-targets", (folder / "targets").string(), "--out",
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.25", "--fuzz-targets", (folder / "targets").string(), "--out",
                             (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r");
+  ASSERT_EQ(index["fuzz"]["targets"].size(), 1u) << index["fuzz"];
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
   EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "exit code 77");
   EXPECT_NE(last_line(ran.out).find("1 ended with an error"), std::string::npos) << ran.out;

@@ -22,6 +22,7 @@ ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T 
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, box1, box2, epsilon);
   }
+  if (epsilon < T(0)) return {};  // no two axes are that near
   const std::array<T, 4> r =
       detail::seen_from(detail::moderate(box1.orientation), detail::moderate(box2.orientation));
   const T most = epsilon * detail::norm2(r);

@@ -74,6 +74,10 @@ struct SpherePastTriangle {
     if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
+    if constexpr (MachineNumber<T>) {  // of a sliver thinner than its rounding the edges tell
+      const T n2 = n_length * n_length;
+      if (!(sum <= T(2) * n2 && sum >= n2 / T(2))) return false;
+    }
     place.feature = 0;
     place.weights = {a / sum, b / sum, c / sum};
     return true;
