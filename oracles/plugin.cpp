@@ -97,6 +97,14 @@ void take_offer(const std::string& file, const nearmiss_offer& offer, Subject& s
     o.how = text_or(offer.equivalence, "");
     o.offer = o.how.empty() ? Offer::answers : Offer::by_equivalence;
     o.contract = contract_of(offer.contract);
+    const collide::Contract& c = o.contract;
+    if (!(c.backward >= 0 && c.forward >= 0 && c.unit >= 0)) {
+      refuse(file, fmt::format("its contract of {} promises errors of at most {}, {} and {}: none may be below 0", name,
+                               c.backward, c.forward, c.unit));
+    }
+    if (c.lowest > c.highest) {
+      refuse(file, fmt::format("its contract of {} has lowest {} above highest {}", name, c.lowest, c.highest));
+    }
     o.answer = AnswerFunction(ask, &offer);
   }
 }
@@ -132,7 +140,9 @@ Subject subject_of(const std::string& file, const nearmiss_plugin* plugin) {
 
 void load_plugin(const std::string& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) refuse(file, "there is no such file");
+  if (file.empty()) refuse("--plugin", "the name of its file is empty");
+  if (!std::filesystem::exists(file, error)) refuse(file, "there is no such file");
+  if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is not a file");
   const std::string path = std::filesystem::absolute(file);  // without a slash it would be looked for elsewhere
   try_to_load(file, path);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -35,7 +35,17 @@ static int misbehave(const double *inputs, nearmiss_answer *answer) {
 #define NAME "misbehaves"
 #endif
 
-static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, NULL, misbehave}};
+#ifdef CONTRACT_BELOW_ZERO
+static const nearmiss_contract contract = {-1, 0, 0, 0, 0, 0};
+#define CONTRACT &contract
+#elif defined(CONTRACT_UPSIDE_DOWN)
+static const nearmiss_contract contract = {1, 1, 1, 0, 20, -20};
+#define CONTRACT &contract
+#else
+#define CONTRACT NULL
+#endif
+
+static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, CONTRACT, misbehave}};
 static const nearmiss_plugin plugin = {VERSION, NAME, "1", NEARMISS_DOUBLE, 1, offers};
 
 #ifdef NO_ENTRY

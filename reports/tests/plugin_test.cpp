@@ -99,6 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Faults, BadPluginFile,
                                          Refused{"miscounts", "sphere_sphere_overlap has 8 inputs"},
                                          Refused{"unknown_query", "'sphere_sphere_overlaps'"},
                                          Refused{"taken_name", "there is a subject 'collide-fast-double' already"},
+                                         Refused{"contract_below_zero", "none may be below 0"},
+                                         Refused{"contract_upside_down", "lowest 20 above highest -20"},
                                          Refused{"crashes", "loading it crashes"}),
                          [](const auto& test) { return std::string(test.param.name); });
 

@@ -124,7 +124,7 @@ Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
     Vec3<T> longest = edge1;
     T longest2 = Tier::dot(edge1, edge1);
     const T other2 = Tier::dot(edge2, edge2);
-    if (T(16) * Tier::dot(n, n) >= longest2 * other2) return n;  // an angle with a sine of a quarter or more
+    if (T(16) * Tier::dot(n, n) >= longest2 * other2) return n;  // a sine of 1/4: 2 eps of the product are 8 of n
     if (other2 > longest2) longest = edge2, longest2 = other2;
     const Vec3<T> edge3 = edge2 - edge1;
     if (const T third2 = Tier::dot(edge3, edge3); third2 > longest2) longest = edge3, longest2 = third2;

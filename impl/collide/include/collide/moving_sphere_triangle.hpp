@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/edges.hpp>
 #include <collide/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -34,23 +35,11 @@ struct SpherePastTriangle {
   SpherePastTriangle(const Sphere<T>& sphere, const Vec3<T>& along, const Triangle<T>& triangle) noexcept
       : center(sphere.center), radius(sphere.radius), velocity(along), v{triangle.v0, triangle.v1, triangle.v2} {
     for (int i = 0; i < 3; ++i) edge[i] = v[(i + 1) % 3] - v[i];
-    n = Tier::cross(edge[0], -edge[2]);
-    if constexpr (MachineNumber<T>) straighten();
+    n = normal_of<Tier>(edge[0], -edge[2]);
     n_length = length(components(n));
     height = Tier::dot(n, center - v[0]);
     approach = -Tier::dot(n, velocity);
     for (int i = 0; i < 3; ++i) inward[i] = Tier::cross(n, edge[i]);
-  }
-
-  /// Of a thin triangle rounding leaves n a part along the edges, which this takes off where they are longest.
-  void straighten() noexcept {
-    T longest2(0);
-    int longest = 0;
-    for (int i = 0; i < 3; ++i) {
-      const T edge2 = Tier::dot(edge[i], edge[i]);
-      if (edge2 > longest2) longest2 = edge2, longest = i;
-    }
-    if (longest2 > T(0)) n = n - edge[longest] * (Tier::dot(n, edge[longest]) / longest2);
   }
 
   /// Coming from the front or along, and at the start not wholly behind.
@@ -74,7 +63,7 @@ struct SpherePastTriangle {
     if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
-    if constexpr (MachineNumber<T>) {  // of a sliver thinner than its rounding the edges tell
+    if constexpr (MachineNumber<T>) {  // a sum off by as much as itself: so thin a triangle is all edges
       const T n2 = n_length * n_length;
       if (!(sum <= T(2) * n2 && sum >= n2 / T(2))) return false;
     }
