@@ -87,6 +87,12 @@ std::string shown(const json& j) {
   return text;
 }
 
+std::string cut(const std::string& s) { return s.size() > 40 ? s.substr(0, 37) + "..." : s; }
+
+bool has_control_characters(std::string_view s) {
+  return std::any_of(s.begin(), s.end(), [](char c) { return (0 <= c && c < 0x20) || c == 0x7F; });
+}
+
 /// Takes a case apart; every error names the file, the field with its path, the value and the rule.
 class Reader {
  public:
@@ -110,7 +116,7 @@ class Reader {
   void expect_only(const json& object, std::string_view path, const Names& names) const {
     for (const auto& item : object.items()) {
       if (std::find(std::begin(names), std::end(names), item.key()) == std::end(names)) {
-        fail(joined(path, item.key()), "is unknown");
+        fail(joined(path, cut(item.key())), "is unknown");
       }
     }
   }
@@ -119,7 +125,9 @@ class Reader {
   }
   std::string text(const json& j, std::string_view path) const {
     if (!j.is_string()) fail(path, j, "a string");
-    return j.get<std::string>();
+    const std::string text = j.get<std::string>();
+    if (has_control_characters(text)) fail(path, j, "a text without control characters");
+    return text;
   }
   std::uint64_t count(const json& j, std::string_view path) const {
     if (!j.is_number_unsigned()) fail(path, j, "an integer that is not negative");
@@ -230,6 +238,10 @@ class StrictSax : public json::json_sax_t {
   bool key(string_t& name) override {
     Level& level = levels_.back();
     level.key = name;
+    if (has_control_characters(name)) {
+      level.key = shown(name);
+      fail("is a name with control characters");
+    }
     if (!level.seen.insert(name).second) fail("is given twice");
     return true;
   }
@@ -249,11 +261,10 @@ class StrictSax : public json::json_sax_t {
     std::set<std::string> seen;
     std::size_t index = 0;
   };
-  static std::string cut(const std::string& s) { return s.size() > 40 ? s.substr(0, 37) + "..." : s; }
   std::string path() const {
     std::string p;
     for (const Level& l : levels_)
-      p += l.object ? (p.empty() || l.key.empty() ? "" : ".") + l.key : fmt::format("[{}]", l.index);
+      p += l.object ? (p.empty() || l.key.empty() ? "" : ".") + cut(l.key) : fmt::format("[{}]", l.index);
     return p;
   }
   [[noreturn]] void fail(const std::string& what) const {

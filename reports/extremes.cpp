@@ -84,6 +84,9 @@ bool begun(const ExtremesMap& m) {
 }
 
 /// No "</script>" can end the element that the data stand in.
+/// Bytes that are no UTF-8, as an argument may have them, become U+FFFD.
+std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 [[maybe_unused]] std::string for_a_script(std::string text) {
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
   return text;
@@ -169,7 +172,7 @@ std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) 
 #ifdef NEARMISS_D3_FILE
   std::string page = read_file(NEARMISS_SOURCE_FOLDER "/reports/extremes.html");
   put(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
-  put(page, "/*DATA*/", for_a_script(report.dump()));
+  put(page, "/*DATA*/", for_a_script(text_of(report)));
   return page;
 #else
   (void)report;
@@ -179,7 +182,7 @@ std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) 
 
 void Extremes::write() const {
   const Json report = to_json();
-  write_file(settings_.folder / "extremes.json", report.dump() + "\n");
+  write_file(settings_.folder / "extremes.json", text_of(report) + "\n");
   if (const auto drawn = page(report)) write_file(settings_.folder / "extremes.html", *drawn);
 }
 

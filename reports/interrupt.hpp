@@ -3,7 +3,8 @@
 
 namespace nearmiss {
 
-/// The first of them from now on only makes interrupted() true; a second one ends the process.
+/// The first of them from now on only makes interrupted() true; a second one ends the process. Under nohup SIGHUP
+/// stays ignored.
 void catch_interrupts();
 bool interrupted();
 

@@ -14,9 +14,12 @@ bool fits_on_a_line(const Json& j) {
   return !j.is_array() || std::all_of(j.begin(), j.end(), fits_on_a_line);
 }
 
+/// Bytes that are no UTF-8, as a folder's name may have them, become U+FFFD.
+std::string dumped(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 void put_line(const Json& j, std::string& text) {
   if (!j.is_array()) {
-    text += j.dump();
+    text += dumped(j);
     return;
   }
   text += '[';
@@ -35,7 +38,7 @@ void put(const Json& j, std::size_t depth, std::string& text) {
     text += first ? "\n" : ",\n";
     first = false;
     text.append(2 * (depth + 1), ' ');
-    if (j.is_object()) text += Json(item.key()).dump() + ": ";
+    if (j.is_object()) text += dumped(item.key()) + ": ";
     put(item.value(), depth + 1, text);
   }
   text += '\n';

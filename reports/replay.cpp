@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -90,16 +91,40 @@ std::string findings_table(const Replay& replayed) {
 }
 
 std::string origin_text(const Case& c) {
-  std::string text = c.origin;
+  std::string text = one_line(c.origin, 200);
   if (c.origin == "generator") text += fmt::format(", seed {}, index {}", c.seed, c.index);
   if (!c.moves.empty()) text += fmt::format(", moves: {}", fmt::join(c.moves, ", "));
   return text;
 }
 
+/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for a query that this
+/// build does not know: with the names that are near.
+void check_kind(const nlohmann::json& j, const std::string& where) {
+  if (!j.is_object()) return;
+  for (const auto& [member, what] : {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes")}) {
+    if (j.contains("schema") && j.contains(member)) {
+      throw BadInput(fmt::format("{}: it is {}; what can be replayed is a case or a report", where, what));
+    }
+  }
+  if (j.contains("finding") && (!j.contains("schema") || j["schema"] != report_schema_version)) {
+    throw BadInput(fmt::format("{}: schema {}; this build reads reports of schema {}", where,
+                               j.contains("schema") ? "is " + one_line(j["schema"].dump(), 60) : "is missing",
+                               report_schema_version));
+  }
+  if (!j.contains("query") || !j["query"].is_string()) return;
+  std::vector<std::string> names;
+  for (const Query& q : catalogue()) names.emplace_back(q.name);
+  const std::string name = j["query"].get<std::string>();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw BadInput(fmt::format("{}: {}", where, unknown_text("query", name, names)));
+  }
+}
+
 }  // namespace
 
 Case read_case_or_report(const std::filesystem::path& file) {
-  nlohmann::json j = parse_json(read_file(file), file.string());
+  const nlohmann::json j = parse_json(read_file(file), file.string());
+  check_kind(j, file.string());
   if (!j.is_object() || !j.contains("finding")) return case_from_json(j, file.string());
   nlohmann::json question;
   for (const char* key : {"query", "scalar", "inputs", "origin"}) {

@@ -1,9 +1,12 @@
 #include "reports/run.hpp"
 
 #include <fmt/chrono.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -40,7 +43,26 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 std::string_view name_of(RunState s) {
-  return s == RunState::running ? "running" : s == RunState::finished ? "finished" : "interrupted";
+  switch (s) {
+    case RunState::running: return "running";
+    case RunState::finished: return "finished";
+    case RunState::interrupted: return "interrupted";
+    default: return "failed";
+  }
+}
+
+/// Turns the state of the index that is there from running to failed, byte for byte: this needs no room on the disk.
+void mark_as_failed(const std::filesystem::path& index) noexcept {
+  constexpr std::string_view running = "\"state\": \"running\",", failed = "\"state\": \"failed\" ,";
+  static_assert(running.size() == failed.size());
+  std::array<char, 256> head{};  // the state is the index's second member
+  const int file = open(index.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) return;
+  const ssize_t got = pread(file, head.data(), head.size(), 0);
+  const std::size_t at = std::string_view(head.data(), std::size_t(std::max<ssize_t>(0, got))).find(running);
+  // Whether it succeeds is no matter: nothing else can be done, and the error that led here is told by others.
+  if (at != std::string_view::npos) [[maybe_unused]] const auto put = pwrite(file, failed.data(), failed.size(), off_t(at));
+  close(file);
 }
 
 /// One of them, for the summary.
@@ -112,10 +134,18 @@ Run::Run(RunSettings settings)
     }
   }
   make_folder(settings_.folder);
+  lock_.emplace(settings_.folder);
   write_index(RunState::running);
 }
 
-Run::~Run() = default;
+Run::~Run() {
+  if (finished_) return;
+  try {
+    write_index(RunState::failed);
+  } catch (const std::exception&) {  // what made it fail is on its way already
+    mark_as_failed(settings_.folder / "index.json");
+  }
+}
 
 Tally& Run::tally(const Query& query, const Subject& subject) { return tallies_[{&query, &subject}]; }
 
@@ -185,8 +215,7 @@ void Run::write_report(const Pending& p) {
   const std::string name = fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
   const std::filesystem::path below = std::filesystem::path("findings") / r.question.query->name / name;
   r.replay = replay_command(*p.subject, (settings_.folder / below).string());
-  make_folder((settings_.folder / below).parent_path());
-  write_file(settings_.folder / below, pretty_json(report_to_json(r)));
+  write(below, pretty_json(report_to_json(r)));
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
                       std::string(nearmiss::name_of(r.finding.verdict)),
                       std::string(nearmiss::name_of(r.finding.disagreement)), headline(r),
@@ -282,17 +311,41 @@ void Run::write_index(RunState state) {
                             {"headline", w.headline}});
   }
   j["environment"] = environment_to_json();
-  write_file(settings_.folder / "index.json", pretty_json(j));
+  write("index.json", pretty_json(j));
   indexed_ = Clock::now();
 }
 
-void Run::finish() { write_index(interrupted() ? RunState::interrupted : RunState::finished); }
+void Run::write(const std::filesystem::path& below, const std::string& text) const {
+  try {
+    make_folder((settings_.folder / below).parent_path());
+    write_file(settings_.folder / below, text);
+  } catch (const BadInput& e) {
+    if (cases_ == 0) throw;
+    throw BadInput(fmt::format("{}; the run ends after {}, {}", e.what(), plural_text(cases_, "answer"), violated_text()));
+  }
+}
+
+void Run::finish() {
+  write_index(interrupted() ? RunState::interrupted : RunState::finished);
+  finished_ = true;
+}
+
+std::optional<std::string> Run::shortfall() const {
+  const std::string index = (settings_.folder / "index.json").string();
+  if (interrupted()) {
+    return fmt::format("interrupted after {}, {}; {}", plural_text(cases_, "answer"), violated_text(), index);
+  }
+  if (cases_ > 0) return std::nullopt;
+  return fmt::format("nothing was asked: the time was over before the first case; {}", index);
+}
 
 std::uint64_t Run::bad() const { return bad_; }
 std::uint64_t Run::cases() const { return cases_; }
-int Run::exit_code() const { return bad_ > 0 ? 1 : interrupted() ? 2 : 0; }
+int Run::exit_code() const { return bad_ > 0 ? 1 : shortfall() ? 2 : 0; }
 
-std::string Run::summary() const {
+/// "nothing violated", or all that was by kind; and how many queries had no turn.
+std::string Run::violated_text() const {
+  if (cases_ == 0) return "nothing asked";
   std::map<std::string_view, std::uint64_t> faults;
   for (const auto& [key, t] : tallies_) {
     for (int d = 0; d < disagreement_count; ++d) faults[noun_of(Disagreement(d))] += t.violations[std::size_t(d)];
@@ -302,11 +355,18 @@ std::string Run::summary() const {
   for (const auto& [fault, count] : faults) {
     if (count > 0) counted.push_back(plural_text(count, fault));
   }
+  std::map<const Query*, std::uint64_t> asked;
+  for (const auto& [key, t] : tallies_) asked[key.first] += t.cases;
+  const auto unasked = std::uint64_t(std::count_if(asked.begin(), asked.end(), [](const auto& a) { return a.second == 0; }));
+  return (counted.empty() ? "nothing violated" : "violations: " + list_text(counted)) +
+         (unasked == 0 ? "" : fmt::format(", {} of {} queries not asked", unasked, asked.size()));
+}
+
+std::string Run::summary() const {
   const double seconds = seconds_since(begin_);
   return fmt::format("{}{} in {} ({}/s): {}; {} in {}", interrupted() ? "interrupted: " : "",
                      plural_text(cases_, "answer"), duration_text(seconds),
-                     count_text(std::uint64_t(double(cases_) / std::max(seconds, 1e-3))),
-                     counted.empty() ? "nothing violated" : "violations: " + list_text(counted),
+                     count_text(std::uint64_t(double(cases_) / std::max(seconds, 1e-3))), violated_text(),
                      plural_text(written_.size(), "report"), settings_.folder.string());
 }
 
@@ -334,6 +394,7 @@ std::string Run::worst_findings() const {
 }
 
 std::string Run::table() const {
+  if (cases_ == 0) return "";
   std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "WITHIN", "FALSE HIT", "FALSE MISS", "WRONG",
                                               "BROKE", "OUTSIDE", "NO ANSWER", "BACKWARD", "FORWARD", "YES", "EXACT"}};
   for (const Query* q : settings_.queries) {
@@ -376,6 +437,7 @@ std::string Run::stages_text() const {
     all.exact += stages.exact;
     if (most == nullptr || stages.exact_share() > stages_of(*most).exact_share()) most = q;
   }
+  if (all.interval + all.exact == 0) return "";
   if (all.exact == 0) return "\nIntervals decided every case.\n";
   return fmt::format("\nThe exact stage decided {}, most often of {}: {}; intervals decided the others.\n",
                      percent_text(all.exact, all.interval + all.exact), most->name,

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/folder_lock.hpp"
 #include "reports/progress.hpp"
 #include "reports/report.hpp"
 #include "reports/tally.hpp"
@@ -29,7 +30,7 @@ std::filesystem::path runs_folder();
 std::filesystem::path new_run_folder(std::uint64_t seed);
 
 /// Where a run was when it was last written down.
-enum class RunState { running, finished, interrupted };
+enum class RunState { running, finished, interrupted, failed };
 
 struct RunSettings {
   std::string command;  ///< as typed
@@ -45,8 +46,10 @@ class Run {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Makes the folder and writes the first index. Throws BadInput where it cannot.
+  /// Makes the folder and writes the first index. Throws BadInput where it cannot, or where another run has the folder.
+  /// The same goes for whatever is written later: the line says how far the run came.
   explicit Run(RunSettings settings);
+  /// Without finish() the run has failed, and its index says so, even where no other byte can be written.
   ~Run();
 
   /// Asks every subject of the run that offers the query and computes in the cases' scalar. All cases
@@ -72,17 +75,20 @@ class Run {
   void finish();
   /// One line: what was asked and what came of it.
   std::string summary() const;
+  /// One line, where fewer cases were asked than were wanted: interrupted, or no time for a single one.
+  std::optional<std::string> shortfall() const;
   /// Violations and breakages.
   std::uint64_t bad() const;
   std::uint64_t cases() const;
-  /// A table for people: one row for each query and subject, and how often the exact stage had to decide.
+  /// A table for people: one row for each query and subject, and how often the exact stage had to decide; empty where
+  /// nothing was asked.
   std::string table() const;
   /// For every subject its findings among the cases that each move of the generator made; with settings().by_class.
   std::string table_by_class() const;
   /// Headline and file of the worst reports, one for each query, subject and fault; empty without any.
   std::string worst_findings() const;
   const RunSettings& settings() const { return settings_; }
-  /// 0, 1 for violations, 2 for an interrupted run without any.
+  /// 0, 1 for violations, 2 without any where there is a shortfall().
   int exit_code() const;
 
  private:
@@ -106,8 +112,11 @@ class Run {
   void write_pending();
   void write_report(const Pending& p);
   void write_index(RunState state);
+  void write(const std::filesystem::path& below, const std::string& text) const;
+  std::string violated_text() const;
 
   RunSettings settings_;
+  std::optional<FolderLock> lock_;
   std::string started_;
   Clock::time_point begin_, indexed_;
   Workers workers_;
@@ -120,6 +129,7 @@ class Run {
   Progress progress_;
   std::optional<std::uint64_t> total_;
   std::uint64_t cases_ = 0, bad_ = 0;
+  bool finished_ = false;
 };
 
 }  // namespace nearmiss

@@ -26,11 +26,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+std::string lower_case(std::string_view s) {
+  std::string lower(s);
+  for (char& c : lower) c = 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return lower;
+}
+
 /// Characters that people see: bytes that do not continue a UTF-8 sequence.
 std::size_t width_of(std::string_view s) {
   return std::size_t(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
+/// Bytes of an unknown word that an error repeats.
+constexpr std::size_t most_of_a_word = 100;
 /// Bounds at most this many double ulps apart are shown as one decimal.
 constexpr double shown_as_one = 8;
 /// Enough for a decimal that lies between any two neighbours.
@@ -115,15 +123,50 @@ std::string shell_quoted(const std::string& word) {
 
 std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
+  if (word.size() > most_of_a_word) return {};  // and no time is spent on it
+  const std::string lower = lower_case(word);
   for (const std::string& w : words) {
-    const bool within = word.size() >= 3 && w.find(word) != std::string::npos;
-    const std::size_t distance = within ? 1 : edit_distance(word, w);
+    const std::string other = lower_case(w);
+    const bool within = word.size() >= 3 && other != lower && other.find(lower) != std::string::npos;
+    const std::size_t distance = within ? 1 : edit_distance(lower, other);
     if (distance <= std::max<std::size_t>(2, word.size() / 3)) ranked.emplace_back(distance, w);
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> best;
   for (std::size_t i = 0; i < ranked.size() && i < 3; ++i) best.push_back(ranked[i].second);
   return best;
+}
+
+std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
+                         std::string_view lists_them) {
+  const std::vector<std::string> close = close_matches(word, words);
+  return fmt::format(
+      "unknown {} '{}'; {}", what, one_line(word, most_of_a_word),
+      close.empty() ? fmt::format("'{}' lists all", lists_them) : fmt::format("did you mean {}?", fmt::join(close, " or ")));
+}
+
+std::string one_line(std::string_view text, std::size_t most) {
+  const std::size_t kept_at_end = most / 3;
+  const auto continues = [&](std::size_t i) { return i < text.size() && (text[i] & 0xC0) == 0x80; };
+  std::size_t cut = text.size(), goes_on = text.size();
+  if (text.size() > most) {
+    for (cut = most - kept_at_end; continues(cut);) --cut;
+    for (goes_on = text.size() - kept_at_end; continues(goes_on);) ++goes_on;
+  }
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (i == cut) {
+      line += fmt::format(" ... ({} bytes) ... ", count_text(goes_on - cut));
+      i = goes_on;
+    }
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (c < 0x20 || c == 0x7F) {
+      line += fmt::format("\\x{:02x}", c);
+    } else {
+      line += text[i];
+    }
+  }
+  return line;
 }
 
 std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent,

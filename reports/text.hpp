@@ -29,8 +29,16 @@ std::string list_text(std::span<const std::string> items);
 /// For a shell's command line: in single quotes where it holds more than plain characters.
 std::string shell_quoted(const std::string& word);
 
-/// The words nearest to `word` in spelling, best first; at most three, none where all are far.
+/// The words nearest to `word` in spelling, whatever the case, best first; at most three, none where all are far.
 std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words);
+
+/// The error for a word that is none of `words`: "unknown query 'x'; did you mean …?", or who lists them where no word
+/// is near.
+std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
+                         std::string_view lists_them = "nearmiss list");
+
+/// For one line: bytes that a terminal would act on as \xHH, and without its middle what is longer than `most` bytes.
+std::string one_line(std::string_view text, std::size_t most = 1000);
 
 /// Columns padded to their widest cell, two spaces between them; the first row is the heading. Columns
 /// from `right_from` on are aligned to the right.

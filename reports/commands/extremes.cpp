@@ -41,7 +41,7 @@ class ExtremesCommand : public Command {
                      most_cases);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: 1", 0,
                      std::numeric_limits<std::uint64_t>::max());
-    app.add_option("-o,--out", out_, "The folder. Default: reports/runs/TIME-SEED of the source tree")->type_name("DIR");
+    add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
     const std::uint64_t seed = seed_.value_or(1);
@@ -51,6 +51,7 @@ class ExtremesCommand : public Command {
     extremes.sweep();
     extremes.write();
     fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
+    if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", extremes.summary()));
     return interrupted() ? 2 : 0;
   }
 

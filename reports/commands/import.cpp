@@ -64,6 +64,7 @@ class NyuCcd {
   }
   std::string text() const;
   std::string summary() const;
+  std::uint64_t queries() const { return queries_; }
   int exit_code() const {
     const bool violated =
         std::any_of(scores_.begin(), scores_.end(), [](const Score& s) { return s.violations + s.broke > 0; });
@@ -183,7 +184,7 @@ class ImportCommand : public Command {
              "the query's definition; where the truth column says otherwise it is listed apart."},
             {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
              {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
-             {"2", "A file cannot be read or is malformed, the output cannot be written, or it was interrupted."}},
+             {"2", "A file cannot be read or is malformed, none holds a query, the output cannot be written, or it was interrupted."}},
             {{"nearmiss import nyu-ccd erleben-spikes/*.csv", "Compare."},
              {"nearmiss import nyu-ccd erleben-spikes/*.csv --out cases", "Also write each case as a JSON file."}}};
   }
@@ -195,7 +196,7 @@ class ImportCommand : public Command {
             [](const std::string& t) { return t == "nyu-ccd" ? "" : "unknown format '" + t + "'; known is nyu-ccd"; },
             ""));
     app.add_option("FILE", files_, "A file of the benchmark")->required()->type_name("");
-    app.add_option("-o,--out", out_, "Write each case that fits as a JSON file into this folder")->type_name("DIR");
+    add_output_folder(app, out_, "Write each case that fits as a JSON file into this folder");
     selection_.declare_subjects(app);
   }
   int run(const CLI::App&) override {
@@ -209,7 +210,9 @@ class ImportCommand : public Command {
     for (const std::string& f : files_) {
       if (!interrupted()) import.take(read_nyu_ccd({f}));
     }
+    if (import.queries() == 0 && !interrupted()) throw BadInput("nothing to compare: no file holds a query");
     fmt::print("{}\n{}\n", import.text(), import.summary());
+    if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", import.summary()));
     return import.exit_code();
   }
 

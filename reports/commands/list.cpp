@@ -110,8 +110,10 @@ class ListCommand : public Command {
   }
   void declare(CLI::App& app) override {
     declare_plugins(app);
-    app.add_flag("--json", json_, "Print JSON");
-    app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")->excludes("--json");
+    app.add_flag("--json", json_, "Print JSON")->disable_flag_override();
+    app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")
+        ->excludes("--json")
+        ->disable_flag_override();
     app.add_option("--names", names_, "Print only the names of all queries or of all subjects, one a line")
         ->type_name("queries|subjects")
         ->check(CLI::Validator(

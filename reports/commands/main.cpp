@@ -1,5 +1,9 @@
 /// The command line `nearmiss`.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -59,6 +63,8 @@ class CommandLine {
     } catch (const CLI::CallForVersion& e) {
       fmt::print("{}\n", e.what());
       return 0;
+    } catch (const CLI::ExtrasError&) {
+      throw BadInput(unexpected_text());
     }
     const auto chosen = root_.get_subcommands();
     if (chosen.empty()) throw BadInput("a command is missing; 'nearmiss help' lists them");
@@ -96,9 +102,20 @@ class CommandLine {
     for (const CLI::App* c : root_.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(c->get_name());
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
-    const auto close = close_matches(name, names);
-    throw BadInput(fmt::format("unknown command '{}'; {}", name,
-                               close.empty() ? "'nearmiss help' lists them" : "did you mean " + close[0] + "?"));
+    throw BadInput(unknown_text("command", name, names, "nearmiss help"));
+  }
+  /// What to say of the first argument that the chosen command does not know.
+  std::string unexpected_text() const {
+    const auto chosen = root_.get_subcommands();
+    const CLI::App& app = chosen.empty() ? root_ : *chosen[0];
+    const std::string manual = chosen.empty() || app.get_name() == "help" ? "nearmiss help" : "nearmiss help " + app.get_name();
+    const std::string word = root_.remaining(true).at(0);
+    if (!word.starts_with('-')) return fmt::format("unexpected word '{}'; '{}' shows what it takes", one_line(word, 100), manual);
+    std::vector<std::string> options;
+    for (const CLI::Option* o : app.get_options()) {
+      for (const std::string& l : o->get_lnames()) options.push_back("--" + l);
+    }
+    return unknown_text("option", std::string_view(word).substr(0, word.find('=')), options, manual);
   }
   static std::string version_text() {
     return fmt::format("nearmiss {} ({}, {}, {})", version(), compiler(), build_type(), platform());
@@ -128,19 +145,41 @@ std::vector<std::string> with_negative_values(const std::vector<std::string>& ar
 
 int complain(std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
-  say_on_stderr("nearmiss: " + what + "\n");
+  say_on_stderr("nearmiss: " + one_line(what) + "\n");
   return 2;
+}
+
+/// Whatever reads our standard output, "head" say, has seen enough: that ends a program as it always does.
+int reader_left() {
+  signal(SIGPIPE, SIG_DFL);
+  raise(SIGPIPE);
+  return 2;
+}
+
+int complain_of_output() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  const bool broken_pipe = poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+  return broken_pipe ? reader_left() : complain("standard output cannot be written");
 }
 
 int run_or_complain(const std::vector<std::string>& arguments) {
   try {
     if (const auto broken = broken_environment()) return complain(*broken);
     const int code = CommandLine().run(with_negative_values(arguments));
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain("standard output cannot be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
     return code;
   } catch (const std::exception& e) {
-    if (std::ferror(stdout) != 0) return complain("standard output cannot be written");  // a long text, half written
+    if (std::ferror(stdout) != 0) return complain_of_output();  // a long text, half written
     return complain(e.what());
+  }
+}
+
+/// A standard file that was closed would be whatever is opened next, a pipe to a worker say, and what is printed would go
+/// there. /dev/null takes its place, and of standard output one that cannot be written.
+void hold_standard_files() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(file, F_GETFD) != -1) continue;
+    open("/dev/null", file == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number, which is this one
   }
 }
 
@@ -148,6 +187,8 @@ int run_or_complain(const std::vector<std::string>& arguments) {
 }  // namespace nearmiss
 
 int main(int argc, char** argv) {
+  nearmiss::hold_standard_files();
+  for (const int s : {SIGPIPE, SIGXFSZ}) signal(s, SIG_IGN);  // what cannot be written is an error with a reason
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   nearmiss::typed_command_line() = "nearmiss";
   for (const std::string& a : arguments) nearmiss::typed_command_line() += " " + nearmiss::shell_quoted(a);

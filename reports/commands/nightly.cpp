@@ -158,8 +158,7 @@ class NightlyCommand : public Command {
                         "M", most_minutes);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
                      std::numeric_limits<std::uint64_t>::max());
-    app.add_option("-o,--out", out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree")
-        ->type_name("DIR");
+    add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
     app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
         ->type_name("DIR")
         ->check(CLI::ExistingDirectory);
@@ -187,6 +186,7 @@ class NightlyCommand : public Command {
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     run.finish();
     fmt::print("\n{}\n{}{}; fuzzing: {}\n", run.table(), run.worst_findings(), run.summary(), fuzzing);
+    if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return failed ? 1 : run.exit_code();
   }
 

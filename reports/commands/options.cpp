@@ -61,13 +61,6 @@ std::vector<std::string> subject_names() {
 
 CLI::Validator known_query() { return known("query", query_names); }
 
-std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words) {
-  const std::vector<std::string> close = close_matches(word, words);
-  return fmt::format(
-      "unknown {} '{}'; {}", what, word,
-      close.empty() ? "'nearmiss list' shows all" : fmt::format("did you mean {}?", fmt::join(close, " or ")));
-}
-
 void Selection::declare_queries(CLI::App& app) {
   app.add_option("-q,--query", query, "Only this query; may be given several times. Default: all")
       ->type_name("QUERY")
@@ -135,6 +128,12 @@ void add_positive_number(CLI::App& app, const std::string& name, std::optional<d
          name, [&value](const std::string& t) { value = parsed<double>(t); }, description)
       ->type_name(unit)
       ->check(positive_number(high));
+}
+
+void add_output_folder(CLI::App& app, std::string& folder, const std::string& description) {
+  app.add_option("-o,--out", folder, description)
+      ->type_name("DIR")
+      ->check(CLI::Validator([](const std::string& t) { return t.empty() ? "the name of the folder is empty" : ""; }, ""));
 }
 
 std::uint64_t seed_or_random(std::optional<std::uint64_t> given) { return given ? *given : std::random_device{}(); }

@@ -18,9 +18,6 @@ std::vector<std::string> subject_names();
 /// --plugin, repeatable; what it names is loaded before later options are checked.
 void declare_plugins(CLI::App& app);
 
-/// An error text for a word that is none of `words`: "unknown query 'x'; did you mean …?"
-std::string unknown_text(std::string_view what, const std::string& word, const std::vector<std::string>& words);
-
 /// Takes only the name of a query.
 CLI::Validator known_query();
 
@@ -45,6 +42,9 @@ void add_whole_number(CLI::App& app, const std::string& name, std::optional<std:
                       const std::string& description, std::uint64_t low, std::uint64_t high);
 void add_positive_number(CLI::App& app, const std::string& name, std::optional<double>& value,
                          const std::string& description, const std::string& unit, double high);
+
+/// An option that names a folder to write into, so never the empty text.
+void add_output_folder(CLI::App& app, std::string& folder, const std::string& description);
 
 /// `given`, or else one drawn from the system's entropy.
 std::uint64_t seed_or_random(std::optional<std::uint64_t> given);

@@ -31,7 +31,8 @@ class ReplayCommand : public Command {
   void declare(CLI::App& app) override {
     app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
     selection_.declare_subjects(app);
-    app.add_flag("--json", json_, "Print a JSON array with a report for each file and subject");
+    app.add_flag("--json", json_, "Print a JSON array with a report for each file and subject")
+        ->disable_flag_override();
   }
   int run(const CLI::App&) override {
     std::vector<Case> cases;

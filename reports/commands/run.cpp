@@ -72,9 +72,9 @@ class RunCommand : public Command {
                         "relative to the largest number of each kind, say 1e-6",
                         "E", 1);
     app.add_flag("--by-class", by_class_,
-                 "Print also each subject's findings by the generator's moves that made the cases");
-    app.add_option("-o,--out", out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree")
-        ->type_name("DIR");
+                 "Print also each subject's findings by the generator's moves that made the cases")
+        ->disable_flag_override();
+    add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
   }
 
   int run(const CLI::App&) override {
@@ -104,6 +104,7 @@ class RunCommand : public Command {
     fmt::print("\n{}\n", run.table());
     if (by_class_) fmt::print("{}\n", run.table_by_class());
     fmt::print("{}{}\n", run.worst_findings(), run.summary());
+    if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return run.exit_code();
   }
 

@@ -33,6 +33,11 @@ const Bad bad_command_lines[] = {
     {"no_command", {}, {"command"}},
     {"unknown_command", {"rum"}, {"unknown command 'rum'", "run"}},
     {"unknown_option", {"run", "--frobnicate", "--out", "OUT"}, {"--frobnicate"}},
+    {"mistyped_option", {"run", "--cas", "5", "--out", "OUT"}, {"unknown option '--cas'", "did you mean --cases?"}},
+    {"subject_in_capitals", {"run", "--subject", "COLLIDE-FAST-FLOAT", "--out", "OUT"}, {"collide-fast-float"}},
+    {"value_of_a_flag", {"run", "--by-class=7", "--out", "OUT"}, {"by-class"}},
+    {"output_without_a_name", {"run", "--cases", "5", "--out", ""}, {"--out", "empty"}},
+    {"nightly_without_a_name", {"nightly", "--minutes", "0.01", "--out", ""}, {"--out", "empty"}},
     {"surplus_word", {"run", "fast", "--out", "OUT"}, {"fast"}},
     {"extremes_without_cases", {"extremes", "--cases", "0", "--out", "OUT"}, {"--cases", "0"}},
     {"extremes_of_an_unknown_query", {"extremes", "--query", "moving_box", "--out", "OUT"}, {"--query", "moving_box"}},
@@ -77,6 +82,29 @@ const Bad bad_command_lines[] = {
      {"replay", "FILE"},
      {"FILE", "0.1"},
      case_text("[0.1, 0, 0]", "1", "sphere_box_penetration", "float")},
+    {"report_of_another_schema",
+     {"replay", "FILE"},
+     {"FILE", "schema is 2", "schema 1"},
+     R"({"schema": 2, "finding": {}, )" + case_text("[0, 0, 0]", "1").substr(1)},
+    {"report_of_no_schema",
+     {"replay", "FILE"},
+     {"FILE", "schema is missing"},
+     R"({"finding": {}, )" + case_text("[0, 0, 0]", "1").substr(1)},
+    {"index_of_a_run", {"replay", "FILE"}, {"FILE", "index of a run"}, R"({"schema": 1, "tallies": []})"},
+    {"case_of_a_mistyped_query",
+     {"replay", "FILE"},
+     {"FILE", "did you mean", "sphere_box_penetration"},
+     case_text("[0, 0, 0]", "1", "sphere_box_penetratoin")},
+    {"query_with_nul", {"replay", "FILE"}, {"FILE", "x\\x00y"}, case_text("[0, 0, 0]", "1", "x\\u0000y")},
+    {"scalar_with_nul",
+     {"replay", "FILE"},
+     {"FILE", "double\\u0000", "control characters"},
+     case_text("[0, 0, 0]", "1", "sphere_box_penetration", "double\\u0000")},
+    {"name_with_nul", {"replay", "FILE"}, {"FILE", "a\\u0000b", "control characters"}, "{\"a\\u0000b\": 1}"},
+    {"long_query", {"replay", "FILE"}, {"FILE", "unknown query"}, case_text("[]", "1", std::string(5'000'000, 'x'))},
+    {"long_name", {"replay", "FILE"}, {"FILE", "is unknown"}, "{\"" + std::string(5'000'000, 'x') + "\": 1}"},
+    {"long_number", {"replay", "FILE"}, {"FILE"}, "{\"query\": " + std::string(5'000'000, '9') + "}"},
+    {"empty_benchmark", {"import", "nyu-ccd", "FILE"}, {"no file holds a query"}, ""},
     {"second_file_is_malformed", {"replay", "CASE", "FILE"}, {"FILE"}, "{}"},
     {"unknown_format", {"import", "bullet", "FILE", "--out", "OUT"}, {"bullet", "nyu-ccd"}},
     {"missing_benchmark", {"import", "nyu-ccd", "OUT"}, {"OUT"}},
@@ -103,6 +131,8 @@ TEST_P(BadCommandLine, SaysWhyInOneLineAndWritesNothing) {
   EXPECT_EQ(ran.out, "");
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   EXPECT_EQ(ran.err.find("nearmiss: "), 0u) << ran.err;
+  EXPECT_LT(ran.err.size(), 1100u);
+  for (const char c : ran.err) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << int(c);
   for (const std::string& part : bad.says) EXPECT_NE(ran.err.find(filled(part)), std::string::npos) << ran.err;
   std::vector<std::string> left;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
@@ -133,6 +163,17 @@ TEST(Cli, SaysWhenItsOutputCannotBeWritten) {
   const Ran ran = run_program("sh", {"-c", std::string(NEARMISS_PROGRAM) + " list > /dev/full"});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");
+}
+
+/// A closed standard file would be the next that is opened: a pipe to a worker, into which the page would go.
+TEST(Cli, SaysWhenItsOutputIsClosed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("case.json", case_text("[0, 0, 0]", "1"));
+  const std::string command = std::string(NEARMISS_PROGRAM) + " replay -s collide-fast-double " + file;
+  const Ran ran = run_program("sh", {"-c", command + " <&- >&-"});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");
+  EXPECT_EQ(run_program("sh", {"-c", command + " 2>&-"}).out, nearmiss({"replay", "-s", "collide-fast-double", file}).out);
 }
 
 }  // namespace

@@ -180,6 +180,84 @@ TEST(Run, StopsCleanlyWhenInterrupted) {
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
   EXPECT_EQ(index["state"], "interrupted");
   EXPECT_TRUE(last_line(ran.out).starts_with("interrupted: ")) << ran.out;
+  EXPECT_TRUE(ran.err.starts_with("nearmiss: interrupted after ")) << ran.err;
+  EXPECT_NE(ran.err.find(out + "/index.json\n"), std::string::npos) << ran.err;
+}
+
+TEST(Run, LeavesAFolderToTheRunThatHasIt) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "r").string();
+  const std::string program = "'" NEARMISS_PROGRAM "' run -s collide-fast-double --out '" + out + "'";
+  const std::string script = program + " --seconds 100 >/dev/null 2>&1 & run=$!; while [ ! -e '" + out +
+                             "/index.json' ]; do sleep 0.05; done; " + program + " -n 1; code=$?; kill -KILL $run; " +
+                             "wait $run; sleep 0.2; " + program + " -n 1 >/dev/null; echo $code $?";
+  const Ran ran = run_program("bash", {"-c", script});
+  EXPECT_EQ(ran.out, "2 0\n") << "the second while the first runs, and one after it was killed";
+  EXPECT_TRUE(ran.err.starts_with("nearmiss: " + out + ": another run writes there")) << ran.err;
+  EXPECT_EQ(index_of(folder / "r")["state"], "finished");
+}
+
+/// Runs fcl into `folder` with files of at most so many KiB.
+Ran run_with_small_files(const fs::path& folder, const std::string& kibibytes, const std::string& options) {
+  return run_program("bash", {"-c", "ulimit -f " + kibibytes + "; exec '" NEARMISS_PROGRAM "' run -s fcl --seed 1 " +
+                                        options + " --out '" + folder.string() + "'"});
+}
+
+TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
+  if (!has_fcl()) GTEST_SKIP() << "FCL is not part of this build";
+  const TemporaryFolder folder;
+  const Ran none = run_with_small_files(folder / "none", "1", "-q moving_sphere_box");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err, "nearmiss: " + (folder / "none/index.json").string() + ": cannot be written: File too large\n");
+  EXPECT_TRUE(fs::is_empty(folder / "none")) << "a part of an index was left";
+
+  const Ran one = run_with_small_files(folder / "one", "4", "-q moving_sphere_box");
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_EQ(std::count(one.err.begin(), one.err.end(), '\n'), 1) << one.err;
+  for (const char* part : {"/findings/moving_sphere_box/fcl-", "File too large; the run ends after ", "false miss"}) {
+    EXPECT_NE(one.err.find(part), std::string::npos) << one.err;
+  }
+  json index = index_of(folder / "one");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["state"], "failed");
+  EXPECT_GT(index["cases"], 0) << "the index could be written once more";
+
+  const Ran many = run_with_small_files(folder / "many", "16", "-n 500");  // the index itself becomes too large
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_NE(many.err.find("/index.json: cannot be written: File too large; "), std::string::npos) << many.err;
+  index = index_of(folder / "many");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["state"], "failed");
+}
+
+TEST(Run, GoesOnWithoutAReaderOfItsOutput) {
+  const TemporaryFolder folder;
+  const std::string command = "'" NEARMISS_PROGRAM "' run -s collide-fast-double -n 200 --out '" +
+                              (folder / "r").string() + "' | true; echo ${PIPESTATUS[0]}";
+  const Ran ran = run_program("bash", {"-c", command});
+  EXPECT_EQ(ran.out, "141\n") << "ended by SIGPIPE, but not before its work was done";
+  EXPECT_EQ(ran.err, "");
+  EXPECT_EQ(index_of(folder / "r")["state"], "finished");
+}
+
+TEST(Run, SaysThatNothingWasAsked) {
+  const TemporaryFolder folder;
+  const Ran run = nearmiss({"run", "--seconds", "1e-9", "--out", (folder / "r").string()});
+  const Ran night = nearmiss({"nightly", "--minutes", "1e-9", "--out", (folder / "n").string()});
+  for (const Ran& ran : {run, night}) {
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_TRUE(ran.err.starts_with("nearmiss: nothing was asked: ")) << ran.err;
+    EXPECT_EQ(ran.out.find("nothing violated"), std::string::npos) << ran.out;
+  }
+  EXPECT_NE(index_of(folder / "n")["summary"].get<std::string>().find("nothing asked"), std::string::npos);
+}
+
+TEST(Run, TakesAFolderWhoseNameIsNoUtf8) {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "r\xff\x1b";
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-n", "10", "--out", out.string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(complaints(index_of(out), "run.schema.json"), "");
 }
 
 TEST(Run, ReportsTheTunnellingOfFcl) {
