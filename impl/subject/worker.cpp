@@ -17,6 +17,7 @@
 #include <exception>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 namespace nearmiss {
 
@@ -30,9 +31,19 @@ struct Worker::Shared {
   std::array<Answer, capacity> answers;
 };
 
+/// A process that runs; one that could not be started is never one, for its number would be -1, and to end that is to end
+/// every process there is.
 struct Worker::Child {
   pid_t pid = -1;
   int to_child = -1, from_child = -1, standard_error = -1;
+  Child() = default;
+  ~Child() {
+    for (const int file : {to_child, from_child, standard_error}) {
+      if (file >= 0) close(file);
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
 };
 
 namespace {
@@ -46,6 +57,22 @@ constexpr bool address_sanitizer = __has_feature(address_sanitizer);
 #else
 constexpr bool address_sanitizer = false;
 #endif
+
+/// Closes at its end what was not taken.
+struct Pipe {
+  int ends[2] = {-1, -1};
+  Pipe() {
+    if (pipe2(ends, O_CLOEXEC) != 0) fail("pipes to a worker process");
+  }
+  ~Pipe() {
+    for (const int end : ends) {
+      if (end >= 0) close(end);
+    }
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  int take(std::size_t end) { return std::exchange(ends[end], -1); }
+};
 
 std::size_t address_space_in_use() {
   std::size_t pages = 0;
@@ -104,38 +131,33 @@ Worker::~Worker() {
 }
 
 void Worker::start() {
-  child_ = std::make_unique<Child>();
-  int down[2], up[2];
-  if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0) fail("pipes to a worker process");
-  child_->standard_error = memfd_create("worker-stderr", MFD_CLOEXEC);
-  if (child_->standard_error < 0) fail("memory for a worker's messages");
-  child_->pid = fork();
-  if (child_->pid < 0) fail("a worker process");
-  if (child_->pid == 0) {
-    close(down[1]);
-    close(up[0]);
-    confine(limits_.bytes, child_->standard_error);
+  auto child = std::make_unique<Child>();
+  Pipe down, up;
+  child->standard_error = memfd_create("worker-stderr", MFD_CLOEXEC);
+  if (child->standard_error < 0) fail("memory for a worker's messages");
+  child->pid = fork();
+  if (child->pid < 0) fail("a worker process");
+  if (child->pid == 0) {
+    close(down.ends[1]);
+    close(up.ends[0]);
+    confine(limits_.bytes, child->standard_error);
     char byte = 0;
-    while (read(down[0], &byte, 1) == 1) {
+    while (read(down.ends[0], &byte, 1) == 1) {
       for (std::size_t i = shared_->done; i < shared_->count; ++i) {
         const std::span<const double> inputs{shared_->values.data() + i * shared_->inputs, shared_->inputs};
         shared_->answers[i] = answer_or_broke(shared_->answer, inputs);
         shared_->done.store(i + 1, std::memory_order_release);
       }
-      if (write(up[1], &byte, 1) != 1) break;
+      if (write(up.ends[1], &byte, 1) != 1) break;
     }
     _exit(0);
   }
-  close(down[0]);
-  close(up[1]);
-  child_->to_child = down[1];
-  child_->from_child = up[0];
+  child->to_child = down.take(1);
+  child->from_child = up.take(0);
+  child_ = std::move(child);
 }
 
-void Worker::release() {
-  for (const int file : {child_->to_child, child_->from_child, child_->standard_error}) close(file);
-  child_.reset();
-}
+void Worker::release() { child_.reset(); }
 
 void Worker::end() {
   if (!child_) return;

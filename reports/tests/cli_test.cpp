@@ -240,6 +240,29 @@ TEST(Run, GoesOnWithoutAReaderOfItsOutput) {
   EXPECT_EQ(index_of(folder / "r")["state"], "finished");
 }
 
+/// In a space of process numbers of its own: what ends more processes than its own ends none of those outside.
+TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
+  const std::vector<std::string> apart{"--user", "--map-root-user", "--pid", "--fork"};
+  std::vector<std::string> arguments = apart;
+  arguments.insert(arguments.end(), {"sh", "-c", "echo $$"});
+  if (run_program("unshare", arguments).out != "1\n") GTEST_SKIP() << "this machine allows no such space";
+  const TemporaryFolder folder;
+  for (const char* files : {"4", "5", "6", "7", "8", "9"}) {
+    const fs::path out = folder / files;
+    const std::string run = std::string("ulimit -n ") + files + "; exec '" NEARMISS_PROGRAM "' run -n 20 -q box_box_overlap " +
+                            "-s collide-fast-double -s collide-fast-float --out '" + out.string() + "'";
+    arguments = apart;
+    arguments.insert(arguments.end(), {"bash", "-c",
+                                       "sleep 60 & other=$!; (" + run + ") > '" + (folder / "log").string() +
+                                           "' 2>&1; echo $?; kill $other && echo alive"});
+    const Ran ran = run_program("unshare", arguments);
+    EXPECT_TRUE(ran.out == "2\nalive\n" || ran.out == "0\nalive\n") << files << " files: " << ran.out << ran.err;
+    if (fs::exists(out / "index.json") && ran.out.starts_with("2")) {
+      EXPECT_EQ(index_of(out)["state"], "failed");
+    }
+  }
+}
+
 TEST(Run, SaysThatNothingWasAsked) {
   const TemporaryFolder folder;
   const Ran run = nearmiss({"run", "--seconds", "1e-9", "--out", (folder / "r").string()});
