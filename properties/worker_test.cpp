@@ -1,11 +1,15 @@
 /// A subject may do anything in a worker: it costs one case, and the reason is told.
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "impl/subject/worker.hpp"
@@ -80,6 +84,96 @@ TEST(Worker, SurvivesWhenEveryCaseBreaks) {
   std::vector<double> inputs;
   for (int i = 0; i < 20; ++i) inputs.insert(inputs.end(), {double(aborts), 0.0});
   for (const Answer& a : worker.ask(offering(), inputs, 2)) EXPECT_EQ(a.status, Answer::Status::broke);
+}
+
+/// A pipe whose end is seen when every process that has it has ended.
+class Lifeline {
+ public:
+  Lifeline() {
+    if (pipe(ends_) != 0) throw std::runtime_error("pipe");
+  }
+  ~Lifeline() {
+    close(ends_[0]);
+    if (ends_[1] >= 0) close(ends_[1]);
+  }
+  int writing_end() const { return ends_[1]; }
+  void let_go() { close(std::exchange(ends_[1], -1)); }
+  bool says_something_within(int seconds) {
+    char said = 0;
+    return ready_within(seconds) && read(ends_[0], &said, 1) == 1;
+  }
+  bool ends_within(int seconds) {
+    char said = 0;
+    while (ready_within(seconds)) {
+      if (read(ends_[0], &said, 1) == 0) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool ready_within(int seconds) {
+    pollfd p{ends_[0], POLLIN, 0};
+    return poll(&p, 1, 1000 * seconds) == 1;
+  }
+  int ends_[2];
+};
+
+/// Starts a process that would live for a minute, says so on the lifeline, then does what the first input says.
+Answer leave_something_behind(std::span<const double> inputs) {
+  if (fork() == 0) {
+    for (unsigned left = 60; left > 0;) left = sleep(left);
+    _exit(0);
+  }
+  if (write(int(inputs[1]), "x", 1) != 1) throw std::runtime_error("the lifeline is broken");
+  return misbehave(inputs);
+}
+
+Offering leaving() { return {"leaving", Offer::answers, "", {}, leave_something_behind}; }
+
+TEST(Worker, EndsWhatASubjectThatHangsHadStarted) {
+  Lifeline lifeline;
+  Worker worker(limits());
+  const auto answers = worker.ask(leaving(), std::vector<double>{hangs, double(lifeline.writing_end())}, 2);
+  EXPECT_EQ(answers[0].reason(), "no answer within 0.500 s");
+  lifeline.let_go();
+  EXPECT_TRUE(lifeline.says_something_within(0));
+  EXPECT_TRUE(lifeline.ends_within(5));
+}
+
+TEST(Worker, EndsWhatASubjectThatCrashesHadStartedAndTellsOfTheCrash) {
+  Lifeline lifeline;
+  Worker worker({.seconds_per_case = 60});
+  const auto answers = worker.ask(leaving(), std::vector<double>{aborts, double(lifeline.writing_end())}, 2);
+  EXPECT_NE(answers[0].reason().find("signal 6"), std::string_view::npos) << answers[0].reason();
+  lifeline.let_go();
+  EXPECT_TRUE(lifeline.ends_within(5));
+}
+
+TEST(Worker, EndsWithAllThatTheSubjectHadStarted) {
+  Lifeline lifeline;
+  {
+    Worker worker(limits());
+    const auto answers = worker.ask(leaving(), std::vector<double>{none, double(lifeline.writing_end())}, 2);
+    EXPECT_EQ(answers[0].status, Answer::Status::answered);
+    lifeline.let_go();
+    EXPECT_TRUE(lifeline.says_something_within(5));
+  }
+  EXPECT_TRUE(lifeline.ends_within(5));
+}
+
+TEST(Worker, EndsWithAllThatTheSubjectHadStartedWhenItsParentIsKilled) {
+  Lifeline lifeline;
+  const pid_t parent = fork();
+  if (parent == 0) {
+    Worker worker({.seconds_per_case = 3600});
+    worker.ask(leaving(), std::vector<double>{hangs, double(lifeline.writing_end())}, 2);
+    _exit(0);
+  }
+  lifeline.let_go();
+  EXPECT_TRUE(lifeline.says_something_within(10));
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  EXPECT_TRUE(lifeline.ends_within(5));
 }
 
 }  // namespace

@@ -85,11 +85,20 @@ void limit(int resource, std::size_t value) {
   setrlimit(resource, &r);
 }
 
+/// The processes that the subject starts are of the child's group, so that they end with it, by this as well: the
+/// kernel sends it to the child when the parent ends, whatever ended that.
+void end_with_parent(pid_t parent) {
+  const int parent_ended = SIGRTMAX;  // one that libraries leave alone
+  signal(parent_ended, [](int) { kill(0, SIGKILL); });
+  prctl(PR_SET_PDEATHSIG, parent_ended);
+  if (getppid() != parent) _exit(0);  // it ended before
+}
+
 /// The child's own limits and signals. AddressSanitizer reserves terabytes, so it cannot be limited so.
 void confine(std::size_t bytes, int standard_error) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int s : {SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS, SIGTERM}) signal(s, SIG_DFL);
-  for (const int s : {SIGINT, SIGXFSZ}) signal(s, SIG_IGN);  // a terminal's interrupt is the parent's to handle
+  // A terminal's interrupt is the parent's to handle, and writing to the terminal is no reason to stop.
+  for (const int s : {SIGINT, SIGXFSZ, SIGTTOU}) signal(s, SIG_IGN);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, std::size_t{16} << 20);
   if (!address_sanitizer) limit(RLIMIT_AS, address_space_in_use() + bytes);
@@ -135,9 +144,12 @@ void Worker::start() {
   Pipe down, up;
   child->standard_error = memfd_create("worker-stderr", MFD_CLOEXEC);
   if (child->standard_error < 0) fail("memory for a worker's messages");
+  const pid_t parent = getpid();
   child->pid = fork();
   if (child->pid < 0) fail("a worker process");
   if (child->pid == 0) {
+    setpgid(0, 0);
+    end_with_parent(parent);
     close(down.ends[1]);
     close(up.ends[0]);
     confine(limits_.bytes, child->standard_error);
@@ -152,6 +164,7 @@ void Worker::start() {
     }
     _exit(0);
   }
+  setpgid(child->pid, child->pid);  // whichever of the two is first
   child->to_child = down.take(1);
   child->from_child = up.take(0);
   child_ = std::move(child);
@@ -161,14 +174,21 @@ void Worker::release() { child_.reset(); }
 
 void Worker::end() {
   if (!child_) return;
-  kill(child_->pid, SIGKILL);
+  kill(-child_->pid, SIGKILL);
   waitpid(child_->pid, nullptr, 0);
   release();
 }
 
-/// Reaps the child and says in one line what became of it.
+bool Worker::has_ended() const {
+  siginfo_t info{};
+  return waitid(P_PID, id_t(child_->pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child_->pid;
+}
+
+/// Reaps the child, ends what it started, and says in one line what became of it.
 std::string Worker::how_it_ended(bool timed_out) {
-  if (timed_out) kill(child_->pid, SIGKILL);
+  siginfo_t info{};
+  if (!timed_out) waitid(P_PID, id_t(child_->pid), &info, WEXITED | WNOWAIT);  // not reaped: its group is its own still
+  kill(-child_->pid, SIGKILL);
   int status = 0;
   waitpid(child_->pid, &status, 0);
   const std::string last_words = last_line_of(child_->standard_error);
@@ -204,7 +224,8 @@ std::span<const Answer> Worker::receive() {
       since = Clock::now();
     }
     const bool timed_out = std::chrono::duration<double>(Clock::now() - since).count() > limits_.seconds_per_case;
-    if (ready <= 0 && !timed_out) continue;
+    // What the subject started may hold the pipe open after the child itself has ended.
+    if (ready <= 0 && !timed_out && !has_ended()) continue;
     const std::string how = how_it_ended(timed_out);
     const std::size_t broken = shared_->done;
     if (broken < shared_->count) {

@@ -18,7 +18,8 @@ struct WorkerLimits {
 /// A child process that answers batches of cases. A case is written to shared memory before it is
 /// asked. A child that throws, aborts, crashes, hangs or eats memory gives that case the answer
 /// `broke` with the reason (for an abort the last line that it wrote to standard error); a new child
-/// goes on with the next case. One batch at a time; not for use from several threads.
+/// goes on with the next case. Processes that it started end with it, unless they left its process group. One batch
+/// at a time; not for use from several threads.
 ///
 /// Throws std::system_error when the operating system refuses a process or memory.
 class Worker {
@@ -45,6 +46,7 @@ class Worker {
   void start();
   void end();
   void release();
+  bool has_ended() const;
   std::string how_it_ended(bool timed_out);
 
   WorkerLimits limits_;
