@@ -32,26 +32,37 @@ class Measured {
   Measured(const Query& query, const Subject& subject)
       : query_(query), subject_(subject), offering_(subject.offering(query.name)), tally_{&query, &subject} {
     cases_.resize(batch_size);
+    next_.resize(batch_size);
     direct_.resize(batch_size);
   }
 
-  /// Seconds for generating, asking and judging the same cases.
+  /// Seconds for generating, asking and judging the same cases, in the order in which a run does.
   double run(bool isolated) {
     return seconds([&] {
+      generate_batch(0, cases_);
       for (std::size_t b = 0; b < batches; ++b) {
-        generate_batch(b);
-        const std::span<const Answer> answers = isolated ? ask_worker() : ask_here();
+        if (isolated) workers_.send(subject_, cases_);
+        if (b + 1 < batches) generate_batch(b + 1, next_);
+        const std::span<const Answer> answers = isolated ? workers_.receive(subject_) : ask_here();
         for (std::size_t i = 0; i < batch_size; ++i) {
           tally_.count(judge(cases_[i], answers[i], offering_.contract, Detail::verdict));
         }
+        std::swap(cases_, next_);
       }
     });
   }
   /// Seconds for asking alone.
   double ask(bool isolated) {
-    generate_batch(0);
+    generate_batch(0, cases_);
     return seconds([&] {
-      for (std::size_t b = 0; b < batches; ++b) isolated ? ask_worker() : ask_here();
+      for (std::size_t b = 0; b < batches; ++b) {
+        if (isolated) {
+          workers_.send(subject_, cases_);
+          workers_.receive(subject_);
+        } else {
+          ask_here();
+        }
+      }
     });
   }
 
@@ -62,14 +73,10 @@ class Measured {
     work();
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
-  void generate_batch(std::size_t number) {
+  void generate_batch(std::size_t number, std::vector<Case>& into) {
     for (std::size_t i = 0; i < batch_size; ++i) {
-      generate(cases_[i], query_, subject_.scalar, 2026, number * batch_size + i);
+      generate(into[i], query_, subject_.scalar, 2026, number * batch_size + i);
     }
-  }
-  std::span<const Answer> ask_worker() {
-    workers_.send(subject_, cases_);
-    return workers_.receive(subject_);
   }
   std::span<const Answer> ask_here() {
     for (std::size_t i = 0; i < batch_size; ++i) direct_[i] = offering_.answer(cases_[i].values);
@@ -81,7 +88,7 @@ class Measured {
   const Offering& offering_;
   Tally tally_;
   Workers workers_;
-  std::vector<Case> cases_;
+  std::vector<Case> cases_, next_;
   std::vector<Answer> direct_;
 };
 
@@ -119,7 +126,7 @@ Written by `build/release/benchmarks/isolation_cost > docs/isolation.md`; the sa
 
 Every subject is asked in a process of its own, so that a crash or an endless loop costs one case and not the run. Here
 `{}` gets the same cases in a process of its own and in the caller's, {} times each in turns, {} batches of {}
-cases. A *run* generates, asks and judges, as `nearmiss run` does. *Asking* is that part of it alone: what handing a case
+cases. A *run* generates, asks and judges, as `nearmiss run` does: it makes the next cases while the subject answers. *Asking* is that part of it alone: what handing a case
 over and back adds to an answer of some nanoseconds. Times are medians of wall time for one case without isolation,
 and costs the medians of the ratios. A run may cost at most {} more; with several cores and subjects it costs less, since
 their processes answer side by side.

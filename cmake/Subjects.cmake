@@ -32,12 +32,15 @@ Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
   set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECTS ${identifier})
   set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECT_SOURCES ${source})
   set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECT_LIBRARIES ${arg_LIBRARIES})
+  if(NEARMISS_READS_ADDED)
+    set_property(GLOBAL APPEND PROPERTY NEARMISS_ADDED_SUBJECTS ${name})
+  endif()
 endfunction()
 
 # Writes the source `file` that lists subjects. A program that compiles one of its own links no other subject.
 function(nearmiss_write_subjects file)  # SUBJECT ...
   set(subjects ${ARGN})
-  set(text "// Written by CMake.\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
+  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
   foreach(s IN LISTS subjects)
     string(APPEND text "Subject subject_${s}();\n")
   endforeach()
@@ -45,7 +48,10 @@ function(nearmiss_write_subjects file)  # SUBJECT ...
   foreach(s IN LISTS subjects)
     string(APPEND text "      subject_${s}(),\n")
   endforeach()
-  string(APPEND text "  };\n}\n}\n")
+  get_property(added GLOBAL PROPERTY NEARMISS_ADDED_SUBJECTS)
+  list(TRANSFORM added REPLACE "(.+)" "\"\\1\"")
+  list(JOIN added ", " added)
+  string(APPEND text "  };\n}\nstd::vector<std::string> added_subjects() { return {${added}}; }\n}\n")
   file(GENERATE OUTPUT ${file} CONTENT "${text}")
 endfunction()
 
@@ -63,6 +69,7 @@ endfunction()
 
 # Reads the files of NEARMISS_ADD; each adds subjects.
 function(nearmiss_read_added)
+  set(NEARMISS_READS_ADDED ON)
   foreach(file IN LISTS NEARMISS_ADD)
     get_filename_component(file ${file} ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
     if(NOT EXISTS ${file} OR IS_DIRECTORY ${file})

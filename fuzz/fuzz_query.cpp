@@ -1,7 +1,9 @@
 /// One fuzz target per query, named by fuzzed_query: bytes become a case, the tiers of
 /// `collide` answer it, the judge has its say, and a violation ends the process with the case in hand.
 ///
-/// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas
+/// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas; "added": those of NEARMISS_ADD that
+///                         offer this query
+/// NEARMISS_PLUGINS        files of plugins to ask where they offer this query, separated by colons
 /// NEARMISS_FUZZ_REPORTS   a folder: each violation becomes a case file there, and the target goes on
 #include <fmt/format.h>
 
@@ -19,8 +21,10 @@
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
 #include "fuzz/fuzzed_query.hpp"
+#include "impl/subject/added.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
+#include "oracles/plugin.hpp"
 
 namespace nearmiss {
 namespace {
@@ -46,13 +50,26 @@ std::vector<std::string> named_in_environment() {
   return names;
 }
 
-/// Every tier of `collide` and the subjects named in the environment that answer this query.
+/// Every tier of `collide`, and the subjects and plugins named in the environment, that answer this query. They are
+/// told on standard error, for whoever started this.
 std::vector<const Subject*> asked_subjects() {
-  std::vector<const Subject*> asked;
-  for (const Subject& s : subjects()) {
-    if (s.name.starts_with("collide-") && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
+  try {
+    load_plugins_of_environment();
+  } catch (const BadPlugin& e) {
+    cannot_run(e.what());
   }
-  for (const std::string& name : named_in_environment()) {
+  std::vector<const Subject*> asked;
+  const std::vector<std::string> names = named_in_environment(), added = added_subjects();
+  const auto has = [](const std::vector<std::string>& all, const std::string& name) {
+    return std::find(all.begin(), all.end(), name) != all.end();
+  };
+  for (const Subject& s : subjects()) {
+    const bool chosen =
+        s.name.starts_with("collide-") || !s.plugin.empty() || (has(names, "added") && has(added, s.name));
+    if (chosen && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
+  }
+  for (const std::string& name : names) {
+    if (name == "added") continue;
     const Subject* s = find_subject(name);
     if (s == nullptr)
       cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
@@ -61,6 +78,9 @@ std::vector<const Subject*> asked_subjects() {
     }
     if (std::find(asked.begin(), asked.end(), s) == asked.end()) asked.push_back(s);
   }
+  std::string told;
+  for (const Subject* s : asked) told += " " + s->name;
+  std::fprintf(stderr, "asks:%s\n", told.c_str());
   return asked;
 }
 

@@ -8,8 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include "impl/plugin/nearmiss_plugin.h"
 #include "impl/subject/subject.hpp"
@@ -127,7 +129,7 @@ Subject subject_of(const std::string& file, const nearmiss_plugin* plugin) {
   if (find_subject(s.name) != nullptr) refuse(file, fmt::format("there is a subject '{}' already", s.name));
   s.version = text_or(plugin->library_version, "");
   s.scalar = plugin->scalar == NEARMISS_FLOAT ? Scalar::float32 : Scalar::float64;
-  s.plugin = file;
+  s.plugin = std::filesystem::absolute(file).lexically_normal();  // replays from any folder
   for (const Query& q : catalogue()) {
     s.offerings.push_back({std::string(q.name), Offer::not_offered, "the plugin has no function for it", {}, {}});
   }
@@ -154,6 +156,14 @@ void load_plugin(const std::string& file) {
   const Entry entry = entry_of(library);
   if (entry == nullptr) refuse(file, "it is no plugin: it has no function nearmiss_plugin_entry");
   add_subject(subject_of(file, entry()));
+}
+
+void load_plugins_of_environment() {
+  const char* named = std::getenv(plugins_variable);
+  std::istringstream files(named == nullptr ? "" : named);
+  for (std::string file; std::getline(files, file, ':');) {
+    if (!file.empty()) load_plugin(file);
+  }
 }
 
 }  // namespace nearmiss

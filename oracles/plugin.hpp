@@ -16,4 +16,10 @@ struct BadPlugin : std::runtime_error {
 /// it is loaded is refused like any other. Throws BadPlugin.
 void load_plugin(const std::string& file);
 
+/// Names files of plugins to the programs that have no command line for it, fuzz targets and properties; separated by
+/// colons.
+inline constexpr const char* plugins_variable = "NEARMISS_PLUGINS";
+/// Loads them. Throws BadPlugin.
+void load_plugins_of_environment();
+
 }  // namespace nearmiss

@@ -2,11 +2,18 @@
 /// its shrinking is off, because a stream's number has nothing to shrink: cases have a shrinker of their own.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 
-int main(int argc, char** argv) {
+#include "oracles/plugin.hpp"
+
+int main(int argc, char** argv) try {
   constexpr int keep_what_is_set = 0;
   ::setenv("RC_PARAMS", "seed=1 max_success=200 noshrink=1", keep_what_is_set);
+  nearmiss::load_plugins_of_environment();
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
+} catch (const nearmiss::BadPlugin& e) {
+  std::fprintf(stderr, "nearmiss_properties: %s\n", e.what());
+  return 2;
 }

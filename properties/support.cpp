@@ -9,6 +9,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/shrink.hpp"
+#include "impl/subject/added.hpp"
 
 namespace nearmiss {
 
@@ -21,11 +22,14 @@ std::ostream& operator<<(std::ostream& out, const NamedQuery& q) { return out <<
 
 namespace {
 
-/// Our own subjects, and those that the environment variable NEARMISS_SUBJECTS names, separated by commas.
+/// Our own subjects, plugins, and those that the environment variable NEARMISS_SUBJECTS names, separated by commas.
 bool is_held_to_its_word(const Subject& s) {
-  const char* named = std::getenv("NEARMISS_SUBJECTS");
-  return s.name.starts_with("collide-") ||
-         (named != nullptr && fmt::format(",{},", named).find(fmt::format(",{},", s.name)) != std::string::npos);
+  const char* told = std::getenv("NEARMISS_SUBJECTS");
+  const std::string names = fmt::format(",{},", told == nullptr ? "" : told);
+  const auto named = [&](const std::string& name) { return names.find(fmt::format(",{},", name)) != std::string::npos; };
+  const std::vector<std::string> added = added_subjects();
+  return s.name.starts_with("collide-") || !s.plugin.empty() || named(s.name) ||
+         (named("added") && std::find(added.begin(), added.end(), s.name) != added.end());
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct Pairing {
   const Subject* subject;
 };
 std::ostream& operator<<(std::ostream& out, const Pairing& p);
-/// Every query with every tier of `collide`, and every subject that NEARMISS_SUBJECTS names, that answers it.
+/// Every query with every tier of `collide`, every plugin and every subject that NEARMISS_SUBJECTS names ("added": those
+/// of NEARMISS_ADD), that answers it.
 std::vector<Pairing> our_pairings();
 
 /// A query; shows as its name.

@@ -9,12 +9,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
+#include "oracles/plugin.hpp"
 
 extern char** environ;
 
@@ -28,6 +32,8 @@ namespace fs = std::filesystem;
 
 /// How long a target may take beyond its time to start, and to end when it is told to.
 constexpr auto grace = 3s;
+/// After which libFuzzer keeps the case and ends the target.
+constexpr int seconds_for_one_case = 10;
 
 /// A target of a plain build has a main of its own and cannot fuzz; libFuzzer's options are in the file.
 bool has_libfuzzer(const fs::path& file) {
@@ -81,8 +87,8 @@ class Child {
         const fs::path& log) {
     std::vector<char*> argv, envp;
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    for (const std::string& e : more_environment) envp.push_back(const_cast<char*>(e.c_str()));  // the first one counts
     for (char** e = environ; *e != nullptr; ++e) envp.push_back(*e);
-    for (const std::string& e : more_environment) envp.push_back(const_cast<char*>(e.c_str()));
     argv.push_back(nullptr);
     envp.push_back(nullptr);
     posix_spawn_file_actions_t files;
@@ -132,6 +138,23 @@ std::uint64_t executions_in(const fs::path& log) {
   return 0;
 }
 
+std::vector<std::string> asked_in(const fs::path& log) {
+  static constexpr std::string_view key = "asks:";
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    std::istringstream names(line.substr(key.size()));
+    return {std::istream_iterator<std::string>(names), {}};
+  }
+  return {};
+}
+
+/// What the environment names already, and the subjects of NEARMISS_ADD.
+std::string subjects_to_ask() {
+  const char* named = std::getenv("NEARMISS_SUBJECTS");
+  return named == nullptr || *named == '\0' ? "added" : fmt::format("{},added", named);
+}
+
 }  // namespace
 
 FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
@@ -157,8 +180,11 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
   put_seeds(*target.query, corpus);
   const auto begin = Clock::now();
   Child child({target.file.string(), corpus.string(), fmt::format("-max_total_time={}", budget.seconds),
-               fmt::format("-artifact_prefix={}/", artifacts.string()), "-print_final_stats=1"},
-              {"NEARMISS_FUZZ_REPORTS=" + reports.string()}, log);
+               fmt::format("-artifact_prefix={}/", artifacts.string()), "-print_final_stats=1",
+               fmt::format("-timeout={}", seconds_for_one_case)},
+              {"NEARMISS_FUZZ_REPORTS=" + reports.string(), "NEARMISS_SUBJECTS=" + subjects_to_ask(),
+               fmt::format("{}={}", plugins_variable, fmt::join(budget.plugins, ":"))},
+              log);
   bool told = false, stopped = false;
   const auto end = begin + std::chrono::seconds(budget.seconds) + grace;
   for (auto deadline = end; !child.ended(); std::this_thread::sleep_for(50ms)) {
@@ -170,7 +196,8 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
     }
     if (told && Clock::now() > deadline) child.send(SIGKILL);
   }
-  FuzzOutcome o{query, std::chrono::duration<double>(Clock::now() - begin).count(), executions_in(log), "", false};
+  FuzzOutcome o{query, std::chrono::duration<double>(Clock::now() - begin).count(), executions_in(log), "", false,
+                asked_in(log)};
   const int status = child.status();
   o.ended = WIFSIGNALED(status) ? fmt::format("killed by signal {}", WTERMSIG(status))
                                 : fmt::format("exit code {}", WEXITSTATUS(status));

@@ -36,17 +36,20 @@ struct FuzzOutcome {
   std::uint64_t executions = 0;  ///< 0 where the target did not say
   std::string ended;             ///< "exit code 0", "killed by signal 9"
   bool failed = false;           ///< ended by itself with another code than 0
+  std::vector<std::string> asked;  ///< subjects; empty where the target did not say
 };
 
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
+  std::vector<std::string> plugins;  ///< files whose subjects are asked as well
   unsigned seconds = 1;
   std::function<void()> tick;  ///< called about twenty times a second while the target runs
   std::function<bool()> cancelled;
 };
 
-/// Runs the target for so long. It finds NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz in its environment, and
-/// its own messages go to fuzz/QUERY.log. Stored seeds are put into the corpus first.
+/// Runs the target for so long. It finds NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz in its environment, and there also that
+/// it is to ask the plugins and the subjects of NEARMISS_ADD; its own messages go to fuzz/QUERY.log. Stored seeds are
+/// put into the corpus first.
 FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget);
 
 }  // namespace nearmiss

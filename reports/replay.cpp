@@ -135,7 +135,7 @@ Case read_case_or_report(const std::filesystem::path& file) {
 
 std::string replay_command(const Subject& subject, const std::string& file) {
   const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
-  return "nearmiss replay " + plugin + shell_quoted(file);
+  return "nearmiss replay " + plugin + shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
 }
 
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,

@@ -93,6 +93,7 @@ Report examine(const Case& question, const Subject& subject, const Answer& answe
   r.finding = judge(question, answer, r.contract, Detail::full);
   r.truth = truth_of(question);
   r.referees = second_opinions(question, subject, workers);
+  r.static_checks = static_checks(question, answer, r.truth, workers);
   return r;
 }
 

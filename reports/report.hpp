@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oracles/judge.hpp"
+#include "reports/static_check.hpp"
 #include "reports/workers.hpp"
 
 namespace nearmiss {
@@ -28,6 +29,7 @@ struct Report {
   Finding finding;
   Truth truth;
   std::vector<Opinion> referees;
+  std::vector<StaticCheck> static_checks;  ///< of times of contact
   std::string replay;  ///< the command that replays it; set by whoever writes the report to a file
 };
 

@@ -89,6 +89,16 @@ Json opinion(const Query& query, const Opinion& o) {
   return j;
 }
 
+Json static_check(const StaticCheck& c) {
+  Json j{{"name", c.referee}, {"version", c.version}, {"query", c.query}, {"of", c.of}};
+  constexpr std::array<const char*, 3> moments{"before", "at", "after"};
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const bool answered = c.said[i].status == Answer::Status::answered;
+    j[moments[i]] = {{"time", c.times[i]}, {"touching", answered ? Json(c.said[i].yes) : Json(nullptr)}};
+  }
+  return j;
+}
+
 Json contract_to_json(const collide::Contract& c) {
   return {{"backward_epsilon", promise(c.backward)},
           {"forward_ulps", promise(c.forward)},
@@ -165,6 +175,8 @@ Json report_to_json(const Report& r) {
   j["contract"] = contract_to_json(r.contract);
   j["referees"] = Json::array();
   for (const Opinion& o : r.referees) j["referees"].push_back(opinion(query, o));
+  j["static_checks"] = Json::array();
+  for (const StaticCheck& c : r.static_checks) j["static_checks"].push_back(static_check(c));
   j["replay"] = r.replay;
   j["cpp"] = case_to_cpp(r.question);
   j["environment"] = environment_to_json();

@@ -159,10 +159,11 @@ std::vector<const Subject*> Run::asked(const Query& query, Scalar scalar) const 
 
 bool Run::should_stop() const { return interrupted() || (settings_.until && Clock::now() >= *settings_.until); }
 
-void Run::examine(std::span<const Case> cases) {
+void Run::examine(std::span<const Case> cases, const std::function<void()>& meanwhile) {
   const Query& query = *cases.front().query;
   const auto asked_now = asked(query, cases.front().scalar);
   for (const Subject* s : asked_now) workers_.send(*s, cases);
+  if (meanwhile) meanwhile();
   for (const Subject* s : asked_now) {
     const std::span<const Answer> answers = workers_.receive(*s);
     const collide::Contract& contract = s->offering(query.name).contract;
@@ -241,19 +242,30 @@ void Run::generate(std::optional<std::uint64_t> cases) {
     }
   }
   if (cases) total_ = total;
-  std::vector<Case> batch;
-  while (!should_stop()) {
-    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : batch_size; };
+  struct Batch {
+    Stream* of = nullptr;  ///< nullptr: no cases are left
+    std::vector<Case> cases;
+    double seconds = 0;  ///< that making it took
+  };
+  const auto make = [&](Batch& batch) {
+    const Clock::time_point begin = Clock::now();
+    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : std::uint64_t{batch_size}; };
     const auto behind = [&](const Stream& a, const Stream& b) {
       return std::pair(left(a) == 0, a.seconds) < std::pair(left(b) == 0, b.seconds);
     };
     const auto stream = std::min_element(streams.begin(), streams.end(), behind);
-    if (stream == streams.end() || left(*stream) == 0) break;
+    batch.of = stream == streams.end() || left(*stream) == 0 ? nullptr : &*stream;
+    if (batch.of == nullptr) return;
+    batch.cases.resize(std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)}));
+    for (Case& c : batch.cases) nearmiss::generate(c, *stream->query, stream->scalar, settings_.seed, stream->next++);
+    batch.seconds = seconds_since(begin);
+    stream->seconds += batch.seconds;
+  };
+  Batch now, next;
+  for (make(now); now.of != nullptr && !should_stop(); std::swap(now, next)) {
     const Clock::time_point begin = Clock::now();
-    batch.resize(std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)}));
-    for (Case& c : batch) nearmiss::generate(c, *stream->query, stream->scalar, settings_.seed, stream->next++);
-    examine(batch);
-    stream->seconds += seconds_since(begin);
+    examine(now.cases, [&] { make(next); });  // the subjects' processes answer meanwhile
+    now.of->seconds += seconds_since(begin) - next.seconds;
   }
 }
 
@@ -297,6 +309,18 @@ void Run::write_index(RunState state) {
         j["not_offered"].push_back({{"query", q->name}, {"subject", s->name}, {"why", s->offering(q->name).how}});
       }
     }
+  }
+  if (settings_.by_class) j["by_class"] = Json::array();
+  for (const auto& [key, t] : by_class_) {
+    const std::uint64_t hits = t.violations_by(Disagreement::false_hit);
+    const std::uint64_t misses = t.violations_by(Disagreement::false_miss);
+    j["by_class"].push_back({{"subject", key.first->name},
+                             {"class", key.second},
+                             {"cases", t.cases},
+                             {"false_hits", hits},
+                             {"false_misses", misses},
+                             {"wrong", t.of(Verdict::violates_contract) - hits - misses},
+                             {"broke", t.of(Verdict::broke)}});
   }
   j.update(notes_->parts);
   j["reports"] = Json::array();

@@ -39,7 +39,7 @@ struct RunSettings {
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 0;
   std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop, if not by number of cases
-  bool by_class = false;  ///< count by the generator's moves as well, for table_by_class()
+  bool by_class = false;  ///< count by the generator's moves as well, for table_by_class() and the index
 };
 
 class Run {
@@ -53,8 +53,8 @@ class Run {
   ~Run();
 
   /// Asks every subject of the run that offers the query and computes in the cases' scalar. All cases
-  /// are of one query and one scalar. Stops early when it should.
-  void examine(std::span<const Case> cases);
+  /// are of one query and one scalar. Stops early when it should. `meanwhile` is done while the subjects answer.
+  void examine(std::span<const Case> cases, const std::function<void()>& meanwhile = {});
   /// Asks every subject that offers the query, whatever its scalar; a case that it cannot hold exactly
   /// is out of its domain. Calls `each` with every finding.
   void examine_by_all(const Case& question, const std::function<void(const Subject&, const Finding&)>& each = {});

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
+#include "impl/subject/added.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/fuzz_targets.hpp"
@@ -65,7 +67,8 @@ Json outcome_json(const FuzzOutcome& o) {
           {"seconds", o.seconds},
           {"executions", o.executions},
           {"ended", o.ended},
-          {"failed", o.failed}};
+          {"failed", o.failed},
+          {"asked", o.asked}};
 }
 
 /// What came of the fuzz targets.
@@ -80,13 +83,37 @@ struct Fuzzing {
     return std::accumulate(ran.begin(), ran.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const FuzzOutcome& o) { return sum + o.executions; });
   }
+  /// Subjects of NEARMISS_ADD that a target was to ask and does not know: it was built without them.
+  std::vector<std::string> unknown() const {
+    std::set<std::string> names;
+    for (const FuzzOutcome& o : ran) {
+      for (const std::string& name : added_subjects()) {
+        const bool offered = find_subject(name)->offering(o.query).offer != Offer::not_offered;
+        if (offered && !o.asked.empty() && std::find(o.asked.begin(), o.asked.end(), name) == o.asked.end()) names.insert(name);
+      }
+    }
+    return {names.begin(), names.end()};
+  }
 };
+
+/// The files of the plugins that are loaded, for the targets. Throws BadInput for one that cannot be named to them.
+std::vector<std::string> plugin_files() {
+  std::vector<std::string> files;
+  for (const Subject& s : subjects()) {
+    if (s.plugin.find(':') != std::string::npos) {
+      throw BadInput(s.plugin + ": fuzz targets cannot be told of a plugin with ':' in its name; move it elsewhere");
+    }
+    if (!s.plugin.empty()) files.push_back(s.plugin);
+  }
+  return files;
+}
 
 /// Each target for the same time; at least a second, so the last ones may have none left. The seed says
 /// which is the first, so that it is not always the same ones that have none.
 Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point until) {
   std::rotate(targets.begin(), targets.begin() + std::ptrdiff_t(run.settings().seed % targets.size()), targets.end());
   Fuzzing all;
+  const std::vector<std::string> plugins = plugin_files();
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const std::string query(targets[i].query->name);
     const double left = seconds_until(until);
@@ -96,8 +123,8 @@ Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point
     }
     run.doing(fmt::format("fuzzing {}", query));
     const double share = left / double(targets.size() - i);
-    all.ran.push_back(fuzz(targets[i], {run.settings().folder, unsigned(std::max(1.0, share)), [&] { run.tick(); },
-                                        [&] { return run.should_stop(); }}));
+    all.ran.push_back(fuzz(targets[i], {run.settings().folder, plugins, unsigned(std::max(1.0, share)),
+                                        [&] { run.tick(); }, [&] { return run.should_stop(); }}));
   }
   return all;
 }
@@ -144,7 +171,8 @@ class NightlyCommand : public Command {
         {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
          "stored about it. Then new cases are generated for all queries and subjects. In the last third of the "
          "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
-         "everything else. Where the fuzz targets are not built, the summary and the index say so, and the "
+         "everything else. They ask the tiers of collide, plugins, and the subjects of NEARMISS_ADD that they were "
+         "built with. Where the fuzz targets are not built, the summary and the index say so, and the "
          "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1.",
          "The run folder is that of 'nearmiss run', with corpus/QUERY/ for what the fuzz targets learned and "
          "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
@@ -169,6 +197,7 @@ class NightlyCommand : public Command {
     const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
+    plugin_files();  // a name that will not do is told now, not in the last third
     catch_interrupts();
     const FuzzTargets found =
         find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());
@@ -217,10 +246,12 @@ class NightlyCommand : public Command {
     run.note("fuzz", note);
     if (all.ran.empty()) return "no time was left";
     failed = all.failed() > 0;
-    return fmt::format("{} of {} targets, {}, {}{}", all.ran.size(), found.targets.size() + found.missing.size(),
+    const std::vector<std::string> unknown = all.unknown();
+    return fmt::format("{} of {} targets, {}, {}{}{}", all.ran.size(), found.targets.size() + found.missing.size(),
                        plural_text(all.executions(), "execution"),
                        plural_text(note["left"]["files"].get<std::uint64_t>(), "case file"),
-                       failed ? fmt::format(", {} ended with an error, see fuzz/*.log", all.failed()) : "");
+                       failed ? fmt::format(", {} ended with an error, see fuzz/*.log", all.failed()) : "",
+                       unknown.empty() ? "" : fmt::format(", built without {}", list_text(unknown)));
   }
 
   std::optional<double> minutes_;

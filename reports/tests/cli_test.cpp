@@ -327,6 +327,17 @@ TEST(Run, MeasuresThoseThatPromiseNothing) {
   std::uint64_t bad = 0;
   for (const json& t : index["tallies"]) bad += t["verdicts"]["violates contract"].get<std::uint64_t>();
   EXPECT_GT(bad, 0u);
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  std::uint64_t bad_scenes = 0;
+  for (const json& c : index["by_class"]) {
+    if (c["class"] != "none") continue;
+    EXPECT_EQ(c["subject"], "bullet");
+    EXPECT_GT(c["cases"], 200) << "about half of 600";
+    bad_scenes = c["false_hits"].get<std::uint64_t>() + c["false_misses"].get<std::uint64_t>() +
+                 c["wrong"].get<std::uint64_t>() + c["broke"].get<std::uint64_t>();
+  }
+  EXPECT_GT(bad_scenes, 0u);
+  EXPECT_LE(bad_scenes, bad);
 }
 
 /// The tolerance of libccd is a length: it takes two small balls that overlap for apart, until they are scaled up.
@@ -418,6 +429,7 @@ std::string fuzz_target(const StoredCase& c, const std::string& artifact) {
          artifact +
          "' \"${a#*=}crash-1\";; esac; done\n"
          "ls \"$1\" >&2\n"
+         "echo \"asks: collide-fast-double $NEARMISS_SUBJECTS $NEARMISS_PLUGINS\"\n"
          "echo 'stat::number_of_executed_units: 1234'\n"
          "exit 0\n" +
          std::string("\0max_total_time\0", 16);
@@ -431,7 +443,8 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   fs::create_directory(folder / "targets");
   const fs::path target = folder.file("targets/fuzz_moving_sphere_box", fuzz_target(seed, artifact));
   fs::permissions(target, fs::perms::owner_all);
-  const Ran ran = nearmiss({"nightly", "--minutes", "0.25", "--seed", "3", "--fuzz-targets",
+  const std::string plugin = NEARMISS_PLUGINS "/libskim_plugin.so";
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.25", "--seed", "3", "--plugin", plugin, "--fuzz-targets",
                             (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   const json index = index_of(folder / "r");
@@ -442,6 +455,7 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   EXPECT_EQ(index["fuzz"]["state"], "ran") << index["fuzz"];
   ASSERT_EQ(index["fuzz"]["targets"].size(), 1u);
   EXPECT_EQ(index["fuzz"]["targets"][0]["executions"], 1234u);
+  EXPECT_EQ(index["fuzz"]["targets"][0]["asked"], json::array({"collide-fast-double", "added", plugin}));
   EXPECT_EQ(index["fuzz"]["missing"].size(), catalogue().size() - 1);
   EXPECT_EQ(index["fuzz"]["left"]["examined"], 2u);
   const std::string log = read_file(folder / "r" / "fuzz" / "moving_sphere_box.log");

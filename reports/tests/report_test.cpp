@@ -1,9 +1,15 @@
 /// Reports say what is true of each kind of disagreement, and are valid under their schema.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "corpus/codec.hpp"
 #include "reports/explain.hpp"
@@ -64,6 +70,48 @@ Report report(const Case& question, const Answer& given, const collide::Contract
   Report r = examine(question, stooge(question.query->name, contract), given, workers);
   r.replay = "nearmiss replay report.json";
   return r;
+}
+
+using Touching = std::map<std::string, std::set<std::pair<bool, bool>>>;
+
+/// What the referees say of before and after, by whose time it is.
+Touching touching(const Report& r) {
+  Touching said;
+  for (const StaticCheck& c : r.static_checks) said[c.of].insert({c.said[0].yes, c.said[2].yes});
+  return said;
+}
+
+TEST(Report, ChecksTimesOfContactByStaticQueries) {
+  const auto is_referee = [](const Subject& s) { return s.referee; };
+  const auto referees = std::count_if(subjects().begin(), subjects().end(), is_referee);
+  if (referees == 0) GTEST_SKIP() << "no library of this build is a referee";
+  using Said = std::set<std::pair<bool, bool>>;
+  const Said contact{{false, true}}, within{{true, true}}, apart{{false, false}};
+  EXPECT_EQ(touching(report(flight(0), hit(4))), (Touching{{"answer", contact}}));
+  EXPECT_EQ(touching(report(flight(0), hit(4.0625))), (Touching{{"answer", within}, {"truth", contact}}));
+  EXPECT_EQ(touching(report(flight(0), miss())), (Touching{{"truth", contact}}));
+  EXPECT_EQ(touching(report(flight(5), hit(4))), (Touching{{"answer", apart}}));
+  EXPECT_EQ(touching(report(flight(5), miss())), Touching{});
+  EXPECT_EQ(touching(report(nearest(), answer(true, {2, 0, 0}))), Touching{});
+
+  const Report r = report(flight(0), hit(4));
+  ASSERT_EQ(r.static_checks.size(), std::size_t(referees));
+  for (const StaticCheck& c : r.static_checks) {
+    EXPECT_EQ(c.query, "sphere_box_overlap");
+    EXPECT_EQ(c.times, (std::array<double, 3>{4 - 0x1p-11, 4, 4 + 0x1p-11}));
+  }
+}
+
+/// A point that flies at each obstacle is put there as a ball without a radius.
+TEST(Report, ChecksTimesOfPoints) {
+  const auto says = [](const char* query, std::vector<double> values) {
+    const Case c{find_query(query), Scalar::float64, std::move(values), "test", 0, 0, {}};
+    return touching(report(c, answer(true, {3, 0, 0, 0, 0, 0, 0})));
+  };
+  if (report(flight(0), hit(4)).static_checks.empty()) GTEST_SKIP() << "no library of this build is a referee";
+  const Touching contact{{"answer", {{false, true}}}};
+  EXPECT_EQ(says("moving_point_box", {-4, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1}), contact);
+  EXPECT_EQ(says("moving_point_sphere", {-4, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1}), contact);
 }
 
 struct Expectation {
