@@ -31,6 +31,10 @@ struct Partners {
   /// Where there is one partner and its right answers are those of the case, changed: that change. What has
   /// no counterpart is not given.
   std::function<Answer(const Answer& own)> image;
+  /// What is right within an ulp has such an image. Not so where the change moves numbers to another grid.
+  bool image_keeps_ulps = true;
+  /// Decisions that contradict each other are so whatever the numbers are; otherwise a wrong number may be at fault.
+  bool decisions_alone = true;
 };
 
 /// An entry of the closed table of relations.
@@ -46,6 +50,16 @@ std::span<const Relation> relations();
 /// nullptr when there is none of that name.
 const Relation* find_relation(std::string_view name);
 
+/// What a subject broke by its answers to related cases.
+enum class Breach {
+  none,           ///< nothing that can be proved
+  contradiction,  ///< decisions that cannot both be right, but no promise: the judge shows which one is wrong
+  bits,           ///< it claims to answer alike bit for bit, and does not
+  contract,       ///< the judge proves an answer to be beyond its contract
+  broke,          ///< it gave no answer to one of them
+};
+std::string_view name_of(Breach b);
+
 /// What came of one relation for one case and one subject.
 struct RelationFinding {
   const Relation* relation = nullptr;
@@ -53,17 +67,26 @@ struct RelationFinding {
   std::vector<Answer> answers;    ///< one each
   std::vector<Finding> findings;  ///< the judge's word on each; empty where the answers are the same
   Agreement agreement = Agreement::same;
-  std::string broken;  ///< what proves the subject wrong; empty where nothing does
+  Breach breach = Breach::none;
+  std::string broken;  ///< what proves that a promise is broken; empty up to Breach::contradiction
   std::string oracle;  ///< what proves the oracle wrong; empty where nothing does
 };
 
+/// Answers that differ are not yet a fault: rounding may make them differ. A promise is broken by what the judge proves
+/// against one of them or, where `bit_for_bit` is claimed, by any difference that a bitwise relation does not allow.
+/// `answers`: to the case and to its partners, in order; the subject offers all of their queries.
+RelationFinding relate(const Relation& relation, const Partners& partners, const Case& question,
+                       std::vector<Answer> answers, const Subject& subject, bool bit_for_bit);
+
+/// Whether the subject claims that scaled cases have answers that are alike bit for bit: the tiers of `collide` do.
+bool claims_same_bits(const Subject& subject);
+
 using Ask = std::function<Answer(const Case&)>;
 
-/// Asks the subject about the case and its partners. Answers that differ are not yet a fault: broken is what
-/// the judge proves against one of them, a decision that differs where exact ones are promised, or, where
-/// `bit_for_bit` is demanded, any difference that a bitwise relation does not allow. Empty: no partners, or
-/// one of them is not offered.
+/// Asks the subject about the case and its partners. Empty: no partners, or one of them is not offered.
 std::optional<RelationFinding> examine(const Relation& relation, const Case& question, std::uint64_t seed,
                                        const Subject& subject, const Ask& ask, bool bit_for_bit = false);
+/// Whether the subject offers the query of each of the partners.
+bool offers_all(const Subject& subject, const Partners& partners);
 
 }  // namespace nearmiss

@@ -291,6 +291,25 @@ INSTANTIATE_TEST_SUITE_P(
                   if (v[0] > 8) a.yes = false, a.values[0] = HUGE_VAL;
                   return a;
                 }},
+        Planted{"rotated", "moving_sphere_sphere",  // the larger of two coordinates for a length
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  w[3] = v[3] * (std::abs(v[4]) > std::abs(v[5]) ? 1 : 0.5);
+                  return right("moving_sphere_sphere", w);
+                }},
+        Planted{"contained-ball", "moving_sphere_box",  // half of its half extents
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  for (std::size_t k = 10; k < 13; ++k) w[k] = 0.5 * v[k];
+                  return right("moving_sphere_box", w);
+                }},
+        Planted{"sphere-as-point", "moving_point_plane",  // two-sided
+                [](std::span<const double> v) {
+                  std::vector<double> w(v.begin(), v.end());
+                  const double along = v[3] * v[6] + v[4] * v[7] + v[5] * v[8];
+                  for (std::size_t k = 6; along > 0 && k < 10; ++k) w[k] = -v[k];
+                  return right("moving_point_plane", w);
+                }},
         Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
                 [](std::span<const double> v) {
                   std::vector<double> w(v.begin(), v.end());
