@@ -392,6 +392,88 @@ bool touch_by_position(Draft& d) {
   return true;
 }
 
+/// Whole numbers that are the sides of a box with a whole diagonal, the last.
+constexpr int whole_diagonals[][4] = {{1, 2, 2, 3},  {2, 3, 6, 7},  {1, 4, 8, 9}, {4, 4, 7, 9}, {2, 6, 9, 11},
+                                      {3, 4, 0, 5}, {5, 12, 0, 13}, {8, 15, 0, 17}, {7, 24, 0, 25}};
+
+/// A round thing touches an edge or a vertex of another one, or another round thing, off every axis and yet exactly: its
+/// radius is the whole diagonal of a box with whole sides. A box stands upright.
+bool touch_at_edge_or_vertex(Draft& d) {
+  const auto& things = d.plan.things;
+  if (things.size() < 2) return false;
+  const std::size_t first = d.random.below(things.size());
+  const Thing& round = things[first];
+  const Thing& other = things[(first + 1 + d.random.below(things.size() - 1)) % things.size()];
+  if (round.sizes.size() != 1) return false;
+  const auto& sides = whole_diagonals[d.random.below(std::size(whole_diagonals))];
+  const std::size_t turn = d.random.below(3);
+  const double step = d.unit * d.random.power_of_two(-6, -2);
+  Numbers at = d.vector(d.random.pick(other.positions));
+  double reach = sides[3] * step;
+  const bool box = other.sizes.size() == 3;
+  if (box) identity_rotation(d);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double side = d.random.sign(), apart = sides[(k + turn) % 3] * step;
+    // Where the box is not left along an axis, the point is anywhere on its edge.
+    const double corner = !box ? 0.0 : apart > 0 ? d[other.sizes[k]] : 0.125 * d.random.between(-8, 8) * d[other.sizes[k]];
+    at[k] += side * (corner + apart);
+  }
+  if (!box && other.sizes.size() == 1) {  // two round things share the distance
+    const double theirs = 0.125 * d.random.between(0, 8) * reach;
+    d.set(other.sizes[0], theirs);
+    reach -= theirs;
+  }
+  d.set_vector(d.random.pick(round.positions), at);
+  d.set(round.sizes[0], reach);
+  return true;
+}
+
+/// Two upright boxes whose half diagonals are whole, as far apart as both together.
+bool touch_by_diagonals(Draft& d) {
+  std::vector<const Thing*> boxes;
+  for (const Thing& t : d.plan.things) {
+    if (t.sizes.size() == 3) boxes.push_back(&t);
+  }
+  if (boxes.size() < 2) return false;
+  const auto& sides = whole_diagonals[d.random.below(std::size(whole_diagonals))];
+  const double step = d.unit * d.random.power_of_two(-5, -2);
+  const std::array<int, 2> times{d.random.between(1, 4), d.random.between(1, 4)};
+  for (std::size_t n = 0; n < 2; ++n) {
+    const std::size_t turn = d.random.below(3);
+    for (std::size_t k = 0; k < 3; ++k) d.set(boxes[n]->sizes[k], times[n] * step * sides[(k + turn) % 3]);
+  }
+  Numbers at = d.vector(boxes[0]->positions.front());
+  for (std::size_t k = 0; k < 3; ++k) at[k] += d.random.sign() * (times[0] + times[1]) * step * sides[k];
+  d.set_vector(boxes[1]->positions.front(), at);
+  return true;
+}
+
+/// A thing with several positions becomes its own mirror image, in the plane through another thing across an axis: what
+/// stays in that plane is as near to both halves.
+bool mirrored(Draft& d) {
+  const auto& things = d.plan.things;
+  if (things.size() < 2) return false;
+  const std::size_t first = d.random.below(things.size());
+  const Thing& shape = things[first];
+  const Thing& seen = things[(first + 1 + d.random.below(things.size() - 1)) % things.size()];
+  const std::size_t count = shape.positions.size(), k = d.random.below(3);
+  if (count < 2) return false;
+  const double plane = d.vector(seen.positions.front())[k];
+  const auto at = [&](std::size_t i) { return shape.positions[i % count]; };
+  const std::size_t start = d.random.below(count);
+  const auto mirror = [&](std::size_t from, std::size_t to) {
+    Numbers x = d.vector(at(start + from));
+    x[k] = plane - (x[k] - plane);
+    d.set_vector(at(start + to), x);
+  };
+  if (count == 3) d.set(d.plan.vectors[at(start)].begin + k, plane);
+  if (count == 2) mirror(0, 1);
+  if (count >= 3) mirror(1, 2);
+  if (count == 4) mirror(0, 3);
+  for (std::size_t v : d.plan.velocities) d.set(d.plan.vectors[v].begin + k, 0);
+  return true;
+}
+
 /// A plane at a right angle to an axis touches a thing, from either side; a box that it touches stands upright.
 bool touch_by_plane(Draft& d) {
   const auto& offsets = d.plan.numbers[std::size_t(Role::offset)];
@@ -575,6 +657,9 @@ constexpr Move table[] = {
     {"scaled-rotation", "a quaternion whose length is not 1", scaled_rotation},
     {"touch-by-size", "a size equal to a coordinate's distance: upright shapes touch", touch_by_size},
     {"touch-by-position", "a center as far along one axis as both shapes reach", touch_by_position},
+    {"touch-at-edge-or-vertex", "a round thing touches an edge, a vertex or a round thing off every axis", touch_at_edge_or_vertex},
+    {"touch-by-diagonals", "two boxes as far apart as their half diagonals are long", touch_by_diagonals},
+    {"mirrored", "a shape its own mirror image in a plane through another: as near to both halves", mirrored},
     {"touch-by-plane", "a plane across an axis that just reaches a shape", touch_by_plane},
     {"zero-velocity", "no motion", zero_velocity},
     {"axis-velocity", "motion along one axis", axis_velocity},

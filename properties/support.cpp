@@ -8,8 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
 #include "corpus/shrink.hpp"
 #include "impl/subject/added.hpp"
+#include "reports/pretty_json.hpp"
+#include "reports/related.hpp"
+#include "reports/run.hpp"
 
 namespace nearmiss {
 
@@ -55,21 +59,103 @@ Finding examined(const Case& question, const Subject& subject) {
   return judge(question, offering.answer(question.values), offering.contract, Detail::verdict);
 }
 
+namespace {
+
+/// Writes the report where nightly runs and people look, and says how to see it again.
+template <class AnyReport>
+std::string left_behind(AnyReport report, const Subject& subject, const Query& query, std::string_view fault) {
+  const std::filesystem::path file = runs_folder() / "properties" / query.name /
+                                     fmt::format("{}-{}-{}.json", subject.name, fault, id_of(report));
+  report.replay = replay_command(subject, file.string());
+  try {
+    std::filesystem::create_directories(file.parent_path());
+    write_file(file, pretty_json(report_to_json(report)));
+  } catch (const std::exception& e) {
+    return fmt::format("report:  none is left, for {}", e.what());
+  }
+  return fmt::format("report:  {}\nreplay:  {}", file.string(), report.replay);
+}
+
+std::string seed_text(const Case& c, const Subject& s) {
+  if (c.origin != "generator") return fmt::format("from:    {}, seed {}, index {}", c.origin, c.seed, c.index);
+  return fmt::format("seed:    {}, index {}\nrun:     nearmiss run --query {} --subject {} --seed {} --cases {}", c.seed,
+                     c.index, c.query->name, s.name, c.seed, c.index + 1);
+}
+
+}  // namespace
+
+std::string told(const Case& question, const Subject& subject, const std::function<std::string(const Case&)>& failure_of) {
+  const std::string first = failure_of(question);
+  const Case shrunk = shrink(question, [&](const Case& c) { return !failure_of(c).empty(); }, 4000);
+  Workers workers;
+  const Answer answer = subject.offering(shrunk.query->name).answer(shrunk.values);
+  const Report report = examine(shrunk, subject, answer, workers);
+  return fmt::format("{} {}: {}\n{}\n{}\nshrunk ({}):\n{}\n{}", question.query->name, subject.name, first,
+                     seed_text(question, subject), left_behind(report, subject, *shrunk.query, fault_of(report.finding)),
+                     failure_of(shrunk), case_to_json(shrunk).dump(2), case_to_cpp(shrunk));
+}
+
 std::string told(const Case& question, const Subject& subject) {
-  const Finding first = examined(question, subject);
-  const Case shrunk = shrink(question, [&](const Case& c) {
+  const Disagreement first = examined(question, subject).disagreement;
+  return told(question, subject, [&](const Case& c) -> std::string {
     const Finding f = examined(c, subject);
-    return is_violation(f) && f.disagreement == first.disagreement;
+    if (!is_violation(f) || f.disagreement != first) return {};
+    return fmt::format("{} ({}), backward error above {} epsilon", name_of(f.disagreement), f.clause,
+                       f.backward ? f.backward->above : -1);
   });
-  const Finding last = examined(shrunk, subject);
-  return fmt::format(
-      "{} {}: {} ({}), backward error above {} epsilon\n"
-      "replay:  nearmiss run --query {} --subject {} --seed {} --cases {}\n"
-      "shrunk ({}, {}, backward error above {} epsilon):\n{}\n{}",
-      question.query->name, subject.name, name_of(first.disagreement), first.clause,
-      first.backward ? first.backward->above : -1, question.query->name, subject.name, question.seed,
-      question.index + 1, name_of(last.disagreement), last.clause, last.backward ? last.backward->above : -1,
-      case_to_json(shrunk).dump(2), case_to_cpp(shrunk));
+}
+
+namespace {
+
+/// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
+std::optional<RelationFinding> examined_here(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s) {
+  return examine(r, c, seed, s, [&](const Case& asked) { return s.offering(asked.query->name).answer(asked.values); },
+                 claims_same_bits(s));
+}
+
+bool breaks(const std::optional<RelationFinding>& f) { return f && !(f->broken.empty() && f->oracle.empty()); }
+
+}  // namespace
+
+std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject) {
+  const Case shrunk =
+      shrink(question, [&](const Case& c) { return breaks(examined_here(relation, c, seed, subject)); }, 2000);
+  const RelationFinding found = *examined_here(relation, shrunk, seed, subject);
+  Workers workers;
+  const RelationReport report = report_of({&relation, seed, claims_same_bits(subject)}, found, subject, workers);
+  std::string text = fmt::format("{}\n{}\n{}\n{}\nshrunk:", headline(report), explanation(report),
+                                 seed_text(question, subject),
+                                 left_behind(report, subject, *question.query,
+                                             fmt::format("{}-{}", relation.name, breach_of(report))));
+  for (std::size_t i = 0; i < found.cases.size(); ++i) {
+    text += fmt::format("\ncase {}:\n{}\n{}", i + 1, case_to_json(found.cases[i]).dump(2), case_to_cpp(found.cases[i]));
+  }
+  return text;
+}
+
+std::uint64_t stream(std::uint64_t usual) {
+  const char* seed = std::getenv("NEARMISS_SEED");
+  return seed == nullptr ? usual : std::strtoull(seed, nullptr, 10) + usual;
+}
+
+std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases) {
+  Case c;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    generate(c, query, subject.scalar, stream, i);
+    if (is_violation(examined(c, subject))) return told(c, subject);
+  }
+  return {};
+}
+
+std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases) {
+  Case c;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    generate(c, query, subject.scalar, stream, i);
+    for (const Relation& r : relations()) {
+      if (breaks(examined_here(r, c, i, subject))) return told(r, c, i, subject);
+    }
+  }
+  return {};
 }
 
 bool truth_is_yes(const Case& question) {

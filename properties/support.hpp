@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/relations.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 
@@ -36,9 +37,22 @@ Finding examined(const Case& question, const Subject& subject);
 inline bool is_violation(const Finding& f) {
   return f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke;
 }
-/// A violation as a person needs it: the finding, the command that replays it, the shrunk case as JSON
-/// and as C++.
+/// A violation as a person needs it: the finding, its seed, the command that replays it, the shrunk case as JSON and as
+/// C++. It leaves a report in properties/QUERY/ of runs_folder().
 std::string told(const Case& question, const Subject& subject);
+/// The same for a sentence of which `failure_of` says how a case breaks it; "" where it does not.
+std::string told(const Case& question, const Subject& subject, const std::function<std::string(const Case&)>& failure_of);
+/// The same for a broken relation, with all cases that it is about.
+std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject);
+
+/// The stream of generated cases that a property with the seed `usual` asks about: that one, or the one that the
+/// environment variable NEARMISS_SEED makes of it.
+std::uint64_t stream(std::uint64_t usual);
+
+/// The first of `cases` cases of the stream whose answer breaks the subject's contract, as told() has it; "" where none does.
+std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);
+/// The first that breaks one of the relations.
+std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);
 
 /// The exact decision; the exact stage is asked only where the interval cannot tell.
 bool truth_is_yes(const Case& question);

@@ -65,6 +65,7 @@ Json map_to_json(const ExtremesMap& m) {
           {"not_finite", matrix(m, [](const ExtremesCell& c) { return c.not_finite; })},
           {"broke", matrix(m, [](const ExtremesCell& c) { return c.broke; })},
           {"no_answer", matrix(m, [](const ExtremesCell& c) { return c.no_answer; })},
+          {"gave_up", matrix(m, [](const ExtremesCell& c) { return c.gave_up; })},
           {"forward_ulps", matrix(m, [](const ExtremesCell& c) { return c.forward_ulps; })},
           {"backward_epsilon", matrix(m, [](const ExtremesCell& c) {
              return c.backward_epsilon < 0 ? Json(nullptr) : Json(c.backward_epsilon);
@@ -73,7 +74,7 @@ Json map_to_json(const ExtremesMap& m) {
 
 bool begun(const ExtremesMap& m) {
   return std::any_of(m.cells.begin(), m.cells.end(),
-                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer > 0; });
+                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer + c.gave_up > 0; });
 }
 
 /// Puts `text` where the template has `mark`, once.
@@ -94,7 +95,8 @@ std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Jso
 
 }  // namespace
 
-Extremes::Extremes(ExtremesSettings settings) : settings_(std::move(settings)) {
+Extremes::Extremes(ExtremesSettings settings)
+    : settings_(std::move(settings)), workers_(WorkerLimits{.seconds_per_case = settings_.patience}) {
   std::error_code error;
   std::filesystem::create_directories(settings_.folder, error);
   if (error) {
@@ -132,25 +134,46 @@ void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) 
   }
   if (asked.empty()) return;
   const auto xs = values_of(plane.x), ys = values_of(plane.y);
-  const std::size_t batch = Workers::capacity_for(query);
   for (std::size_t cell = 0; cell < xs.size() * ys.size() && !interrupted(); ++cell) {
+    if (cell % xs.size() == 0) {
+      for (ExtremesMap* m : asked) m->time_outs_in_row = 0;
+    }
     std::vector<Case> cases;
     for (std::uint64_t i = 0; i < settings_.cases; ++i) {
       auto c = sweep_case(query, scalar, settings_.seed, i, plane, xs[cell % xs.size()], ys[cell / xs.size()]);
       if (c) cases.push_back(std::move(*c));
     }
-    for (std::size_t at = 0; at < cases.size() && !interrupted(); at += batch) {
-      const std::span<const Case> some(cases.data() + at, std::min(batch, cases.size() - at));
-      for (const ExtremesMap* m : asked) workers_.send(*m->subject, some);
-      for (ExtremesMap* m : asked) {
-        const auto answers = workers_.receive(*m->subject);
-        for (std::size_t i = 0; i < some.size() && !interrupted(); ++i) {
-          count(m->cells[cell], judge(some[i], answers[i], no_promise, Detail::verdict));
-        }
-      }
+    // Few at once, for one who times out does so in most of them.
+    constexpr std::size_t most = ExtremesMap::most_in_row;
+    for (std::size_t at = 0; at < cases.size() && !interrupted(); at += most) {
+      ask(asked, cell, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
     }
     done_ += asked.size() * settings_.cases;
     progress_.tell(done_, total_, std::nullopt, 0);
+  }
+}
+
+void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases) {
+  const auto timed_out = [](const Answer& a) {
+    return a.status == Answer::Status::broke && a.reason().starts_with("no answer within ");
+  };
+  std::vector<ExtremesMap*> asked;
+  for (ExtremesMap* m : maps) {
+    if (m->given_up()) {
+      m->cells[cell].gave_up += cases.size();
+    } else {
+      asked.push_back(m);
+      workers_.send(*m->subject, cases);
+    }
+  }
+  for (ExtremesMap* m : asked) {
+    const auto answers = workers_.receive(*m->subject);
+    for (std::size_t i = 0; i < cases.size() && !interrupted(); ++i) {
+      const bool late = timed_out(answers[i]);
+      m->time_outs += late;
+      m->time_outs_in_row += late;
+      count(m->cells[cell], judge(cases[i], answers[i], no_promise, Detail::verdict));
+    }
   }
 }
 
@@ -188,7 +211,7 @@ void Extremes::write() const {
 
 std::string Extremes::table() const {
   std::vector<std::vector<std::string>> rows{
-      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "NO ANSWER", "BACKWARD", "FORWARD"}};
+      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "GAVE UP", "NO ANSWER", "BACKWARD", "FORWARD"}};
   for (const Query* q : settings_.queries) {
     bool first = true;
     for (const Subject* s : settings_.subjects) {
@@ -200,6 +223,7 @@ std::string Extremes::table() const {
         for (const ExtremesCell& c : m.cells) {
           all.cases += c.cases, all.false_hits += c.false_hits, all.false_misses += c.false_misses;
           all.not_finite += c.not_finite, all.broke += c.broke, all.no_answer += c.no_answer;
+          all.gave_up += c.gave_up;
           all.forward_ulps = std::max(all.forward_ulps, c.forward_ulps);
           all.backward_epsilon = std::max(all.backward_epsilon, c.backward_epsilon);
         }
@@ -207,7 +231,8 @@ std::string Extremes::table() const {
       if (!any) continue;
       if (std::exchange(first, false)) rows.push_back({std::string(q->name)});
       rows.push_back({"  " + s->name, count_text(all.cases), count_text(all.false_hits), count_text(all.false_misses),
-                      count_text(all.not_finite), count_text(all.broke), count_text(all.no_answer),
+                      count_text(all.not_finite), count_text(all.broke), count_text(all.gave_up),
+                      count_text(all.no_answer),
                       all.backward_epsilon < 0 ? "-" : "> " + epsilons_text(all.backward_epsilon),
                       fmt::format("{:.3g}", all.forward_ulps)});
     }

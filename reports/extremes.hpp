@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct ExtremesSettings {
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 1;
   std::uint64_t cases = 50;  ///< of each cell
+  double patience = 2;       ///< seconds for one case; who needs longer has timed out
 };
 
 /// What was proved against the answers to the cases at one place of a plane. Contracts play no part: a place where
@@ -34,6 +36,7 @@ struct ExtremesCell {
   std::uint64_t not_finite = 0;    ///< NaN or infinity in a number of the answer
   std::uint64_t broke = 0;         ///< exception, abort, crash, limit
   std::uint64_t no_answer = 0;     ///< the subject says so
+  std::uint64_t gave_up = 0;       ///< not asked any more, after time-outs in this row or all over this map
   double forward_ulps = 0;         ///< of the worst number of an answer with the right decision: at least
   double backward_epsilon = -1;    ///< largest proved bound; negative where nothing is proved
 };
@@ -43,6 +46,11 @@ struct ExtremesMap {
   const Subject* subject;
   SweepPlane plane;
   std::vector<ExtremesCell> cells;  ///< rows of y, in each the values of x
+  std::uint64_t time_outs = 0, time_outs_in_row = 0;
+
+  /// After so many time-outs the subject is not asked again: in that row, and in the whole map.
+  static constexpr std::uint64_t most_in_row = 3, most = 12;
+  bool given_up() const { return time_outs_in_row >= most_in_row || time_outs >= most; }
 };
 
 class Extremes {
@@ -65,6 +73,7 @@ class Extremes {
 
  private:
   void fill(const Query& query, Scalar scalar, const SweepPlane& plane);
+  void ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases);
   ExtremesSettings settings_;
   std::vector<ExtremesMap> maps_;
   Workers workers_;

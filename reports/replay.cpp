@@ -156,13 +156,16 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
   return r;
 }
 
+std::string case_page(const Case& question, const Truth& truth) {
+  const Query& query = *question.query;
+  std::string text =
+      fmt::format("{} ({}), numbers exactly {}", query.name, nearmiss::name_of(query.kind), nearmiss::name_of(question.scalar));
+  if (const std::string origin = origin_text(question); !origin.empty()) text += fmt::format("; from {}", origin);
+  return text + fmt::format("\n\nInputs\n{}\n{}", inputs_text(question), truth_page(query, truth, question.scalar));
+}
+
 std::string replay_text(const Replay& r) {
-  const Query& query = *r.question.query;
-  std::string text = fmt::format("{}\n{} ({}), numbers exactly {}", r.file, query.name, nearmiss::name_of(query.kind),
-                                 nearmiss::name_of(r.question.scalar));
-  if (const std::string origin = origin_text(r.question); !origin.empty()) text += fmt::format("; from {}", origin);
-  text += fmt::format("\n\nInputs\n{}\n{}\n{}", inputs_text(r.question), truth_page(query, r.truth, r.question.scalar),
-                      findings_table(r));
+  std::string text = fmt::format("{}\n{}\n{}", r.file, case_page(r.question, r.truth), findings_table(r));
   for (const Report& report : r.reports) {
     if (report.finding.verdict == Verdict::agrees) continue;
     text += fmt::format("\n{}", wrapped_text(explanation(report), ""));

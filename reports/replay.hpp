@@ -30,5 +30,7 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
 /// The command line that asks the subject again, from any folder, with its plugin where it has one.
 std::string replay_command(const Subject& subject, const std::string& file);
 std::string replay_text(const Replay& r);
+/// A case and what is true of it, for people.
+std::string case_page(const Case& question, const Truth& truth);
 
 }  // namespace nearmiss

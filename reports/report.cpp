@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "reports/hash.hpp"
 
 namespace nearmiss {
 
@@ -65,18 +66,6 @@ std::vector<Opinion> second_opinions(const Case& question, const Subject& subjec
   return opinions;
 }
 
-class Fnv1a {
- public:
-  void add(std::string_view bytes) {
-    for (const unsigned char c : bytes) hash_ = (hash_ ^ c) * 0x100000001b3u;
-    hash_ = (hash_ ^ 0xffu) * 0x100000001b3u;
-  }
-  std::uint64_t hash() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
-
 }  // namespace
 
 Report examine(const Case& question, const Subject& subject, Workers& workers) {
@@ -110,8 +99,8 @@ std::string id_of(const Report& r) {
   fnv.add(r.question.query->name);
   fnv.add(r.subject);
   fnv.add(fault_of(r.finding));
-  for (const double x : r.question.values) fnv.add(fmt::format("{:016x}", std::bit_cast<std::uint64_t>(x)));
-  return fmt::format("{:012x}", fnv.hash() >> 16);
+  for (const double x : r.question.values) fnv.add(x);
+  return fnv.id();
 }
 
 bool is_part(const Query& query, const Answer& answer, std::size_t output) {

@@ -36,6 +36,7 @@ class Command {
 std::unique_ptr<Command> list_command();
 std::unique_ptr<Command> run_command();
 std::unique_ptr<Command> nightly_command();
+std::unique_ptr<Command> relations_command();
 std::unique_ptr<Command> replay_command();
 std::unique_ptr<Command> import_command();
 std::unique_ptr<Command> extremes_command();

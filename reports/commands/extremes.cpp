@@ -24,9 +24,11 @@ class ExtremesCommand : public Command {
          "subject is asked, and the worst proved errors and the wrong decisions are kept. Contracts play no part: "
          "places where nothing is promised are measured like all others, and nothing found there is a violation.",
          "The folder receives extremes.json and, where the Debian package node-d3 was there at build, extremes.html: one "
-         "page with everything in it, a heat map for each query and subject. Interrupted, it writes what it has.",
+         "page with everything in it, a heat map for each query and subject. Interrupted, it writes what it has. A subject "
+         "that does not come back is not asked again in that row of a map after 3 time-outs, nor in that map after 12; the "
+         "map says so.",
          "The table has a row for each query and subject: wrong decisions in each direction, answers that are not finite, "
-         "and the largest proved errors. BACKWARD: how far inputs would have to move to make an answer right, in units "
+         "and the largest proved errors. GAVE UP: cases that it was not asked after too many time-outs. BACKWARD: how far inputs would have to move to make an answer right, in units "
          "of the scalar's epsilon. FORWARD: the distance of a number from the exact one, in units in the last place."},
         {{"0", "It was written."},
          {"2", "Wrong arguments, an output that cannot be written, or it was interrupted."}},
@@ -41,13 +43,15 @@ class ExtremesCommand : public Command {
                      most_cases);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: 1", 0,
                      std::numeric_limits<std::uint64_t>::max());
+    add_positive_number(app, "--patience", patience_, "How long a subject may take for one case. Default: 2", "S", 3600);
     add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
     const std::uint64_t seed = seed_.value_or(1);
     catch_interrupts();
     Extremes extremes({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
-                       selection_.queries(), selection_.subjects(), seed, cases_.value_or(default_cases)});
+                       selection_.queries(), selection_.subjects(), seed, cases_.value_or(default_cases),
+                       patience_.value_or(2)});
     extremes.sweep();
     extremes.write();
     fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
@@ -58,6 +62,7 @@ class ExtremesCommand : public Command {
  private:
   Selection selection_;
   std::optional<std::uint64_t> cases_, seed_;
+  std::optional<double> patience_;
   std::string out_;
 };
 

@@ -12,6 +12,8 @@
 #include "reports/commands/options.hpp"
 #include "reports/fuzz_targets.hpp"
 #include "reports/interrupt.hpp"
+#include "reports/property_tests.hpp"
+#include "reports/relations_run.hpp"
 #include "reports/replay.hpp"
 #include "reports/run.hpp"
 #include "reports/text.hpp"
@@ -25,8 +27,8 @@ namespace fs = std::filesystem;
 using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
-/// The share of the time that is left for fuzzing, and within it the share for judging what was found.
-constexpr double fuzzing_share = 1.0 / 3, judging_share = 0.1;
+/// The shares of the time for properties, half of it for relations, and for fuzzing; within that for judging what was found.
+constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1;
 
 Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
   return a + std::chrono::duration_cast<Clock::duration>((b - a) * share);
@@ -162,19 +164,63 @@ Json examine_fuzzed(Run& run) {
   return {{"files", files.size()}, {"examined", examined}, {"unreadable", unreadable}};
 }
 
+/// Related cases of every subject. True where a promise was broken.
+bool relate(Run& run, Clock::time_point until) {
+  run.doing("relations");
+  std::vector<const Relation*> all;
+  for (const Relation& r : relations()) all.push_back(&r);
+  RelationsRun related({run.settings().command, run.settings().folder, run.settings().queries, run.settings().subjects,
+                        all, run.settings().seed, false});
+  related.run(std::nullopt, until);
+  related.write();
+  run.note("relations", {{"file", "relations.json"},
+                         {"pairs", related.pairs()},
+                         {"broken", related.bad()},
+                         {"contradictions", related.contradictions()},
+                         {"oracle", related.contradicted()},
+                         {"reports", related.reports()}});
+  fmt::print("relations: {}\n", related.summary());
+  return related.bad() + related.contradicted() > 0;
+}
+
+/// The properties with fresh seeds. True where one failed.
+bool ask_properties(Run& run, Clock::time_point until) {
+  Json note{{"state", "not built"}, {"seeds", Json::array()}, {"passed", 0}, {"failed", Json::array()}, {"ended", ""}};
+  const std::optional<fs::path> program = find_property_tests();
+  const double left = seconds_until(until);
+  if (!program || left < 1) {
+    note["state"] = program ? "no time" : "not built";
+    run.note("properties", note);
+    fmt::print("properties: {}\n", program ? "no time was left" : "not built");
+    return false;
+  }
+  run.doing("properties");
+  const PropertyOutcome o = run_property_tests(*program, {run.settings().folder, run.settings().seed, left,
+                                                          [&] { run.tick(); }, [&] { return run.should_stop(); }});
+  note = {{"state", "ran"}, {"seeds", o.seeds}, {"passed", o.passed}, {"failed", o.failed}, {"ended", o.ended}};
+  run.note("properties", note);
+  fmt::print("properties: {} with fresh seeds passed, {} failed{}{}\n", plural_text(o.passed, "test"), o.failed.size(),
+             o.failed.empty() ? "" : ": see properties/", o.ended.empty() ? "" : "; " + o.ended);
+  return !o.failed.empty() || !o.ended.empty();
+}
+
 class NightlyCommand : public Command {
  public:
   Manual manual() const override {
     return {
         "nightly",
-        "examine every subject for a given time: stored cases, generated cases, fuzzing",
+        "examine every subject for a given time: stored and generated cases, relations, properties, fuzzing",
         {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
-         "stored about it. Then new cases are generated for all queries and subjects. In the last third of the "
+         "stored about it. Then new cases are generated for all queries and subjects. A sixth of the time goes to "
+         "properties: half of it to relations between answers, as 'nearmiss relations' asks for them, and half to the "
+         "property tests of this build, which ask about new cases of fresh seeds. In the last third of the "
          "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
          "everything else. They ask the tiers of collide, plugins, and the subjects of NEARMISS_ADD that they were "
          "built with. Where the fuzz targets are not built, the summary and the index say so, and the "
-         "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1.",
-         "The run folder is that of 'nearmiss run', with corpus/QUERY/ for what the fuzz targets learned and "
+         "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1, and "
+         "so does a property that fails.",
+         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss relations', properties/ "
+         "with the messages and reports of properties, corpus/QUERY/ for what the fuzz targets learned and "
          "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
         judging_exit_status(),
         {{"nearmiss nightly --minutes 60", "One hour."},
@@ -207,11 +253,13 @@ class NightlyCommand : public Command {
                targets_text(found));
     std::fflush(stdout);
     replay_stored(run);
-    run.set_until(found.targets.empty() ? end : between(begin, end, 1 - fuzzing_share));
+    const double later = (found.targets.empty() ? 0 : fuzzing_share);
+    run.set_until(between(begin, end, 1 - later - properties_share));
     run.doing("generated cases");
     run.generate(std::nullopt);
     run.set_until(end);
-    bool failed = false;
+    bool failed = relate(run, between(begin, end, 1 - later - properties_share / 2));
+    failed = ask_properties(run, between(begin, end, 1 - later)) || failed;
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     run.finish();
     fmt::print("\n{}\n{}{}; fuzzing: {}\n", run.table(), run.worst_findings(), run.summary(), fuzzing);
@@ -245,12 +293,12 @@ class NightlyCommand : public Command {
     if (!all.ran.empty()) note["left"] = examine_fuzzed(run);
     run.note("fuzz", note);
     if (all.ran.empty()) return "no time was left";
-    failed = all.failed() > 0;
+    failed = failed || all.failed() > 0;
     const std::vector<std::string> unknown = all.unknown();
     return fmt::format("{} of {} targets, {}, {}{}{}", all.ran.size(), found.targets.size() + found.missing.size(),
                        plural_text(all.executions(), "execution"),
                        plural_text(note["left"]["files"].get<std::uint64_t>(), "case file"),
-                       failed ? fmt::format(", {} ended with an error, see fuzz/*.log", all.failed()) : "",
+                       all.failed() > 0 ? fmt::format(", {} ended with an error, see fuzz/*.log", all.failed()) : "",
                        unknown.empty() ? "" : fmt::format(", built without {}", list_text(unknown)));
   }
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/pretty_json.hpp"
+#include "reports/related.hpp"
 
 namespace nearmiss {
 
@@ -22,6 +24,7 @@ class ReplayCommand : public Command {
         {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again, "
          "whatever the file says about answers. The page shows the inputs, the exact answer, and for each subject "
          "its answer, the verdict and how far the inputs would have to move to excuse it.",
+         "A report of 'nearmiss relations' has several cases: all of them are asked again and compared.",
          "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
         judging_exit_status(),
         {{"nearmiss replay reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings again."},
@@ -35,28 +38,45 @@ class ReplayCommand : public Command {
         ->disable_flag_override();
   }
   int run(const CLI::App&) override {
-    std::vector<Case> cases;
-    for (const std::string& f : files_) cases.push_back(read_case_or_report(f));
-    Workers workers;
-    const std::vector<const Subject*> subjects = selection_.subjects();
-    bool bad = false;
-    nlohmann::ordered_json reports = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const Replay r = replay(cases[i], files_[i], subjects, workers);
-      for (const Report& report : r.reports) {
-        bad = bad || is_bad(report.finding);
-        if (json_) reports.push_back(report_to_json(report));
+    std::vector<std::variant<Case, RelatedCase>> cases;
+    for (const std::string& f : files_) {
+      if (auto related = read_related(f)) {
+        cases.emplace_back(std::move(*related));
+      } else {
+        cases.emplace_back(read_case_or_report(f));
       }
-      if (!json_) fmt::print("{}{}", i > 0 ? "\n" : "", replay_text(r));
     }
-    if (json_) fmt::print("{}", pretty_json(reports));
-    return bad ? 1 : 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (!json_ && i > 0) fmt::print("\n");
+      std::visit([&](const auto& c) { again(c, files_[i]); }, cases[i]);
+    }
+    if (json_) fmt::print("{}", pretty_json(reports_));
+    return bad_ ? 1 : 0;
   }
 
  private:
+  void again(const Case& question, const std::string& file) {
+    const Replay r = replay(question, file, selection_.subjects(), workers_);
+    for (const Report& report : r.reports) {
+      bad_ = bad_ || is_bad(report.finding);
+      if (json_) reports_.push_back(report_to_json(report));
+    }
+    if (!json_) fmt::print("{}", replay_text(r));
+  }
+  void again(const RelatedCase& related, const std::string& file) {
+    const RelatedReplay r = replay(related, file, selection_.subjects(), workers_);
+    for (const RelationReport& report : r.reports) {
+      bad_ = bad_ || is_bad(report.breach);
+      if (json_) reports_.push_back(report_to_json(report));
+    }
+    if (!json_) fmt::print("{}", replay_text(related, r));
+  }
+
   std::vector<std::string> files_;
   Selection selection_;
-  bool json_ = false;
+  bool json_ = false, bad_ = false;
+  nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
+  Workers workers_;
 };
 
 }  // namespace

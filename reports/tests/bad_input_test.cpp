@@ -41,6 +41,7 @@ const Bad bad_command_lines[] = {
     {"surplus_word", {"run", "fast", "--out", "OUT"}, {"fast"}},
     {"extremes_without_cases", {"extremes", "--cases", "0", "--out", "OUT"}, {"--cases", "0"}},
     {"extremes_of_an_unknown_query", {"extremes", "--query", "moving_box", "--out", "OUT"}, {"--query", "moving_box"}},
+    {"unknown_relation", {"relations", "--relation", "swaped", "--out", "OUT"}, {"--relation", "swaped", "swapped"}},
     {"unknown_query",
      {"run", "--query", "moving_spere_box", "--out", "OUT"},
      {"--query", "moving_spere_box", "moving_sphere_box"}},

@@ -10,6 +10,7 @@
 #include "corpus/store.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/properties.hpp"
+#include "reports/property_tests.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -452,6 +453,12 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   EXPECT_EQ(index["state"], "finished");
   EXPECT_GT(index["stored"]["cases"], 0);
   EXPECT_EQ(index["stored"]["unexpected"], json::array());
+  EXPECT_NE(index["properties"]["state"], "not built") << index["properties"];  // there may be no time on a slow machine
+  EXPECT_EQ(index["properties"]["failed"], json::array());
+  EXPECT_EQ(index["properties"]["ended"], "");
+  EXPECT_GT(index["relations"]["pairs"], 0);
+  EXPECT_EQ(index["relations"]["oracle"], 0);
+  EXPECT_EQ(complaints(json::parse(read_file(folder / "r" / "relations.json")), "relations.schema.json"), "");
   EXPECT_EQ(index["fuzz"]["state"], "ran") << index["fuzz"];
   ASSERT_EQ(index["fuzz"]["targets"].size(), 1u);
   EXPECT_EQ(index["fuzz"]["targets"][0]["executions"], 1234u);
@@ -461,6 +468,42 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   const std::string log = read_file(folder / "r" / "fuzz" / "moving_sphere_box.log");
   EXPECT_NE(log.find("seed-" + seed.file.stem().string()), std::string::npos) << log;
   for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0);
+}
+
+/// Stands for the program of property tests.
+fs::path property_program(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
+  const fs::path program = folder.file(name, "#!/bin/sh\necho \"$NEARMISS_SEED $NEARMISS_RUNS $RC_PARAMS\"\n" + lines);
+  fs::permissions(program, fs::perms::owner_all);
+  return program;
+}
+
+TEST(Nightly, CountsPropertiesAndGoesOnWithFreshSeedsUntilTheTimeIsOver) {
+  const TemporaryFolder folder;
+  const fs::path program = property_program(folder, "program", R"(
+echo '[       OK ] Relations/EveryTierRelated.Keeps/one (3 ms)'
+echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two (4 ms)'
+echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two'
+sleep 0.6
+exit 1
+)");
+  const PropertyOutcome o = run_property_tests(program, {folder / "r", 41, 2.5, [] {}, [] { return false; }});
+  ASSERT_GE(o.seeds.size(), 2u);
+  EXPECT_EQ(o.seeds[0], 41u);
+  EXPECT_EQ(o.seeds[1], 42u);
+  EXPECT_EQ(o.passed, o.seeds.size());
+  EXPECT_EQ(o.failed, std::vector<std::string>(o.seeds.size(), "Agreement/EveryTier.Answers/two"));
+  EXPECT_EQ(o.ended, "");
+  EXPECT_EQ(read_file(folder / "r/properties/42.log").find("42 " + (folder / "r").string() + " seed=42 "), 0u);
+}
+
+TEST(Nightly, SaysHowPropertiesEndWithoutAResult) {
+  const TemporaryFolder folder;
+  const fs::path none = property_program(folder, "none", "exit 0\n"), killed = property_program(folder, "killed", "kill -SEGV $$\n");
+  const auto ended = [&](const fs::path& program) {
+    return run_property_tests(program, {folder / "r", 1, 30, [] {}, [] { return false; }}).ended;
+  };
+  EXPECT_TRUE(ended(none).starts_with("no test ran")) << ended(none);
+  EXPECT_TRUE(ended(killed).starts_with("killed by signal 11")) << ended(killed);
 }
 
 TEST(Nightly, FailsWithATargetThatEndsWithAnError) {
@@ -511,7 +554,7 @@ TEST(Help, IsAManualForEveryCommand) {
   const Ran overview = nearmiss({"help"});
   EXPECT_EQ(overview.exit_code, 0);
   EXPECT_EQ(nearmiss({"--help"}).out, overview.out);
-  for (const char* command : {"list", "run", "nightly", "replay", "import", "completion"}) {
+  for (const char* command : {"list", "run", "nightly", "relations", "extremes", "replay", "import", "completion"}) {
     EXPECT_NE(overview.out.find(std::string("\n    ") + command + " "), std::string::npos);
     const Ran page = nearmiss({"help", command});
     EXPECT_EQ(page.exit_code, 0);

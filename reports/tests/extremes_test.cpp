@@ -92,6 +92,34 @@ TEST(Extremes, WriteWhatTheyHaveWhenInterrupted) {
   EXPECT_TRUE(last_line(ran.out).starts_with("interrupted: ")) << ran.out;
 }
 
+/// The plugin loops for ever about half of all cases beyond 1e9.
+TEST(Extremes, GiveUpASubjectThatDoesNotComeBackAndSaySo) {
+  const TemporaryFolder folder;
+  const json report = swept(folder, {"--plugin", NEARMISS_PLUGINS "/libmisbehaves.so", "--subject", "misbehaves", "--query",
+                                     "sphere_sphere_overlap", "--cases", "12", "--patience", "0.05"});
+  EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
+  const json& m = map_of(report, "misbehaves", "scale");
+  const std::size_t rows = m.at("y").at("values").size(), columns = m.at("x").at("values").size();
+  std::uint64_t time_outs = 0, asked_before = 0, given_up = 0;
+  for (std::size_t j = 0; j < rows; ++j) {
+    std::uint64_t in_row = 0, given_up_in_row = 0;
+    for (std::size_t i = 0; i < columns; ++i) {
+      in_row += m.at("broke")[j][i].get<std::uint64_t>();
+      given_up_in_row += m.at("gave_up")[j][i].get<std::uint64_t>();
+      const auto asked = m.at("cases")[j][i].get<std::uint64_t>() + m.at("broke")[j][i].get<std::uint64_t>();
+      EXPECT_LE(asked + m.at("gave_up")[j][i].get<std::uint64_t>(), 12u);
+      if (given_up == 0) asked_before += asked;
+    }
+    EXPECT_LE(in_row, 3u + 2u) << "three, and those that were asked together with the third";
+    EXPECT_TRUE(given_up_in_row == 0 || in_row + time_outs >= 3);
+    time_outs += in_row;
+    given_up += given_up_in_row;
+  }
+  EXPECT_LE(time_outs, 12u + 2u);
+  EXPECT_GT(given_up, 0u);
+  EXPECT_GT(asked_before, 100u) << "where it answers, it is asked";
+}
+
 TEST(Extremes, GiveTheSameMapsForTheSameSeed) {
   const TemporaryFolder one, two;
   const std::vector<std::string> words{"--query", "moving_point_plane", "--subject", "collide-fast-float", "--cases", "5"};
