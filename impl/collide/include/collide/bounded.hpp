@@ -22,8 +22,9 @@ struct Doubt {
 /// The bound of a result is that of the operation's own rounding, 2^-53 |result|, and what the operands'
 /// errors contribute, with magnitudes taken of the exact operands (|value| + error). So it holds, multiplied
 /// by u / 2^-53, for the same operations in any arithmetic with a unit roundoff u below 2^-53: by
-/// induction, each term of the sums below is linear in u or smaller. Bounds are sums of products of
-/// numbers that are not negative, each known to 2^-50; `slack` covers more than a million such steps.
+/// induction, each term of the sums below is linear in u or smaller, but for the own rounding of a sum, whose
+/// other result is off by the operands' errors: 2^-53 of them more. Bounds are sums of products of numbers that are not
+/// negative, each known to 2^-50; `slack` covers more than a million such steps, and those.
 /// Operations that underflow or overflow have no bound: the caller looks at the flags of the machine.
 template <class Scalar>
 struct Bounded {
@@ -40,18 +41,29 @@ struct Bounded {
   static double magnitude(double x) noexcept { return std::abs(x); }
 
   friend Bounded operator-(const Bounded& a) noexcept { return {-a.value, a.error}; }
+  /// Whether the compiler sees that the number is exact, as inputs are: terms of its error need not be computed.
+  static bool is_exact(const Bounded& a) noexcept {
+#if defined(__GNUC__)
+    return __builtin_constant_p(a.error) && a.error == 0;
+#else
+    return false;
+#endif
+  }
+
   friend Bounded operator+(const Bounded& a, const Bounded& b) noexcept {
-    const double sum = a.value + b.value;
-    return {sum, (a.error + b.error) * (1 + 2 * u) + u * magnitude(sum)};
+    const double sum = a.value + b.value, own = u * magnitude(sum);
+    if (is_exact(a) && is_exact(b)) return {sum, own};
+    if (is_exact(a)) return {sum, b.error + own};
+    if (is_exact(b)) return {sum, a.error + own};
+    return {sum, (a.error + b.error) + own};
   }
-  friend Bounded operator-(const Bounded& a, const Bounded& b) noexcept {
-    const double difference = a.value - b.value;
-    return {difference, (a.error + b.error) * (1 + 2 * u) + u * magnitude(difference)};
-  }
+  friend Bounded operator-(const Bounded& a, const Bounded& b) noexcept { return a + -b; }
   friend Bounded operator*(const Bounded& a, const Bounded& b) noexcept {
-    const double product = a.value * b.value;
-    return {product, (magnitude(a.value) + a.error) * b.error + (magnitude(b.value) + 2 * b.error) * a.error +
-                         u * magnitude(product)};
+    const double product = a.value * b.value, own = u * magnitude(product);
+    if (is_exact(a) && is_exact(b)) return {product, own};
+    if (is_exact(a)) return {product, magnitude(a.value) * b.error + own};
+    if (is_exact(b)) return {product, magnitude(b.value) * a.error + own};
+    return {product, (magnitude(a.value) + a.error) * b.error + (magnitude(b.value) + 2 * b.error) * a.error + own};
   }
   friend Bounded operator/(const Bounded& a, const Bounded& b) noexcept {
     const double quotient = a.value / b.value;

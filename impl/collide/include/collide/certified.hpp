@@ -210,12 +210,13 @@ struct Certified : Plain {
     } else {
       exact<T>(answer, text, args...);
     }
-    return unless_invalid(answer, args...);
+    deny_if_invalid(answer, args...);
+    return answer;
   }
 
  private:
   template <class T, class F, class... Args>
-  [[gnu::noinline]] static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
+  [[gnu::noinline, gnu::flatten]] static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
     using N = Bounded<T>;
     const detail::RangeFlags range;
     Doubt::any = false;

@@ -139,13 +139,12 @@ constexpr A nothing() noexcept {
   }
 }
 
-/// A hit with arguments that are not finite is none.
+/// Makes an answer nothing that is a hit with arguments that are not finite.
 template <class A, class... Args>
-constexpr A unless_invalid(const A& answer, const Args&... args) noexcept {
+constexpr void deny_if_invalid(A& answer, const Args&... args) noexcept {
   if constexpr (A::kind == Kind::decision || A::kind == Kind::impact || A::kind == Kind::depth) {
-    if (answer.yes() && !all_finite(args...)) return nothing<A>();
+    if (answer.yes() && !all_finite(args...)) answer = nothing<A>();
   }
-  return answer;
 }
 
 /// Plain arithmetic of the scalar.
@@ -160,7 +159,9 @@ struct Fast : Plain {
   /// Calls `text(operations, arguments...)`, the query itself.
   template <class F, class... Args>
   static constexpr auto lift(F&& text, const Args&... args) noexcept {
-    return unless_invalid(text(Plain{}, args...), args...);
+    auto answer = text(Plain{}, args...);
+    deny_if_invalid(answer, args...);
+    return answer;
   }
   /// What the tier promises of a query in T whose fast tier promises `fast`.
   template <class T>
@@ -193,7 +194,8 @@ struct Accurate : Compensated {
         convert(argument, wide, [](float from, double& to) { to = from; });
         return wide;
       };
-      const auto wide = unless_invalid(text(Plain{}, widened(args)...), args...);
+      auto wide = text(Plain{}, widened(args)...);
+      deny_if_invalid(wide, args...);
       A answer{};
       convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
       keep_apart(wide.yes(), answer);
@@ -202,7 +204,9 @@ struct Accurate : Compensated {
       }
       return answer;
     } else {
-      return unless_invalid(text(Compensated{}, args...), args...);
+      auto answer = text(Compensated{}, args...);
+      deny_if_invalid(answer, args...);
+      return answer;
     }
   }
 
