@@ -21,6 +21,9 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+/// Bytes; far more than any file that is read has. A device may have no end.
+constexpr std::size_t most_of_a_file = std::size_t{256} << 20;
+
 /// Fields in a row that share the next component of their names.
 struct Child {
   std::string_view component;
@@ -375,6 +378,7 @@ Case case_from_json(const json& j, const std::string& where) {
 }
 
 json parse_json(std::string_view text, const std::string& where) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw BadInput(fmt::format("{}: is empty", where));
   StrictSax sax(where);
   json::sax_parse(text, &sax);
   return json::parse(text);
@@ -387,7 +391,13 @@ std::string read_file(const std::filesystem::path& file) {
   }
   std::ifstream in(file, std::ios::binary);
   if (!in) throw BadInput(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text, block(std::size_t{1} << 16, '\0');
+  while (in.read(block.data(), std::streamsize(block.size())) || in.gcount() > 0) {
+    text.append(block, 0, std::size_t(in.gcount()));
+    if (text.size() > most_of_a_file) {
+      throw BadInput(fmt::format("{}: cannot be read: it is longer than {} MiB", file.string(), most_of_a_file >> 20));
+    }
+  }
   if (in.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
   return text;
 }

@@ -154,7 +154,7 @@ std::string sphere_case(const std::string& inputs) {
 }
 
 const BadFile bad_files[] = {
-    {"Empty", "", {"file.json", "unexpected end of input"}},
+    {"Empty", "", {"file.json", "is empty"}},
     {"NotJson", "hello", {"file.json", "line 1"}},
     {"NoObject", "[1, 2]", {"the case is [1,2]", "an object"}},
     {"NoQuery", R"({"scalar": "double", "inputs": {}})", {"query is missing"}},

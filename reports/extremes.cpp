@@ -1,8 +1,11 @@
 #include "reports/extremes.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -101,6 +104,9 @@ Extremes::Extremes(ExtremesSettings settings)
   std::filesystem::create_directories(settings_.folder, error);
   if (error) {
     throw BadInput(fmt::format("{}: the folder cannot be made: {}", settings_.folder.string(), error.message()));
+  }
+  if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
+    throw BadInput(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
   }
   for (const Query* q : settings_.queries) {
     for (const SweepPlane& plane : planes_of(*q)) {

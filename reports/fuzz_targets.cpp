@@ -123,12 +123,20 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
   fs::create_directories(artifacts);
   put_seeds(*target.query, corpus);
   const auto begin = Clock::now();
-  Child child({target.file.string(), corpus.string(), fmt::format("-max_total_time={}", budget.seconds),
-               fmt::format("-artifact_prefix={}/", artifacts.string()), "-print_final_stats=1",
-               fmt::format("-timeout={}", seconds_for_one_case)},
-              {"NEARMISS_FUZZ_REPORTS=" + reports.string(), "NEARMISS_SUBJECTS=" + subjects_to_ask(),
-               fmt::format("{}={}", plugins_variable, fmt::join(budget.plugins, ":"))},
-              log);
+  const std::vector<std::string> arguments{target.file.string(), corpus.string(),
+                                           fmt::format("-max_total_time={}", budget.seconds),
+                                           fmt::format("-artifact_prefix={}/", artifacts.string()),
+                                           "-print_final_stats=1", fmt::format("-timeout={}", seconds_for_one_case)};
+  const std::vector<std::string> more_environment{
+      "NEARMISS_FUZZ_REPORTS=" + reports.string(), "NEARMISS_SUBJECTS=" + subjects_to_ask(),
+      fmt::format("{}={}", plugins_variable, fmt::join(budget.plugins, ":"))};
+  std::optional<Child> started;
+  try {
+    started.emplace(arguments, more_environment, log);
+  } catch (const std::system_error& e) {
+    return {query, 0, 0, fmt::format("not started: {}", e.code().message()), true};
+  }
+  Child& child = *started;
   bool told = false, stopped = false;
   const auto end = begin + std::chrono::seconds(budget.seconds) + grace;
   for (auto deadline = end; !child.ended(); std::this_thread::sleep_for(50ms)) {

@@ -31,7 +31,7 @@ class ExtremesCommand : public Command {
          "and the largest proved errors. GAVE UP: cases that it was not asked after too many time-outs. BACKWARD: how far inputs would have to move to make an answer right, in units "
          "of the scalar's epsilon. FORWARD: the distance of a number from the exact one, in units in the last place."},
         {{"0", "It was written."},
-         {"2", "Wrong arguments, an output that cannot be written, or it was interrupted."}},
+         {"2", "Wrong arguments, nothing to ask, an output that cannot be written, or it was interrupted."}},
         {{"nearmiss extremes", "Every query and subject."},
          {"nearmiss extremes --query moving_sphere_box --subject collide-fast-float --cases 200 --out far",
           "One heat map for each plane, into the folder far."}}};
@@ -47,6 +47,7 @@ class ExtremesCommand : public Command {
     add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
+    selection_.check_offered();
     const std::uint64_t seed = seed_.value_or(1);
     catch_interrupts();
     Extremes extremes({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),

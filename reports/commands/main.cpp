@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
+#include <new>
 
 #include "corpus/bad_input.hpp"
 #include "oracles/environment.hpp"
@@ -29,8 +30,9 @@ std::vector<Manual::Line> judging_exit_status() {
   return {{"0", "Nothing violated its contract, and nothing broke."},
           {"1", "Violations, or a subject that broke."},
           {"2",
-           "It could not run: wrong arguments, malformed input, an output that cannot be written; or it was "
-           "interrupted before it found a violation. One line on standard error says what and why."}};
+           "It could not run, or not to its end: wrong arguments, malformed input, an output that cannot be written; "
+           "or, without a violation, it was interrupted or had no time to ask anything. One line on standard error says "
+           "what and why."}};
 }
 
 namespace {
@@ -168,6 +170,8 @@ int run_or_complain(const std::vector<std::string>& arguments) {
     const int code = CommandLine().run(with_negative_values(arguments));
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
     return code;
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory");
   } catch (const std::exception& e) {
     if (std::ferror(stdout) != 0) return complain_of_output();  // a long text, half written
     return complain(e.what());

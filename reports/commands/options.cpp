@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "corpus/bad_input.hpp"
 #include "oracles/plugin.hpp"
 #include "reports/text.hpp"
 
@@ -95,6 +96,18 @@ void Selection::declare_subjects(CLI::App& app) {
 
 std::vector<const Query*> Selection::queries() const { return chosen<Query>(query, catalogue()); }
 std::vector<const Subject*> Selection::subjects() const { return chosen<Subject>(subject, nearmiss::subjects()); }
+
+void Selection::check_offered() const {
+  for (const Query* q : queries()) {
+    for (const Subject* s : subjects()) {
+      if (s->offering(q->name).answer != nullptr) return;
+    }
+  }
+  const Query& q = *queries().front();
+  const Subject& s = *subjects().front();
+  throw BadInput(fmt::format("nothing to run: no chosen subject offers a chosen query ({} does not offer {}: {})",
+                             s.name, q.name, s.offering(q.name).how));
+}
 
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
   const auto check = [low, high](const std::string& text) -> std::string {

@@ -30,6 +30,8 @@ struct Selection {
   void declare_subjects(CLI::App& app);
   std::vector<const Query*> queries() const;
   std::vector<const Subject*> subjects() const;
+  /// Throws BadInput unless one of the subjects offers one of the queries.
+  void check_offered() const;
 };
 
 /// Takes only whole numbers from `low` to `high`, in decimal digits.

@@ -14,19 +14,6 @@ namespace {
 constexpr std::uint64_t default_cases = 10'000, most_cases = 1'000'000'000'000;
 constexpr double most_seconds = 1e8;
 
-/// Throws BadInput unless one of the subjects offers one of the queries.
-void check_offered(const std::vector<const Query*>& queries, const std::vector<const Subject*>& subjects) {
-  for (const Query* q : queries) {
-    for (const Subject* s : subjects) {
-      if (s->offering(q->name).answer != nullptr) return;
-    }
-  }
-  const Query& q = *queries.front();
-  const Subject& s = *subjects.front();
-  throw BadInput(fmt::format("nothing to run: no chosen subject offers a chosen query ({} does not offer {}: {})",
-                             s.name, q.name, s.offering(q.name).how));
-}
-
 class RunCommand : public Command {
  public:
   Manual manual() const override {
@@ -40,7 +27,8 @@ class RunCommand : public Command {
          "The run folder receives index.json with all counts (written from the start, and also when the run is "
          "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
          "fault the first 8, then those that are at least twice as bad as any before. All others are counted. "
-         "A folder that exists is added to; its index.json then describes the newest run.",
+         "A folder that exists is added to; its index.json then describes the newest run. One run at a time can have "
+         "it. Where a file cannot be written, say because the disk is full, the run ends and its index says \"failed\".",
          "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
          "against them. WITHIN: they differ, by no more than was promised. FALSE HIT, FALSE MISS, WRONG: violations, "
          "by a wrong yes, a wrong no, or wrong numbers. OUTSIDE: the promise does not cover the input. BACKWARD: the "
@@ -79,7 +67,7 @@ class RunCommand : public Command {
 
   int run(const CLI::App&) override {
     if (measure_) hold_all_to(*measure_);
-    check_offered(selection_.queries(), selection_.subjects());
+    selection_.check_offered();
     const std::uint64_t seed = seed_or_random(seed_);
     catch_interrupts();
     RunSettings settings{typed_command_line(),

@@ -70,7 +70,8 @@ const Bad bad_command_lines[] = {
     {"missing_file", {"replay", "OUT"}, {"OUT"}},
     {"a_folder", {"replay", "/"}, {"/"}},
     {"not_json", {"replay", "FILE"}, {"FILE"}, "{\"query\": "},
-    {"empty_file", {"replay", "FILE"}, {"FILE"}, ""},
+    {"empty_file", {"replay", "FILE"}, {"FILE", "is empty"}, ""},
+    {"file_without_end", {"replay", "/dev/zero"}, {"/dev/zero", "longer than 256 MiB"}},
     {"an_array", {"replay", "FILE"}, {"FILE"}, "[1, 2]"},
     {"no_query", {"replay", "FILE"}, {"FILE", "query"}, "{\"scalar\": \"double\"}"},
     {"case_of_an_unknown_query", {"replay", "FILE"}, {"FILE", "juggling"}, case_text("[0, 0, 0]", "1", "juggling")},
@@ -151,9 +152,11 @@ TEST(Cli, SaysWhyASubjectCannotBeRunOnAQuery) {
   for (const Subject& s : subjects()) {
     for (const Query& q : catalogue()) {
       if (s.offering(q.name).answer != nullptr) continue;
-      const Ran ran = nearmiss({"run", "--subject", s.name, "--query", std::string(q.name), "--out", "/dev/null/x"});
-      EXPECT_EQ(ran.exit_code, 2);
-      EXPECT_NE(ran.err.find(s.offering(q.name).how), std::string::npos) << ran.err;
+      for (const char* command : {"run", "extremes"}) {
+        const Ran ran = nearmiss({command, "--subject", s.name, "--query", std::string(q.name), "--out", "/dev/null/x"});
+        EXPECT_EQ(ran.exit_code, 2);
+        EXPECT_NE(ran.err.find(s.offering(q.name).how), std::string::npos) << ran.err;
+      }
       return;
     }
   }

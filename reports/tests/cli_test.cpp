@@ -523,6 +523,21 @@ TEST(Nightly, FailsWithATargetThatEndsWithAnError) {
   EXPECT_NE(last_line(ran.out).find("1 ended with an error"), std::string::npos) << ran.out;
 }
 
+TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "targets");
+  const std::string query(catalogue().front().name);
+  folder.file("targets/fuzz_" + query, std::string("\0max_total_time\0", 16));  // nobody may execute it
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.06", "--fuzz-targets", (folder / "targets").string(), "--out",
+                            (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const json index = index_of(folder / "r");
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index["state"], "finished");
+  ASSERT_EQ(index["fuzz"]["targets"].size(), 1u) << index["fuzz"];
+  EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "not started: Permission denied");
+}
+
 TEST(Nightly, SaysThatFuzzTargetsAreNotBuilt) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "targets");
