@@ -266,8 +266,10 @@ class StrictSax : public json::json_sax_t {
   };
   std::string path() const {
     std::string p;
-    for (const Level& l : levels_)
-      p += l.object ? (p.empty() || l.key.empty() ? "" : ".") + cut(l.key) : fmt::format("[{}]", l.index);
+    for (const Level& l : levels_) {
+      if (l.object && !p.empty() && !l.key.empty()) p += '.';
+      p += l.object ? cut(l.key) : fmt::format("[{}]", l.index);
+    }
     return p;
   }
   [[noreturn]] void fail(const std::string& what) const {
