@@ -134,7 +134,7 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
   try {
     started.emplace(arguments, more_environment, log);
   } catch (const std::system_error& e) {
-    return {query, 0, 0, fmt::format("not started: {}", e.code().message()), true};
+    return {query, 0, 0, fmt::format("not started: {}", e.code().message()), true, {}};
   }
   Child& child = *started;
   bool told = false, stopped = false;
