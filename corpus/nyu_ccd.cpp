@@ -45,7 +45,10 @@ class RowReader {
   }
   /// False at the end of the file.
   bool next(Row& row) {
-    if (!std::getline(in_, line_)) return false;
+    if (!std::getline(in_, line_)) {
+      if (in_.bad() || !in_.eof()) fail("the rest cannot be read");
+      return false;
+    }
     ++number_;
     if (!line_.empty() && line_.back() == '\r') line_.pop_back();
     parse(row);

@@ -135,13 +135,16 @@ Json report_to_json(const RelationReport& r) {
 }
 
 std::optional<RelatedCase> read_related(const std::filesystem::path& file) {
-  const nlohmann::json j = parse_json(read_file(file), file.string());
+  return read_related(parse_json(read_file(file), file.string()), file.string());
+}
+
+std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || !j.contains("finding") || !j.contains("relation")) return std::nullopt;
-  const auto malformed = [&](const std::string& what) { return BadInput(fmt::format("{}: relation: {}", file.string(), what)); };
+  const auto malformed = [&](const std::string& what) { return BadInput(fmt::format("{}: relation: {}", file, what)); };
   const nlohmann::json& relation = j["relation"];
   if (!relation.is_object() || !relation.contains("name") || !relation["name"].is_string()) throw malformed("no name");
   if (!relation.contains("seed") || !relation["seed"].is_number_unsigned()) throw malformed("no seed");
-  RelatedCase related{read_case_or_report(file), {}, {}};
+  RelatedCase related{case_of(j, file), {}, {}};
   const auto name = relation["name"].get<std::string>();
   related.choice.relation = find_relation(name);
   if (related.choice.relation == nullptr) throw malformed(fmt::format("unknown name '{}'", name));
@@ -156,7 +159,7 @@ std::optional<RelatedCase> read_related(const std::filesystem::path& file) {
     for (const char* key : {"query", "scalar", "inputs"}) {
       if (stored[i].contains(key)) question[key] = stored[i][key];
     }
-    const Case partner = case_from_json(question, file.string());
+    const Case partner = case_from_json(question, file);
     same = partner.query == partners->cases[i].query && partner.values == partners->cases[i].values;
   }
   if (!same) throw malformed(fmt::format("'{}' does not lead from this case to the partners of the file", name));

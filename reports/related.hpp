@@ -57,6 +57,8 @@ struct RelatedCase {
   std::string subject;
 };
 std::optional<RelatedCase> read_related(const std::filesystem::path& file);
+/// The same for what was read from `file` already.
+std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::string& file);
 
 /// What every subject says to a case and its partners.
 struct RelatedReplay {

@@ -123,14 +123,17 @@ void check_kind(const nlohmann::json& j, const std::string& where) {
 }  // namespace
 
 Case read_case_or_report(const std::filesystem::path& file) {
-  const nlohmann::json j = parse_json(read_file(file), file.string());
-  check_kind(j, file.string());
-  if (!j.is_object() || !j.contains("finding")) return case_from_json(j, file.string());
+  return case_of(parse_json(read_file(file), file.string()), file.string());
+}
+
+Case case_of(const nlohmann::json& j, const std::string& file) {
+  check_kind(j, file);
+  if (!j.is_object() || !j.contains("finding")) return case_from_json(j, file);
   nlohmann::json question;
   for (const char* key : {"query", "scalar", "inputs", "origin"}) {
     if (j.contains(key)) question[key] = j[key];
   }
-  return case_from_json(question, file.string());
+  return case_from_json(question, file);
 }
 
 std::string replay_command(const Subject& subject, const std::string& file) {

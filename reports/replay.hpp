@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ namespace nearmiss {
 
 /// The case of a case file, of a stored case or of a report. Throws BadInput.
 Case read_case_or_report(const std::filesystem::path& file);
+/// The same for what was read from `file` already.
+Case case_of(const nlohmann::json& j, const std::string& file);
 
 /// One case and its reports, one for each subject that was asked.
 struct Replay {

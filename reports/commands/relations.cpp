@@ -3,7 +3,9 @@
 #include "corpus/bad_input.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/folder_lock.hpp"
 #include "reports/interrupt.hpp"
+#include "reports/progress.hpp"
 #include "reports/relations_run.hpp"
 #include "reports/run.hpp"
 #include "reports/text.hpp"
@@ -70,8 +72,9 @@ class RelationsCommand : public Command {
                         "relative to the largest number of each kind, say 1e-6",
                         "E", 1);
     app.add_flag("--bit-for-bit", bit_for_bit_,
-                 "Every chosen subject claims to answer scaled cases alike bit for bit, as the tiers of collide do");
-    app.add_option("-o,--out", out_, "The folder. Default: reports/runs/TIME-SEED of the source tree")->type_name("DIR");
+                 "Every chosen subject claims to answer scaled cases alike bit for bit, as the tiers of collide do")
+        ->disable_flag_override();
+    add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
     if (measure_) hold_all_to(*measure_);
@@ -81,8 +84,9 @@ class RelationsCommand : public Command {
     for (const Relation& r : relations()) {
       if (chosen_.empty() || std::find(chosen_.begin(), chosen_.end(), r.name) != chosen_.end()) wanted.push_back(&r);
     }
-    RelationsRun run({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
-                      selection_.queries(), selection_.subjects(), wanted, seed, bit_for_bit_});
+    const std::filesystem::path folder = out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_);
+    RelationsRun run({typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed, bit_for_bit_});
+    const FolderLock lock(folder);
     fmt::print("seed {}\n", seed);
     std::fflush(stdout);
     std::optional<RelationsRun::Clock::time_point> until;
@@ -93,9 +97,13 @@ class RelationsCommand : public Command {
     run.run(seconds_ ? std::nullopt : std::optional(cases_.value_or(default_cases)), until);
     run.write();
     if (run.pairs() == 0 && !interrupted()) {
+      if (until && RelationsRun::Clock::now() >= *until) {
+        throw BadInput("nothing was compared: the time was over before the first case");
+      }
       throw BadInput("nothing was compared: no chosen subject offers a chosen query and its partners by a chosen relation");
     }
     fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
+    if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));
     if (run.contradicted() > 0) return 2;
     return run.bad() > 0 ? 1 : interrupted() ? 2 : 0;
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "corpus/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/pretty_json.hpp"
@@ -40,10 +41,11 @@ class ReplayCommand : public Command {
   int run(const CLI::App&) override {
     std::vector<std::variant<Case, RelatedCase>> cases;
     for (const std::string& f : files_) {
-      if (auto related = read_related(f)) {
+      const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe gives its text no second time
+      if (auto related = read_related(j, f)) {
         cases.emplace_back(std::move(*related));
       } else {
-        cases.emplace_back(read_case_or_report(f));
+        cases.emplace_back(case_of(j, f));
       }
     }
     for (std::size_t i = 0; i < cases.size(); ++i) {

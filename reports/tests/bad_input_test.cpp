@@ -37,6 +37,7 @@ const Bad bad_command_lines[] = {
     {"subject_in_capitals", {"run", "--subject", "COLLIDE-FAST-FLOAT", "--out", "OUT"}, {"collide-fast-float"}},
     {"value_of_a_flag", {"run", "--by-class=7", "--out", "OUT"}, {"by-class"}},
     {"output_without_a_name", {"run", "--cases", "5", "--out", ""}, {"--out", "empty"}},
+    {"relations_without_a_name", {"relations", "--cases", "5", "--out", ""}, {"--out", "empty"}},
     {"nightly_without_a_name", {"nightly", "--minutes", "0.01", "--out", ""}, {"--out", "empty"}},
     {"surplus_word", {"run", "fast", "--out", "OUT"}, {"fast"}},
     {"extremes_without_cases", {"extremes", "--cases", "0", "--out", "OUT"}, {"--cases", "0"}},
