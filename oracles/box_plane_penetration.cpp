@@ -2,6 +2,7 @@
 #include <collide/box_plane_penetration.hpp>
 
 #include "oracles/nearest_piece.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -36,6 +37,12 @@ void box_plane_penetration(const collide::inputs::box_plane_penetration<N>& q, O
   if (!may_be_at_least_zero(a.depth)) return;
   a.normal = answer_vector(times(n, per_norm));
   out.yes(a);
+}
+
+/// A corner that is a contact.
+template <class N>
+bool on_surface(const collide::inputs::box_plane_penetration<N>& q, const GivenPlace<N>& place) {
+  return place.about.values[place.number - 1] == 0 || may_be_on_box(place, q.box);
 }
 
 NEARMISS_ORACLE(box_plane_penetration, CornerContacts)

@@ -3,6 +3,7 @@
 #include <collide/closest_point_rectangle.hpp>
 
 #include "oracles/nearest_piece.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -18,6 +19,11 @@ void closest_point_rectangle(const collide::inputs::closest_point_rectangle<N>& 
   if (!face2.surely_within) edge(2, 3), edge(3, 0);
   if (!face1.surely_within && !face2.surely_within) edge(2, 0);
   for_each_nearest(pieces, [&](std::size_t, const Place<N>& place) { out.yes({answer_vector(place.point)}); });
+}
+
+template <class N>
+bool on_surface(const collide::inputs::closest_point_rectangle<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_rectangle(place, q.rectangle);
 }
 
 NEARMISS_ORACLE(closest_point_rectangle, ClosestPoint)

@@ -2,6 +2,7 @@
 #include <collide/closest_point_rectangle_perimeter.hpp>
 
 #include "oracles/nearest_piece.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -12,6 +13,12 @@ void closest_point_rectangle_perimeter(const collide::inputs::closest_point_rect
   for_each_nearest(perimeter(corner, vector(q.point)), [&](std::size_t, const Place<N>& place) {
     out.yes({answer_vector(place.point)});
   });
+}
+
+template <class N>
+bool on_surface(const collide::inputs::closest_point_rectangle_perimeter<N>& q, const GivenPlace<N>& place) {
+  const auto& r = q.rectangle;
+  return may_be_on_perimeter<N, 4>(place, {vector(r.v0), vector(r.v1), vector(r.v2), vector(r.v3)});
 }
 
 NEARMISS_ORACLE(closest_point_rectangle_perimeter, ClosestPoint)

@@ -2,6 +2,7 @@
 #include <collide/closest_point_segment.hpp>
 
 #include "oracles/outcomes.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -27,6 +28,11 @@ void closest_point_segment(const collide::inputs::closest_point_segment<N>& q, O
     }
   }
   out.yes({answer_vector(nearest)});
+}
+
+template <class N>
+bool on_surface(const collide::inputs::closest_point_segment<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_segment(place, q.segment);
 }
 
 NEARMISS_ORACLE(closest_point_segment, ClosestPoint)

@@ -2,6 +2,7 @@
 #include <collide/closest_point_triangle_perimeter.hpp>
 
 #include "oracles/nearest_piece.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -11,6 +12,12 @@ void closest_point_triangle_perimeter(const collide::inputs::closest_point_trian
   for_each_nearest(perimeter(corner, vector(q.point)), [&](std::size_t, const Place<N>& place) {
     out.yes({answer_vector(place.point)});
   });
+}
+
+template <class N>
+bool on_surface(const collide::inputs::closest_point_triangle_perimeter<N>& q, const GivenPlace<N>& place) {
+  const auto& t = q.triangle;
+  return may_be_on_perimeter<N, 3>(place, {vector(t.v0), vector(t.v1), vector(t.v2)});
 }
 
 NEARMISS_ORACLE(closest_point_triangle_perimeter, ClosestPoint)

@@ -2,6 +2,7 @@
 #include <collide/closest_points_lines.hpp>
 
 #include "oracles/outcomes.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -23,6 +24,11 @@ void closest_points_lines(const collide::inputs::closest_points_lines<N>& q, Out
   const N numerator2 = meet(N(inner(outer(between, d1), normal)), N(along1 * cosine - along2 * length1));
   out.yes({answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
            answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))});
+}
+
+template <class N>
+bool on_surface(const collide::inputs::closest_points_lines<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_line(place, place.number == 0 ? q.line1 : q.line2);
 }
 
 NEARMISS_ORACLE(closest_points_lines, ClosestPoints)

@@ -79,6 +79,11 @@ struct Oracle {
   /// `list`, where given, receives every right answer.
   Enclosure (*exact)(std::span<const double> values, const Answer& about, Scalar scalar,
                      std::vector<Alternative>* list);
+  /// May the place of the answer that number `number` belongs to be, but for `ulps` units in its last place, on the
+  /// surface that the query names, for some input within the widening? False is a proof that it is not. Empty where
+  /// the query names no surface.
+  bool (*may_be_on_surface)(std::span<const double> values, Widening widening, const Answer& about,
+                            std::size_t number, double ulps, Scalar scalar);
 };
 
 }  // namespace nearmiss

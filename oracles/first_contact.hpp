@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "oracles/outcomes.hpp"
@@ -43,11 +44,15 @@ Window times_on_side(const N& start, const N& step, const N& half, int side) {
   return w;
 }
 
-/// The quotient, known to lie in the window: so it is bounded even where the divisor may be zero.
-inline Interval time_within(const Window& w, const Interval& numerator, const Interval& divisor) {
-  const Interval window(w.from, w.to);
-  return may_be_zero(divisor) ? window : meet(numerator / divisor, window);
+/// The quotient, known to lie in the window, so that it is bounded even where the divisor may be zero; empty where it
+/// does not.
+inline std::optional<Interval> time_within(const Window& w, const Interval& numerator, const Interval& divisor) {
+  Interval time(w.from, w.to);
+  if (!may_be_zero(divisor) && !narrow(time, numerator / divisor)) return std::nullopt;
+  return time;
 }
-inline Exact time_within(const Window&, const Exact& numerator, const Exact& divisor) { return numerator / divisor; }
+inline std::optional<Exact> time_within(const Window&, const Exact& numerator, const Exact& divisor) {
+  return numerator / divisor;
+}
 
 }  // namespace nearmiss::oracle

@@ -60,6 +60,10 @@ class Examination {
       : question_(question), answer_(answer), largest_(magnitudes(*question.query, question.values)) {}
 
   Enclosure within(double k) const {
+    widen(k);
+    return question_.query->oracle.interval(question_.values, widening_, answer_, question_.scalar);
+  }
+  void widen(double k) const {
     widening_.resize(question_.values.size());
     // One part in 2^50 more covers the rounding of the products themselves.
     const double relative = k * unit_roundoff(question_.scalar) * (1 + 0x1p-50);
@@ -68,7 +72,6 @@ class Examination {
       widening_[i] = moves(role) ? relative * largest_[std::size_t(role)] : 0.0;
       if (k > 0 && moves(role) && widening_[i] < 0x1p-1000) widening_[i] = std::nextafter(widening_[i], 1.0);
     }
-    return question_.query->oracle.interval(question_.values, widening_, answer_, question_.scalar);
   }
   Enclosure exactly(std::vector<Alternative>* list = nullptr) const {
     return question_.query->oracle.exact(question_.values, answer_, question_.scalar, list);
@@ -101,6 +104,14 @@ class Examination {
       i = end;
     }
     return true;
+  }
+  /// True where the place that number `worst` belongs to is proved to be off the surface of every input within k, by
+  /// more than that many ulps.
+  bool off_surface(int worst, double k, double ulps) const {
+    const Oracle& oracle = question_.query->oracle;
+    if (oracle.may_be_on_surface == nullptr || !answer_.yes) return false;
+    widen(k);
+    return !oracle.may_be_on_surface(question_.values, widening_, answer_, std::size_t(worst), ulps, question_.scalar);
   }
   const std::vector<double>& last_widening() const { return widening_; }
 
@@ -204,7 +215,7 @@ std::vector<double> widening(const Query& query, std::span<const double> values,
   const Case question{&query, scalar, {values.begin(), values.end()}, {}, 0, 0, {}};
   const Answer none{};
   const Examination x(question, none);
-  (void)x.within(k);
+  x.widen(k);
   return x.last_widening();
 }
 
@@ -258,12 +269,20 @@ Finding judge(const Case& question, const Answer& answer, const collide::Contrac
     if (!f.backward) f.backward = Backward{0};  // the exact stage excludes a match at the input itself
   }
 
+  // A wrong place that breaks the contract may break more: is it on the surface of anything that the contract allows?
+  const auto name_place = [&](double k, double ulps) {
+    if (f.disagreement == Disagreement::wrong_place && x.off_surface(f.worst, k, ulps)) {
+      f.disagreement = Disagreement::off_surface;
+    }
+  };
   if (f.backward && f.backward->above >= contract.backward) {
+    name_place(contract.backward, 1);
     return violation(f, f.disagreement,
                      fmt::format("backward error at most {} epsilon", contract.backward));
   }
   if (contract.exact_decisions && decision_differs) return violation(f, f.disagreement, "exact decisions");
   if (!decision_differs && f.forward_ulps > contract.forward) {
+    name_place(0, contract.forward);
     return violation(f, f.disagreement, fmt::format("forward error at most {} ulp", contract.forward));
   }
   if (std::abs(f.unit_error) > contract.unit) {
@@ -309,6 +328,7 @@ std::string_view name_of(Disagreement d) {
     case Disagreement::wrong_weight: return "wrong weight";
     case Disagreement::wrong_flag: return "wrong flag";
     case Disagreement::wrong_index: return "wrong index";
+    case Disagreement::off_surface: return "off the surface";
     case Disagreement::not_finite: return "not finite";
     case Disagreement::not_unit: return "not unit";
   }

@@ -34,8 +34,9 @@ enum class Disagreement {
   wrong_weight,  ///< barycentric weights, cosines
   wrong_flag,    ///< a yes or no beside the decision
   wrong_index,   ///< an edge, an axis
-  not_finite,  ///< NaN or infinity in a given number
-  not_unit,    ///< a normal whose length is not 1
+  off_surface,   ///< a wrong place that is not even on the surface that it is to lie on
+  not_finite,    ///< NaN or infinity in a given number
+  not_unit,      ///< a normal whose length is not 1
 };
 
 std::string_view name_of(Verdict v);

@@ -2,6 +2,7 @@
 #include <collide/moving_point_aabox.hpp>
 
 #include "oracles/ray_and_box.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -31,6 +32,11 @@ void moving_point_aabox(const collide::inputs::moving_point_aabox<N>& q, Out& ou
       out.yes(a);
     });
   });
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_point_aabox<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_aabox(place, q.aabox);
 }
 
 NEARMISS_ORACLE(moving_point_aabox, Entry)

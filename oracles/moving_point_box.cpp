@@ -5,6 +5,7 @@
 #include "oracles/point_and_box.hpp"
 #include "oracles/ray_and_box.hpp"
 #include "oracles/residual.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -51,6 +52,11 @@ void moving_point_box(const collide::inputs::moving_point_box<N>& q, Out& out) {
   }
   if (may_miss(r)) out.no();
   for_each_entry(r, contact);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_point_box<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_box(place, q.box);
 }
 
 NEARMISS_ORACLE(moving_point_box, Impact)

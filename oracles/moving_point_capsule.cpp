@@ -2,6 +2,7 @@
 #include <collide/moving_point_capsule.hpp>
 
 #include "oracles/past_round.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -10,6 +11,11 @@ void moving_point_capsule(const collide::inputs::moving_point_capsule<N>& q, Out
   const auto& c = q.capsule;
   report_first_contact<N>(
       {vector(q.point), vector(q.velocity), N(0), {vector(c.p0), vector(c.p1)}, c.radius, false}, out);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_point_capsule<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_capsule(place, q.capsule);
 }
 
 NEARMISS_ORACLE(moving_point_capsule, Impact)

@@ -1,6 +1,7 @@
 /// Truth: the height above the plane is linear in time.
 #include <collide/moving_point_plane.hpp>
 
+#include "oracles/surface.hpp"
 #include "oracles/times.hpp"
 
 namespace nearmiss::oracle {
@@ -16,6 +17,11 @@ void moving_point_plane(const collide::inputs::moving_point_plane<N>& q, Out& ou
   if (may_be_zero(approach) || may_be_zero(length2)) return out.everything();
   const N time = time_across(height, approach);
   out.yes({time, answer_vector(plus(p, times(v, time))), answer_vector(times(n, N(N(1) / root(length2))))});
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_point_plane<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_plane(place, q.plane);
 }
 
 NEARMISS_ORACLE(moving_point_plane, Impact)

@@ -2,6 +2,7 @@
 #include <collide/moving_point_rectangle.hpp>
 
 #include "oracles/front_of_triangle.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -17,6 +18,11 @@ void moving_point_rectangle(const collide::inputs::moving_point_rectangle<N>& q,
     const bool surely_later = hit.may_hit && !other.may_miss && !may_be_at_most(hit.impact.time, other.impact.time);
     if (hit.may_hit && !surely_later) out.yes(hit.impact, hit.normals);
   }
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_point_rectangle<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_rectangle(place, q.rectangle);
 }
 
 NEARMISS_ORACLE(moving_point_rectangle, Impact)

@@ -2,6 +2,7 @@
 #include <collide/moving_point_sphere.hpp>
 
 #include "oracles/outcomes.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -59,6 +60,12 @@ void moving_point_sphere(const collide::inputs::moving_point_sphere<N>& q, Out& 
   if (may_be_zero(far)) return out.everything();
   const N time = meet(N(assume_at_least_zero(outside) / far), assume_at_least_zero(N((closing - half) / speed2)));
   at(time, times(v, time));
+}
+
+/// A start in the solid ball is a contact where it is.
+template <class N>
+bool on_surface(const collide::inputs::moving_point_sphere<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_sphere(place, q.sphere) || (q.solid && may_be_point(place, vector(q.point)));
 }
 
 NEARMISS_ORACLE(moving_point_sphere, Impact)

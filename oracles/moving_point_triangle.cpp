@@ -2,6 +2,7 @@
 #include <collide/moving_point_triangle.hpp>
 
 #include "oracles/front_of_triangle.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -9,6 +10,11 @@ template <class N, class Out>
 void moving_point_triangle(const collide::inputs::moving_point_triangle<N>& q, Out& out) {
   const auto& t = q.triangle;
   report(front_hit<N>(vector(q.point), vector(q.velocity), {vector(t.v0), vector(t.v1), vector(t.v2)}), out);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_point_triangle<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_triangle(place, q.triangle);
 }
 
 NEARMISS_ORACLE(moving_point_triangle, Impact)

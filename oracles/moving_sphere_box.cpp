@@ -9,6 +9,7 @@
 #include "oracles/first_contact.hpp"
 #include "oracles/point_and_box.hpp"
 #include "oracles/residual.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -85,20 +86,20 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
   }
   const N closing = -inner(e, v);
   if (!may_be_positive(closing)) return;
-  N time(0);
+  std::optional<N> crossing;
   if (beyond(sides) == 1) {
     const N speed = sides[axis] > 0 ? N(-v[axis]) : v[axis];
     const N gap = sides[axis] > 0 ? e[axis] : N(-e[axis]);
     if (!may_be_positive(speed)) return;
-    time = time_within(w, N(gap - m.radius), speed);
+    crossing = time_within(w, N(gap - m.radius), speed);
   } else {
     const N discriminant = norm2(v) * square(m.radius) - norm2(outer(e, v));
     if (!may_be_at_least_zero(discriminant)) return;
     const N far = assume_at_least_zero(closing) + root(discriminant);
-    time = time_within(w, N(norm2(e) - square(m.radius)), far);
+    crossing = time_within(w, N(norm2(e) - square(m.radius)), far);
   }
-  if (!may_be_at_least_zero(time)) return;
-  time = assume_at_least_zero(time);
+  if (!crossing || !may_be_at_least_zero(*crossing)) return;
+  N time = assume_at_least_zero(*crossing);
   if (!narrow_about_middle(m, sides, time)) return;
   Vector<N> contact = m.at(time), normal{N(0), N(0), N(0)};
   const std::optional<Vector<N>> tighter = turned_last(m, time);
@@ -255,6 +256,11 @@ void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out)
   report_first(roots, out);
   const bool none = !out.result().may_be_yes;
   if (none || (is_enclosure<N> && !surely_overlaps(m, time_of_least_distance(m, near)))) out.no();
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_sphere_box<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_box(place, q.box);
 }
 
 NEARMISS_ORACLE(moving_sphere_box, Impact)

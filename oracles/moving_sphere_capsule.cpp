@@ -2,6 +2,7 @@
 #include <collide/moving_sphere_capsule.hpp>
 
 #include "oracles/past_round.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -10,6 +11,11 @@ void moving_sphere_capsule(const collide::inputs::moving_sphere_capsule<N>& q, O
   const auto& c = q.capsule;
   report_first_contact<N>(
       {vector(q.sphere.center), vector(q.velocity), q.sphere.radius, {vector(c.p0), vector(c.p1)}, c.radius, false}, out);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_sphere_capsule<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_capsule(place, q.capsule);
 }
 
 NEARMISS_ORACLE(moving_sphere_capsule, Impact)

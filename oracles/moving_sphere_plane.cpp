@@ -1,6 +1,7 @@
 /// Truth: the center's height above the plane, scaled by the normal's length, is linear in time.
 #include <collide/moving_sphere_plane.hpp>
 
+#include "oracles/surface.hpp"
 #include "oracles/times.hpp"
 
 namespace nearmiss::oracle {
@@ -30,6 +31,11 @@ void moving_sphere_plane(const collide::inputs::moving_sphere_plane<N>& q, Out& 
   const N time = time_across(N(height - reach), approach);
   const Vector<N> location = minus(plus(c, times(v, time)), times(n, N(radius / length)));
   out.yes({time, answer_vector(location), answer_vector(normal)});
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_sphere_plane<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_plane(place, q.plane);
 }
 
 NEARMISS_ORACLE(moving_sphere_plane, Impact)

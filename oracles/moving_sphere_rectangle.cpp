@@ -2,6 +2,7 @@
 #include <collide/moving_sphere_rectangle.hpp>
 
 #include "oracles/sphere_and_triangle.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -25,6 +26,11 @@ void moving_sphere_rectangle(const collide::inputs::moving_sphere_rectangle<N>& 
     }
   }
   if (both[0].may_miss && both[1].may_miss) out.no();
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_sphere_rectangle<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_rectangle(place, q.rectangle);
 }
 
 NEARMISS_ORACLE(moving_sphere_rectangle, Impact)

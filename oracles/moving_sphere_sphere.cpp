@@ -2,6 +2,7 @@
 #include <collide/moving_sphere_sphere.hpp>
 
 #include "oracles/past_round.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -10,6 +11,11 @@ void moving_sphere_sphere(const collide::inputs::moving_sphere_sphere<N>& q, Out
   const Vector<N> center = vector(q.fixed.center);
   report_first_contact<N>(
       {vector(q.sphere.center), vector(q.velocity), q.sphere.radius, {center, center}, q.fixed.radius, true}, out);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_sphere_sphere<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_sphere(place, q.fixed);
 }
 
 NEARMISS_ORACLE(moving_sphere_sphere, Impact)

@@ -2,6 +2,7 @@
 #include <collide/moving_sphere_triangle.hpp>
 
 #include "oracles/sphere_and_triangle.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -16,6 +17,11 @@ void moving_sphere_triangle(const collide::inputs::moving_sphere_triangle<N>& q,
     else out.yes(c.impact, c.normals);
   }
   if (all.may_miss) out.no();
+}
+
+template <class N>
+bool on_surface(const collide::inputs::moving_sphere_triangle<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_triangle(place, q.triangle);
 }
 
 NEARMISS_ORACLE(moving_sphere_triangle, TriangleImpact)

@@ -119,6 +119,25 @@ void Tally::count(bool yes, std::span<const Bounds> errors, const std::optional<
   any_ = true;
 }
 
+std::optional<PlaceInAnswer> PlaceInAnswer::of(const Answer& about, const Layout& layout, std::size_t number,
+                                               double ulps, Scalar scalar) {
+  const auto part = std::find_if(layout.parts.begin(), layout.parts.end(),
+                                 [&](const Layout::Part& p) { return p.begin <= number && number < p.end; });
+  if (part == layout.parts.end() || part->role != Role::position || part->end - part->begin != 3) return std::nullopt;
+  double largest = 0;
+  for (std::size_t i = part->begin; i < part->end; ++i) {
+    if (!about.gives(i) || !std::isfinite(about.values[i])) return std::nullopt;
+    largest = std::max(largest, std::abs(about.values[i]));
+  }
+  // One ulp is that of the largest number, given or exact, and the exact one may be larger by the slack itself.
+  const double share = 4 * ulps * unit_roundoff(scalar);
+  if (!(share <= 0.5)) return std::nullopt;
+  const double unit = ulp(std::min(largest * (1 + share), largest_finite(scalar)), scalar);
+  const double slack = ulps * unit * 1.7320508075688774;  // rounded up from the root of 3
+  if (!std::isfinite(slack)) return std::nullopt;
+  return PlaceInAnswer{part->begin, std::nextafter(slack, HUGE_VAL)};
+}
+
 #if defined(__SSE2__)
 namespace {
 constexpr unsigned invalid_flag = 0x01;

@@ -1,6 +1,7 @@
 /// Where an oracle's algorithm puts every answer that is possible; compares each with the given one.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -200,6 +201,28 @@ void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::s
   count(yes, {errors.data(), given}, normals.many ? std::optional(turn_of(normals)) : std::nullopt);
 }
 
+/// A place of the given answer: what an oracle's `on_surface` is asked about.
+template <class N>
+struct GivenPlace {
+  Vector<N> at;
+  N slack;             ///< how far off it may be
+  std::size_t number;  ///< of the answer: the first of its three
+  const Answer& about;
+};
+
+/// Only a name: an oracle's file adds its own where its query names a surface.
+void on_surface() = delete;
+
+/// Which three numbers of the answer are a place, from `number` on, and how far off they may be together.
+struct PlaceInAnswer {
+  std::size_t number;
+  double slack;
+
+  /// Empty where that cannot be told: numbers that are not finite, or a slack as large as they are.
+  static std::optional<PlaceInAnswer> of(const Answer& about, const Layout& layout, std::size_t number, double ulps,
+                                         Scalar scalar);
+};
+
 // The two stages, and the line with which an oracle's .cpp file ends.
 
 /// Sets the rounding of the intervals for its lifetime and tells afterwards whether any operation was
@@ -277,16 +300,57 @@ struct Stages {
     Algorithm::run(exact_inputs<Inputs<Exact>>(values), out);
     return out.result();
   }
-  static Oracle oracle() { return {interval, exact}; }
+  template <class N>
+  static bool on_surface(const Inputs<N>& q, const PlaceInAnswer& place, const Answer& about) {
+    const double* x = &about.values[place.number];
+    return Algorithm::on_surface(
+        q, GivenPlace<N>{{N(x[0]), N(x[1]), N(x[2])}, N(place.slack), place.number, about});
+  }
+  /// A widening of nothing is asked about exactly as well, where the intervals cannot tell.
+  static bool may_be_on_surface(std::span<const double> values, Widening widening, const Answer& about,
+                                std::size_t number, double ulps, Scalar scalar) {
+    const std::optional<PlaceInAnswer> place = PlaceInAnswer::of(about, layout(), number, ulps, scalar);
+    if (!place) return true;
+    if (!may_be_on_widened_surface(values, widening, about, *place)) return false;
+    if (std::any_of(widening.begin(), widening.end(), [](double w) { return w > 0; })) return true;
+    return on_surface(exact_inputs<Inputs<Exact>>(values), *place, about);
+  }
+  static Oracle oracle() {
+    constexpr bool names_a_surface = requires(const Inputs<Exact>& q, const GivenPlace<Exact>& g) {
+      Algorithm::on_surface(q, g);
+    };
+    if constexpr (names_a_surface) return {interval, exact, may_be_on_surface};
+    return {interval, exact, nullptr};
+  }
+
+ private:
+  static bool may_be_on_widened_surface(std::span<const double> values, Widening widening, const Answer& about,
+                                        const PlaceInAnswer& place) {
+    const IntervalScope scope;
+    arithmetic_barrier();
+    const bool may = on_widened_surface(widened<Inputs<Interval>>(values, widening), place, about);
+    arithmetic_barrier();
+    return may || scope.any_invalid();
+  }
+  [[gnu::noinline]] static bool on_widened_surface(const Inputs<Interval>& q, const PlaceInAnswer& place,
+                                                   const Answer& about) {
+    return on_surface(q, place, about);
+  }
 };
 
-/// Ends an oracle's file: binds the function template `query` to its line of the catalogue.
+/// Ends an oracle's file: binds the function template `query` to its line of the catalogue, and
+/// `on_surface(query's inputs, GivenPlace)` where there is one: may the place lie on the surface that the query names?
 #define NEARMISS_ORACLE(query, answer_type)                                                       \
   namespace {                                                                                     \
   struct query##_algorithm {                                                                      \
     template <class Q, class Out>                                                                 \
     static void run(const Q& q, Out& out) {                                                       \
       query(q, out);                                                                              \
+    }                                                                                             \
+    template <class Q, class N>                                                                   \
+      requires requires(const Q& q, const GivenPlace<N>& place) { oracle::on_surface(q, place); } \
+    static bool on_surface(const Q& q, const GivenPlace<N>& place) {                              \
+      return oracle::on_surface(q, place);                                                        \
     }                                                                                             \
   };                                                                                              \
   }                                                                                               \

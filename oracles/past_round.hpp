@@ -219,7 +219,8 @@ struct RoundPast {
     const Vector<N> from_second = minus(center, d);
     if (!may_belong_to_tube(center, from_second)) return;
     const N s = share(center);
-    RoundContact<N> c{time, plus(m.end[0], times(d, s)), within_reach(minus(center, times(d, s))), Part::tube};
+    RoundContact<N> c{time, plus(m.end[0], times(d, s)), minus(center, times(d, s)), Part::tube};
+    if (!narrow_to_reach(c.away)) return;
     if constexpr (is_enclosure<N>) {
       if (!may_be_zero(length2) && !narrow_about_middle(c, s)) return;
     }
@@ -234,7 +235,7 @@ struct RoundPast {
       const N s0(near_middle(s));
       const Vector<N> middle = plus(times(m.end[0], N(N(1) - s0)), times(m.end[1], s0));
       const Vector<N> from = minus(m.at, middle);
-      if (!narrow_to_reach(from, m.step, &d, length2, m.reach(), c.time)) return false;
+      if (!oracle::narrow_to_reach(from, m.step, &d, length2, m.reach(), c.time)) return false;
       const Vector<N> center = plus(from, times(m.step, c.time));
       const Vector<N> on = times(d, N(inner(center, d) / length2));
       return narrow(c.on_axis, plus(middle, on)) && narrow(c.away, minus(center, on));
@@ -257,18 +258,21 @@ struct RoundPast {
     place = plus(from, times(m.step, time));
     return true;
   }
-  Vector<N> within_reach(Vector<N> away) const {
+  /// What leads from the axis to a contact is as long as both radii; false where it cannot be.
+  bool narrow_to_reach(Vector<N>& away) const {
     if constexpr (is_enclosure<N>) {
-      for (N& x : away) narrow(x, N(-m.reach().sup(), m.reach().sup()));
+      const N any(-m.reach().sup(), m.reach().sup());
+      return narrow(away, {any, any, any});
     }
-    return away;
+    return true;
   }
 
   template <class Belongs>
   void add(RoundContact<N> c, const Vector<N>& step, std::vector<RoundContact<N>>& roots, Belongs belongs) const {
     if constexpr (is_enclosure<N>) {
       if (c.time.sup() < std::numeric_limits<double>::infinity()) {
-        c.away = within_reach(plus(c.away, times(step, c.time)));
+        c.away = plus(c.away, times(step, c.time));
+        if (!narrow_to_reach(c.away)) return;
       } else {
         c.away.fill(N(-m.reach().sup(), m.reach().sup()));
       }

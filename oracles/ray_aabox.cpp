@@ -2,6 +2,7 @@
 #include <collide/ray_aabox.hpp>
 
 #include "oracles/ray_and_box.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -12,6 +13,12 @@ void ray_aabox(const collide::inputs::ray_aabox<N>& q, Out& out) {
   if (may_start_in(r)) out.yes(RayHit{true, true, q.ray.origin});
   if (may_miss(r)) out.no(RayHit{}, 1);
   for_each_entry(r, [&](const N&, const Vector<N>& place) { out.yes(RayHit{true, false, answer_vector(place)}); });
+}
+
+/// A ray that starts in the box meets it there.
+template <class N>
+bool on_surface(const collide::inputs::ray_aabox<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_aabox(place, q.aabox) || may_be_point(place, vector(q.ray.origin));
 }
 
 NEARMISS_ORACLE(ray_aabox, RayHit)

@@ -184,23 +184,26 @@ class SphereAndTriangle {
       return N(0);
     }
   }
-  /// The foot of a point on the plane, in the face.
-  Place in_face(const Vector<N>& x) const {
+  /// The foot of a point on the plane, in the face; empty where it cannot be there. An enclosure is also as near to
+  /// the longest edge as the triangle is thick, which tells something of thin ones alone.
+  std::optional<Place> in_face(const Vector<N>& x) const {
     Place place{{}, {N(0), N(0), N(0)}, face_cone()};
+    if constexpr (is_enclosure<N>) {
+      const int l = longest();
+      const N about = thickness() * N(-1, 1);
+      const Vector<N> by_edge = on_edge(l, minus(x, corner_[l])).point;
+      for (int k = 0; k < 3; ++k) place.point[k] = assume_within(by_edge[k] + about, lowest(k).inf(), highest(k).sup());
+    }
     if (surely_has_area()) {
       const N up = inner(n_, minus(x, corner_[0])) / n2_;
-      place.point = minus(x, times(n_, up));
+      const Vector<N> foot = minus(x, times(n_, up));
+      for (int k = 0; k < 3; ++k) {
+        if (!is_enclosure<N>) place.point[k] = foot[k];
+        if (!narrow(place.point[k], foot[k])) return std::nullopt;
+      }
       for (int i = 0; i < 3; ++i) {
         place.weights[(i + 2) % 3] = -inner(out_[i], minus(x, corner_[i])) / n2_;
       }
-    } else if constexpr (is_enclosure<N>) {
-      const int l = longest();
-      const N about = thickness() * N(-1, 1);
-      const Place edge = on_edge(l, minus(x, corner_[l]));
-      for (int k = 0; k < 3; ++k) place.point[k] = edge.point[k] + about;
-    }
-    if constexpr (is_enclosure<N>) {
-      for (int k = 0; k < 3; ++k) place.point[k] = assume_within(place.point[k], lowest(k).inf(), highest(k).sup());
     }
     return place;
   }
@@ -259,11 +262,11 @@ class SphereAndTriangle {
       if (!may_be_zero(e2_[i])) tighter2 = meet(tighter2, N(norm2(outer(from_corner(i), e_[i])) / e2_[i]));
       from(place, tighter2, false);
     }
-    if (may_be_over_face(p_)) {
-      const Place place = in_face(p_);
-      N tighter2 = norm2(minus(p_, place.point));
+    const std::optional<Place> foot = may_be_over_face(p_) ? in_face(p_) : std::nullopt;
+    if (foot) {
+      N tighter2 = norm2(minus(p_, foot->point));
       if (surely_has_area()) tighter2 = meet(tighter2, N(square(inner(n_, from_corner(0))) / n2_));
-      from(place, tighter2, true);
+      from(*foot, tighter2, true);
     }
     return may_start_apart;
   }
@@ -278,10 +281,10 @@ class SphereAndTriangle {
     const N chord2 = norm2(u) * reach2 - moment2;
     if (!may_be_positive(closing) || !may_be_at_least_zero(chord2)) return std::nullopt;
     const N far = assume_at_least_zero(closing) + root(chord2);
-    N time = time_within(window, N(norm2(w) - reach2), far);
-    if (!may_be_at_least_zero(time)) return std::nullopt;
-    surely = !may_be_negative(chord2) && !may_be_at_most_zero(closing) && !may_be_negative(time);
-    return N(assume_at_least_zero(time));
+    const std::optional<N> time = time_within(window, N(norm2(w) - reach2), far);
+    if (!time || !may_be_at_least_zero(*time)) return std::nullopt;
+    surely = !may_be_negative(chord2) && !may_be_at_most_zero(closing) && !may_be_negative(*time);
+    return N(assume_at_least_zero(*time));
   }
   /// No time before this brings the point as near as `reach`; nothing where none does.
   std::optional<double> earliest(const Vector<N>& w, const Vector<N>& u, const N& reach2, const N& moment2) const {
@@ -434,15 +437,21 @@ class SphereAndTriangle {
     }
     if (window.empty()) return;
     const N length = root(n2_);
-    N time = time_within(window, N(height - r_ * length), approach);
-    if (!may_be_at_least_zero(time)) return;
-    time = assume_at_least_zero(time);
+    const std::optional<N> crossing = time_within(window, N(height - r_ * length), approach);
+    if (!crossing || !may_be_at_least_zero(*crossing)) return;
+    N time = assume_at_least_zero(*crossing);
     const Vector<N> x = at(time);
     if (!may_be_over_face(x)) return;
-    Place place = in_face(x);
+    std::optional<Place> foot = in_face(x);
+    if (!foot) return;
+    Place& place = *foot;
     const Vector<N> touching = minus(x, times(n_, N(r_ * length / n2_)));
-    for (int k = 0; k < 3; ++k) place.point[k] = meet(place.point[k], touching[k]);
+    for (int k = 0; k < 3; ++k) {
+      if (!narrow(place.point[k], touching[k])) return;
+    }
     if (!face_about_middle(time, place)) return;
+    const std::optional<double> earliest = earliest_by_longest_edge();
+    if (!earliest || *earliest > near_.to) return;
     Contact c{{time, answer_vector(place.point), {}, {}}};
     set_weights(c, place.weights);
     Vector<N> unit = times(n_, N(length / n2_));
@@ -451,23 +460,29 @@ class SphereAndTriangle {
     all_.list.push_back(std::move(c));
   }
 
-  /// A face that may have no area: within its thickness of the cylinder about its longest edge.
-  void thin_face_root() {
+  /// No time before this brings the sphere as near to the longest edge, or its line, as the triangle is thick;
+  /// nothing where none does. That holds for every triangle, but tells something of thin ones alone.
+  std::optional<double> earliest_by_longest_edge() const {
     if constexpr (is_enclosure<N>) {
       const int l = longest();
       const Vector<N> w = from_corner(l);
       const N reach = r_ + N(thickness().sup());
-      std::optional<double> from = 0.0;
-      if (may_be_zero(e2_[l])) {
-        from = earliest(w, v_, square(reach), moment2(w));
-      } else {
-        from = earliest(outer(w, e_[l]), outer(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
-      }
+      if (may_be_zero(e2_[l])) return earliest(w, v_, square(reach), moment2(w));
+      return earliest(outer(w, e_[l]), outer(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
+    } else {
+      return 0.0;
+    }
+  }
+
+  /// A face that may have no area: within its thickness of the cylinder about its longest edge.
+  void thin_face_root() {
+    if constexpr (is_enclosure<N>) {
+      const std::optional<double> from = earliest_by_longest_edge();
       if (!from || *from > near_.to) return;
       const N time(std::max(*from, near_.from), near_.to);
       const Vector<N> x = at(time);
-      const Place place = in_face(x);
-      add_root(time, place, minus(x, place.point), false);
+      const std::optional<Place> place = in_face(x);
+      if (place) add_root(time, *place, minus(x, place->point), false);
     }
   }
 

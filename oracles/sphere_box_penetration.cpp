@@ -2,6 +2,7 @@
 #include <collide/sphere_box_penetration.hpp>
 
 #include "oracles/point_and_box.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -35,6 +36,12 @@ void sphere_box_penetration(const collide::inputs::sphere_box_penetration<N>& q,
     const Vector<N> deepest = plus(center, times(normal, N(q.sphere.radius)));
     out.yes(Penetration{q.sphere.radius + distance, answer_vector(normal), answer_vector(deepest)});
   });
+}
+
+/// The box's nearest point, or the sphere's deepest.
+template <class N>
+bool on_surface(const collide::inputs::sphere_box_penetration<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_box(place, q.box) || may_be_on_sphere(place, q.sphere);
 }
 
 NEARMISS_ORACLE(sphere_box_penetration, Penetration)

@@ -2,6 +2,7 @@
 #include <collide/sphere_plane_penetration.hpp>
 
 #include "oracles/outcomes.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -19,6 +20,11 @@ void sphere_plane_penetration(const collide::inputs::sphere_plane_penetration<N>
   a.normal = answer_vector(normal);
   a.contact = answer_vector(minus(center, times(normal, q.sphere.radius)));
   out.yes(a);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::sphere_plane_penetration<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_sphere(place, q.sphere);
 }
 
 NEARMISS_ORACLE(sphere_plane_penetration, Penetration)

@@ -2,6 +2,7 @@
 #include <collide/sphere_sphere_penetration.hpp>
 
 #include "oracles/outcomes.hpp"
+#include "oracles/surface.hpp"
 
 namespace nearmiss::oracle {
 
@@ -38,6 +39,11 @@ void sphere_sphere_penetration(const collide::inputs::sphere_sphere_penetration<
   Vector<N> normal = times(between, N(N(1) / distance));
   for (N& x : normal) x = assume_within(x, -1.0, 1.0);
   answer(normal);
+}
+
+template <class N>
+bool on_surface(const collide::inputs::sphere_sphere_penetration<N>& q, const GivenPlace<N>& place) {
+  return may_be_on_sphere(place, q.sphere1);
 }
 
 NEARMISS_ORACLE(sphere_sphere_penetration, Penetration)

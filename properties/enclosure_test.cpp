@@ -74,11 +74,13 @@ TEST_P(Enclosures, ContainTheExactAnswerOfEveryInputWithinTheWidening) {
   EXPECT_GT(checked, cases_per_query / 2);
 }
 
-/// A wider enclosure may exclude a decision that a narrower one could not, by another way to the same bound; as rarely
-/// as the judge's search for the backward error bears (it may then stop early).
+/// How many yeses of a thousand cases a wider enclosure may exclude that a narrower one could not: none, but where the
+/// bound depends on a time that is found in plain doubles (docs/numerics.md).
+int excluded_later_at_most(std::string_view query) { return query == "moving_sphere_passes_box" ? 1 : 0; }
+
 TEST_P(Enclosures, GrowWithTheWidening) {
   int excluded_later = 0;
-  for (int i = 0; i < cases_per_query / 4; ++i) {
+  for (int i = 0; i < cases_per_query; ++i) {
     const Case c = generate(query(), Scalar::float64, 12, std::uint64_t(i));
     const Answer none{};
     Enclosure before = query().oracle.interval(c.values, widening(query(), c.values, c.scalar, 0), none, c.scalar);
@@ -87,7 +89,8 @@ TEST_P(Enclosures, GrowWithTheWidening) {
       // After 0 * infinity and its like an enclosure is anything at all; a wider one may not meet them.
       const Enclosure narrower = std::exchange(before, e);
       if (narrower.error.back().low == -HUGE_VAL) continue;
-      if (e.may_be_yes < narrower.may_be_yes || e.may_be_no < narrower.may_be_no) {
+      ASSERT_GE(e.may_be_no, narrower.may_be_no) << "case " << i << ", k = " << k;
+      if (e.may_be_yes < narrower.may_be_yes) {
         ++excluded_later;
         continue;
       }
@@ -98,7 +101,7 @@ TEST_P(Enclosures, GrowWithTheWidening) {
       }
     }
   }
-  EXPECT_LE(excluded_later, cases_per_query / 4 / 100);
+  EXPECT_LE(excluded_later, cases_per_query / 1000 * excluded_later_at_most(query().name));
 }
 
 TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {

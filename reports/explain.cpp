@@ -108,6 +108,7 @@ class Explanation {
       case Disagreement::false_miss: return moving ? "misses a collision" : "says no where yes is right";
       case Disagreement::not_finite: return "answers with a number that is not finite";
       case Disagreement::not_unit: return "gives a normal that is not a unit vector";
+      case Disagreement::off_surface: return "gives a " + worst_member() + " off the surface";
       default: return (is_plural(worst_member()) ? "gives wrong " : "gives a wrong ") + worst_member();
     }
   }
@@ -161,6 +162,9 @@ class Explanation {
     const std::string member = worst_member();
     std::string said = fmt::format("{} gives {} {}", r_.subject, member,
                                    member_text(query_, worst(), [&](auto i) { return given(i); }));
+    if (r_.finding.disagreement == Disagreement::off_surface) {
+      said += ", which is off the surface that it is to lie on";
+    }
     const Alternative* right = right_answer();
     if (right == nullptr) return {said};
     if (right->many_normals && query_.outputs[worst()].role == Role::normal) {

@@ -69,6 +69,7 @@ void mark_as_failed(const std::filesystem::path& index) noexcept {
 std::string_view noun_of(Disagreement d) {
   switch (d) {
     case Disagreement::none: return "other violation";
+    case Disagreement::off_surface: return "off-surface place";
     case Disagreement::not_finite: return "non-finite number";
     case Disagreement::not_unit: return "non-unit normal";
     default: return nearmiss::name_of(d);

@@ -21,7 +21,7 @@ cd "$work"
 status=0
 "$nearmiss" run --subject skim --cases 100000 --seed 1 --out "$run" >run.txt 2>&1 || status=$?
 [ "$status" = 1 ] || { cat run.txt; fail "run ends with exit code $status, not 1"; }
-for fault in closest_point_segment/skim-wrong-place moving_point_sphere/skim-false-miss sphere_sphere_overlap/skim-false-hit; do
+for fault in closest_point_segment/skim-off-the-surface moving_point_sphere/skim-false-miss sphere_sphere_overlap/skim-false-hit; do
   ls "$run/findings/$fault"-*.json >/dev/null || fail "the run reports no $fault"
 done
 [ "$(ls "$run/findings" | wc -l)" = 3 ] || fail "findings in other queries than the three that have a mistake"

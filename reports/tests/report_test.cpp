@@ -143,6 +143,22 @@ const Expectation expectations[] = {
        return report(nearest(), answer(true, {2, 0, 0}));
      },
      Verdict::violates_contract, Disagreement::wrong_place, "stooge gives point (2, 0, 0). Exactly, it is (1, 0, 0)"},
+    {"off_surface",
+     [] {
+       return report(nearest(), answer(true, {1, 0.25, 0}));
+     },
+     Verdict::violates_contract, Disagreement::off_surface,
+     "stooge gives point (1, 0.25, 0), which is off the surface that it is to lie on. Exactly, it is (1, 0, 0)"},
+    {"off_surface_by_less_than_the_contract",
+     [] {
+       return report(nearest(), answer(true, {1, 0x1p-40, 0}), {.backward = 0x1p14});
+     },
+     Verdict::within_contract, Disagreement::wrong_place, "Its contract allows that."},
+    {"off_in_a_contract_of_ulps",
+     [] {
+       return report(nearest(), answer(true, {1, 0x1p-40, 0}), {.forward = 2});
+     },
+     Verdict::violates_contract, Disagreement::off_surface, "It promises forward error at most 2 ulp."},
     {"wrong_normal", [] { return report(flight(0), hit(4, 0, 0, 1)); }, Verdict::violates_contract,
      Disagreement::wrong_normal, "stooge gives normal (0, 1, 0). Exactly, it is (-1, 0, 0)"},
     {"wrong_depth",
