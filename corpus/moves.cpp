@@ -205,6 +205,28 @@ bool aimed_at_position(Draft& d) {
   return true;
 }
 
+/// Motion straight at a corner of an upright box, or at a place on its edge.
+bool aimed_at_corner(Draft& d) {
+  if (d.plan.velocities.empty()) return false;
+  const Thing* box = nullptr;
+  for (const Thing& t : d.plan.things) {
+    if (t.sizes.size() == 3) box = &t;
+  }
+  if (box == nullptr || d.plan.positions.empty()) return false;
+  for (std::size_t begin : d.plan.rotations) {
+    for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, k == 3 ? 1 : 0);
+  }
+  const Numbers from = d.vector(d.plan.positions.front());
+  Numbers corner = d.vector(box->positions.front());
+  const std::size_t along = d.random.below(6);  // beyond 2 there is none: the corner itself
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] += (k == along ? 0.125 * d.random.between(-7, 7) : d.random.sign()) * d[box->sizes[k]];
+  }
+  const double factor = d.random.power_of_two(-2, 1);
+  d.set_vector(d.random.pick(d.plan.velocities), {factor * (corner[0] - from[0]), factor * (corner[1] - from[1]), factor * (corner[2] - from[2])});
+  return true;
+}
+
 /// A vector that means a direction: another velocity or direction, or from one position to another.
 bool some_direction(Draft& d, std::size_t but, Numbers& out) {
   const auto& list = d.plan.movable;
@@ -468,8 +490,19 @@ bool mirrored(Draft& d) {
   };
   if (count == 3) d.set(d.plan.vectors[at(start)].begin + k, plane);
   if (count == 2) mirror(0, 1);
-  if (count >= 3) mirror(1, 2);
-  if (count == 4) mirror(0, 3);
+  if (count == 3) mirror(1, 2);
+  if (count == 4) {
+    const bool folded = d.random.one_in(2);  // along its diagonal from the first corner
+    if (folded) {
+      for (std::size_t i : {0, 2}) d.set(d.plan.vectors[shape.positions[i]].begin + k, plane);
+      Numbers x = d.vector(shape.positions[1]);
+      x[k] = plane - (x[k] - plane);
+      d.set_vector(shape.positions[3], x);
+    } else {
+      mirror(1, 2);
+      mirror(0, 3);
+    }
+  }
   for (std::size_t v : d.plan.velocities) d.set(d.plan.vectors[v].begin + k, 0);
   return true;
 }
@@ -664,6 +697,7 @@ constexpr Move table[] = {
     {"zero-velocity", "no motion", zero_velocity},
     {"axis-velocity", "motion along one axis", axis_velocity},
     {"aimed-at-position", "motion straight at a vertex or center", aimed_at_position},
+    {"aimed-at-corner", "motion straight at a corner or an edge of an upright box", aimed_at_corner},
     {"parallel", "a velocity or direction along another one or along an edge", parallel},
     {"antiparallel", "the same, against it", antiparallel},
     {"near-parallel", "the same, 1e-2 ... 1e-16 radians off, either way", near_parallel},

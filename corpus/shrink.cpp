@@ -62,6 +62,7 @@ class Shrinker {
     const long before = cost_;
     scale_lengths();
     shift_positions();
+    round_lengths();
     for (std::size_t i = 0; i < best_.values.size(); ++i) simplify(i);
     for (std::size_t i = 0; i < best_.values.size(); ++i) copy_onto(i);
     return cost_ < before;
@@ -111,6 +112,24 @@ class Shrinker {
         }
         again = exact && accept(values);
       }
+    }
+  }
+  /// All lengths at once onto a grid, the coarsest first: what meets there, meets with simpler numbers.
+  void round_lengths() {
+    double largest = 0;
+    for (std::size_t i = 0; i < best_.values.size(); ++i) {
+      if (is_length(i)) largest = std::max(largest, std::abs(best_.values[i]));
+    }
+    if (!(largest > 0) || !std::isfinite(largest)) return;
+    for (int bits = 1; bits <= 12; ++bits) {
+      const int exponent = std::ilogb(largest) - bits;
+      std::vector<double> values = best_.values;
+      bool exact = true;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (is_length(i)) values[i] = std::ldexp(std::nearbyint(std::ldexp(values[i], -exponent)), exponent);
+        exact = exact && representable(values[i], best_.scalar);
+      }
+      if (exact && accept(values)) return;
     }
   }
   /// Each axis of all positions, so that one of them is at 0.
