@@ -499,6 +499,28 @@ std::optional<Partners> turned_corners(const Case& c, std::uint64_t) {
   });
 }
 
+/// Corners the other way around, where a shape has no front.
+std::optional<Partners> reversed_corners(const Case& c, std::uint64_t) {
+  if (!is(c, {"closest_point_triangle_perimeter", "closest_point_triangle_perimeter_edges", "closest_point_rectangle",
+              "closest_point_rectangle_perimeter", "point_in_triangle", "point_in_rectangle", "sphere_triangle_overlap",
+              "aabox_triangle_overlap"})) {
+    return std::nullopt;
+  }
+  Case other = c;
+  for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
+  for (const std::string& t : rectangles_of(c)) exchange(other, t + ".v1", t + ".v3");
+  if (other.values == c.values) return std::nullopt;
+  const Query& query = *c.query;
+  return counterpart(std::move(other), [&query](const Answer& own) {
+    Answer a = own;
+    for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+      if (query.outputs[i].name == "edge") a.values[i] = 2 - own.values[i];
+      if (query.outputs[i].name == "weights.y") std::swap(a.values[i], a.values[i + 1]);
+    }
+    return a;
+  });
+}
+
 int swapped_box_axis(int axis) {
   if (axis < 0 || axis > 14) return axis;
   if (axis < 6) return (axis + 3) % 6;
@@ -956,6 +978,7 @@ constexpr Relation table[] = {
     {"translated", "everything moved by a vector that adds exactly: places alike", false, translated},
     {"rotated", "everything turned by a whole quaternion, and as many times larger: times and decisions alike", false, rotated},
     {"turned-corners", "corners named in another order: nothing changes but their weights", false, turned_corners},
+    {"reversed-corners", "corners the other way around, where there is no front: the same but for weights and edges", false, reversed_corners},
     {"swapped", "the first thing as the second: normals turn around", false, swapped},
     {"reversed-directions", "a direction that only names a line, the other way: nothing changes", false, reversed_directions},
     {"another-hint", "another hint: nothing changes where the boxes overlap, and never the decision", false, another_hint},

@@ -329,6 +329,13 @@ INSTANTIATE_TEST_SUITE_P(
                   w[6] = 2 * v[6] - v[9], w[7] = 2 * v[7] - v[10], w[8] = 2 * v[8] - v[11];
                   return right("moving_point_triangle", w);
                 }},
+        Planted{"reversed-corners", "sphere_triangle_overlap",  // seen from its front only
+                [](std::span<const double> v) {
+                  Answer a = right("sphere_triangle_overlap", v);
+                  const double ax = v[7] - v[4], ay = v[8] - v[5], bx = v[10] - v[4], by = v[11] - v[5];
+                  if (ax * by < ay * bx) a.yes = false;
+                  return a;
+                }},
         Planted{"swapped", "box_box_overlap",  // the second box's size taken for the first
                 [](std::span<const double> v) {
                   std::vector<double> w(v.begin(), v.end());

@@ -249,8 +249,12 @@ std::string Extremes::table() const {
 std::string Extremes::summary() const {
   const bool drawn = std::filesystem::exists(settings_.folder / "extremes.html");
   const auto maps = std::uint64_t(std::count_if(maps_.begin(), maps_.end(), begun));
-  return fmt::format("{}{}, {} asked; {}{}", interrupted() ? "interrupted: " : "", plural_text(maps, "map"),
-                     plural_text(done_, "case"), (settings_.folder / "extremes.json").string(),
+  std::uint64_t gave_up = 0;
+  for (const ExtremesMap& m : maps_) {
+    for (const ExtremesCell& c : m.cells) gave_up += c.gave_up;
+  }
+  return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}", interrupted() ? "interrupted: " : "",
+                     plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"), count_text(gave_up), (settings_.folder / "extremes.json").string(),
                      drawn ? " and extremes.html" : "; no page, for this build found no node-d3");
 }
 

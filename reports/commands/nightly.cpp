@@ -213,7 +213,7 @@ class NightlyCommand : public Command {
         {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
          "stored about it. Then new cases are generated for all queries and subjects. A sixth of the time goes to "
          "properties: half of it to relations between answers, as 'nearmiss relations' asks for them, and half to the "
-         "property tests of this build, which ask about new cases of fresh seeds. In the last third of the "
+         "property tests of this build, which ask the tiers of collide about new cases of fresh seeds. In the last third of the "
          "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
          "everything else. They ask the tiers of collide, plugins, and the subjects of NEARMISS_ADD that they were "
          "built with. Where the fuzz targets are not built, the summary and the index say so, and the "

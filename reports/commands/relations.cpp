@@ -103,7 +103,7 @@ class RelationsCommand : public Command {
       throw BadInput("nothing was compared: no chosen subject offers a chosen query and its partners by a chosen relation");
     }
     fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
-    if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));
+    if (interrupted() || run.contradicted() > 0) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));
     if (run.contradicted() > 0) return 2;
     return run.bad() > 0 ? 1 : interrupted() ? 2 : 0;
   }
