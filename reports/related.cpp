@@ -39,7 +39,7 @@ std::string what_is_wrong(const RelationReport& r) {
   }
   if (r.breach == Breach::none) return "Nothing is proved against these answers";
   const std::string contract = some_contract_is_broken(r) ? "" : ". Neither answer breaks its contract for that case alone";
-  return fmt::format("Broken is: {}{}{}", r.broken, wrong.empty() ? "" : "; " + list_text(wrong), contract);
+  return fmt::format("Broken is: {}{}{}", r.broken, wrong.empty() ? "" : fmt::format("; {}", list_text(wrong)), contract);
 }
 
 Json partner_to_json(const Report& r) {
@@ -207,7 +207,7 @@ std::string replay_text(const RelatedCase& related, const RelatedReplay& r) {
     rows.back().emplace_back(breach_of(report));
   }
   for (const Replay::Unasked& u : r.unasked) rows.push_back({u.subject, "not asked: " + u.why});
-  text += "\n" + table_text(rows);
+  text += fmt::format("\n{}", table_text(rows));
   for (const RelationReport& report : r.reports) {
     if (report.breach != Breach::none || !report.oracle.empty()) text += fmt::format("\n{}", wrapped_text(explanation(report), ""));
   }

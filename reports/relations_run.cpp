@@ -148,6 +148,7 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
   }
   if (asked.empty()) return;
   for (const auto& [subject, first_answers] : own) {
+    if (should_stop()) return;
     std::vector<std::vector<Answer>> answers(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (partners[i]) answers[i].resize(1 + partners[i]->cases.size());

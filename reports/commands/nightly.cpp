@@ -200,7 +200,7 @@ bool ask_properties(Run& run, Clock::time_point until) {
   note = {{"state", "ran"}, {"seeds", o.seeds}, {"passed", o.passed}, {"failed", o.failed}, {"ended", o.ended}};
   run.note("properties", note);
   fmt::print("properties: {} with fresh seeds passed, {} failed{}{}\n", plural_text(o.passed, "test"), o.failed.size(),
-             o.failed.empty() ? "" : ": see properties/", o.ended.empty() ? "" : "; " + o.ended);
+             o.failed.empty() ? "" : ": see properties/", o.ended.empty() ? "" : fmt::format("; {}", o.ended));
   return !o.failed.empty() || !o.ended.empty();
 }
 
