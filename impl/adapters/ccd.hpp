@@ -74,10 +74,8 @@ struct Ccd {
     return depth<collide::Penetration<double>>(q.sphere, q.box);
   }
 
-  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q.sphere, q.velocity, q.box, q); }
-  static auto answer(const in::moving_sphere_passes_sphere<double>& q) {
-    return passes(q.sphere, q.velocity, q.fixed, q);
-  }
+  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q, q.box); }
+  static auto answer(const in::moving_sphere_passes_sphere<double>& q) { return passes(q, q.fixed); }
 
  private:
   /// The hull of at most three points, or a box, with a ball around each of its points.
@@ -180,13 +178,11 @@ struct Ccd {
     d.normal = {direction.v[0], direction.v[1], direction.v[2]};
     return only(d, {"depth", "normal"});
   }
-  template <class B, class Q>
-  static Reply<collide::Decision<double>> passes(const collide::Sphere<double>& sphere, const Vec3d& velocity,
-                                                 const B& b, const Q& q) {
-    const double until = q.forever ? time_to_pass(sphere.center, sphere.radius, velocity, ball_around(b)) : q.limit;
-    const Vec3d end = sphere.center + velocity * until;
-    if (!finite(end)) return CannotAnswer{"the end of the motion is not finite"};
-    return decided(collide::Capsule<double>{sphere.center, end, sphere.radius}, b);
+  template <class Q, class B>
+  static Reply<collide::Decision<double>> passes(const Q& q, const B& b) {
+    const auto way = way_of(q, ball_around(b));
+    if (!way) return CannotAnswer{no_end};
+    return decided(*way, b);
   }
 };
 

@@ -138,10 +138,8 @@ struct Fcl : FclShapes {
     return moved(q.sphere, q.velocity, q.plane);
   }
 
-  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q.sphere, q.velocity, q.box, q); }
-  static auto answer(const in::moving_sphere_passes_sphere<double>& q) {
-    return passes(q.sphere, q.velocity, q.fixed, q);
-  }
+  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q, q.box); }
+  static auto answer(const in::moving_sphere_passes_sphere<double>& q) { return passes(q, q.fixed); }
 
  private:
   using Solver = std::conditional_t<static_solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
@@ -193,7 +191,7 @@ struct Fcl : FclShapes {
     }
     if (horizon == 0) return only(meet(sphere, b, nullptr) ? Impact{0.0, {}, {}} : Impact::miss(), {"time"});
     const Vec3d end = sphere.center + velocity * horizon;
-    if (!finite(end)) return CannotAnswer{"the end of the motion is not finite"};
+    if (!finite(end)) return CannotAnswer{no_end};
     fcl::ContinuousCollisionRequestd request;
     request.gjk_solver_type = static_solver;
     request.ccd_solver_type = motion_solver;
@@ -205,13 +203,11 @@ struct Fcl : FclShapes {
     return only(result.is_collide ? Impact{result.time_of_contact * horizon, {}, {}} : Impact::miss(), {"time"});
   }
 
-  template <class B, class Q>
-  static Reply<collide::Decision<double>> passes(const collide::Sphere<double>& sphere, const Vec3d& velocity,
-                                                 const B& b, const Q& q) {
-    const double until = q.forever ? time_to_pass(sphere.center, sphere.radius, velocity, ball_around(b)) : q.limit;
-    const Vec3d end = sphere.center + velocity * until;
-    if (!finite(end)) return CannotAnswer{"the end of the motion is not finite"};
-    return decided(collide::Capsule<double>{sphere.center, end, sphere.radius}, b);
+  template <class Q, class B>
+  static Reply<collide::Decision<double>> passes(const Q& q, const B& b) {
+    const auto way = way_of(q, ball_around(b));
+    if (!way) return CannotAnswer{no_end};
+    return decided(*way, b);
   }
 };
 

@@ -55,6 +55,17 @@ inline double time_to_pass(const Vec3d& center, double radius, const Vec3d& velo
   return approach > 0 ? power_of_two_above((dot(plane.normal, center) + plane.offset + reach) / approach) : 0.0;
 }
 
+inline constexpr const char* no_end = "the end of the motion is not finite";
+
+/// The way of q.sphere as a capsule: until q.limit or, without one, past `target`. Empty where its end is not finite.
+template <class Q>
+std::optional<collide::Capsule<double>> way_of(const Q& q, const collide::Sphere<double>& target) {
+  const auto& [center, radius] = q.sphere;
+  const Vec3d end = center + q.velocity * (q.forever ? time_to_pass(center, radius, q.velocity, target) : q.limit);
+  if (!finite(end)) return std::nullopt;
+  return collide::Capsule<double>{center, end, radius};
+}
+
 /// An axis-aligned box by its center and half extents, where these are floats exactly.
 inline std::optional<collide::Box<double>> centered(const collide::AABox<double>& b) {
   collide::Box<double> box;
