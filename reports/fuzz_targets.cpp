@@ -93,13 +93,13 @@ std::vector<std::string> asked_in(const fs::path& log) {
   return {};
 }
 
-/// What the environment names already, and the subjects of NEARMISS_ADD.
-std::string subjects_to_ask() {
-  const char* named = std::getenv("NEARMISS_SUBJECTS");
-  return named == nullptr || *named == '\0' ? "added" : fmt::format("{},added", named);
-}
-
 }  // namespace
+
+std::vector<std::string> telling_of_added(const std::vector<std::string>& plugins) {
+  const char* named = std::getenv("NEARMISS_SUBJECTS");
+  const std::string before = named == nullptr || *named == '\0' ? "" : fmt::format("{},", named);
+  return {fmt::format("NEARMISS_SUBJECTS={}added", before), fmt::format("{}={}", plugins_variable, fmt::join(plugins, ":"))};
+}
 
 FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
   if (folder) return targets_in(*folder, queries);

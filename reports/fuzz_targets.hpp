@@ -39,6 +39,10 @@ struct FuzzOutcome {
   std::vector<std::string> asked;  ///< subjects; empty where the target did not say
 };
 
+/// What tells a fuzz target, or the properties, to ask the plugins and the subjects of NEARMISS_ADD as well: for its
+/// environment.
+std::vector<std::string> telling_of_added(const std::vector<std::string>& plugins);
+
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
   std::vector<std::string> plugins;  ///< files whose subjects are asked as well

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "reports/child.hpp"
+#include "reports/fuzz_targets.hpp"
 
 namespace nearmiss {
 
@@ -49,12 +50,14 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
   PropertyOutcome o;
   for (std::uint64_t seed = budget.seed; Clock::now() + 1s < end && !budget.cancelled() && o.ended.empty(); ++seed) {
     const fs::path log = folder / fmt::format("{}.log", seed);
+    std::vector<std::string> environment = telling_of_added(budget.plugins);
+    environment.push_back(fmt::format("NEARMISS_SEED={}", seed));
+    environment.push_back(fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()));
+    environment.push_back(fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed));
     // GoogleTest takes seeds of its order up to 99999.
     Child child({program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle", "--gtest_color=no",
                  fmt::format("--gtest_random_seed={}", 1 + seed % 99999)},
-                {fmt::format("NEARMISS_SEED={}", seed), fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()),
-                 fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed)},
-                log);
+                environment, log);
     bool stopped = false;
     for (; !child.ended(); std::this_thread::sleep_for(50ms)) {
       budget.tick();

@@ -15,6 +15,7 @@ std::optional<std::filesystem::path> find_property_tests();
 
 struct PropertyBudget {
   std::filesystem::path run_folder;  ///< receives properties/ with reports and logs
+  std::vector<std::string> plugins;  ///< files whose subjects are held to the properties as well
   std::uint64_t seed = 0;            ///< of the first pass; each further one has the next
   double seconds = 1;
   std::function<void()> tick;  ///< called about twenty times a second
@@ -30,7 +31,7 @@ struct PropertyOutcome {
   std::string ended;  ///< how it ended where that was no result; empty otherwise
 };
 
-/// Runs the properties of generated cases with fresh seeds, in an order that the seed says, until the time is over: what a
+/// Holds the tiers of collide, the subjects of NEARMISS_ADD and the plugins to the properties of generated cases with fresh seeds, in an order that the seed says, until the time is over: what a
 /// test says goes to properties/SEED.log, the report of a failing one to properties/QUERY/.
 PropertyOutcome run_property_tests(const std::filesystem::path& program, const PropertyBudget& budget);
 

@@ -195,7 +195,7 @@ bool ask_properties(Run& run, Clock::time_point until) {
     return false;
   }
   run.doing("properties");
-  const PropertyOutcome o = run_property_tests(*program, {run.settings().folder, run.settings().seed, left,
+  const PropertyOutcome o = run_property_tests(*program, {run.settings().folder, plugin_files(), run.settings().seed, left,
                                                           [&] { run.tick(); }, [&] { return run.should_stop(); }});
   note = {{"state", "ran"}, {"seeds", o.seeds}, {"passed", o.passed}, {"failed", o.failed}, {"ended", o.ended}};
   run.note("properties", note);
