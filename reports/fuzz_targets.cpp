@@ -127,12 +127,11 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
                                            fmt::format("-max_total_time={}", budget.seconds),
                                            fmt::format("-artifact_prefix={}/", artifacts.string()),
                                            "-print_final_stats=1", fmt::format("-timeout={}", seconds_for_one_case)};
-  const std::vector<std::string> more_environment{
-      "NEARMISS_FUZZ_REPORTS=" + reports.string(), "NEARMISS_SUBJECTS=" + subjects_to_ask(),
-      fmt::format("{}={}", plugins_variable, fmt::join(budget.plugins, ":"))};
+  std::vector<std::string> environment = telling_of_added(budget.plugins);
+  environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
   std::optional<Child> started;
   try {
-    started.emplace(arguments, more_environment, log);
+    started.emplace(arguments, environment, log);
   } catch (const std::system_error& e) {
     return {query, 0, 0, fmt::format("not started: {}", e.code().message()), true, {}};
   }

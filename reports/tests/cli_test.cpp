@@ -488,7 +488,7 @@ echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two'
 sleep 0.6
 exit 1
 )");
-  const PropertyOutcome o = run_property_tests(program, {folder / "r", 41, 2.5, [] {}, [] { return false; }});
+  const PropertyOutcome o = run_property_tests(program, {folder / "r", {}, 41, 2.5, [] {}, [] { return false; }});
   ASSERT_GE(o.seeds.size(), 2u);
   EXPECT_EQ(o.seeds[0], 41u);
   EXPECT_EQ(o.seeds[1], 42u);
@@ -502,7 +502,7 @@ TEST(Nightly, SaysHowPropertiesEndWithoutAResult) {
   const TemporaryFolder folder;
   const fs::path none = property_program(folder, "none", "exit 0\n"), killed = property_program(folder, "killed", "kill -SEGV $$\n");
   const auto ended = [&](const fs::path& program) {
-    return run_property_tests(program, {folder / "r", 1, 30, [] {}, [] { return false; }}).ended;
+    return run_property_tests(program, {folder / "r", {}, 1, 30, [] {}, [] { return false; }}).ended;
   };
   EXPECT_TRUE(ended(none).starts_with("no test ran")) << ended(none);
   EXPECT_TRUE(ended(killed).starts_with("killed by signal 11")) << ended(killed);
