@@ -7,6 +7,8 @@ namespace {
 
 V along(const V& p, const V& v, const Q& t) { return {p[0] + v[0] * t, p[1] + v[1] * t, p[2] + v[2] * t}; }
 Q square_of(const V& a) { return dot(a, a); }
+/// What 512 bits leave of a zero is zero.
+double rounded(const mpf_class& x) { return abs(x) < 1e-100 ? 0.0 : x.get_d(); }
 
 /// The nearest point of a triangle, with its weights, and the directions at whose right angles the
 /// distance counts: none for a vertex (all of it), one for an edge, two for the face.
@@ -134,19 +136,19 @@ Reference reference_moving_sphere_triangle(Reader r) {
     location[k] = at(from[k], rate[k]);
     away[k] = at(p[k], v[k]) - location[k];
     distance2 += away[k] * away[k];
-    reference.values.push_back(location[k].get_d());
+    reference.values.push_back(rounded(location[k]));
   }
   const V n = cross(sub(c[1], c[0]), sub(c[2], c[0]));
   if (distance2 == 0 || radius == 0) return reference;  // any normal of a cone
   const mpf_class distance = sqrt(distance2);
-  for (int k = 0; k < 3; ++k) reference.values.push_back(mpf_class(away[k] / distance).get_d());
+  for (int k = 0; k < 3; ++k) reference.values.push_back(rounded(away[k] / distance));
   if (square_of(n) == 0) return reference;
   for (int i = 0; i < 3; ++i) {  // (n x the opposite edge) . (location - its start) over n^2
     const V in = cross(n, sub(c[(i + 2) % 3], c[(i + 1) % 3]));
     mpf_class weight(0, 512);
     for (int k = 0; k < 3; ++k) weight += mpf_class(in[k], 512) * (location[k] - mpf_class(c[(i + 1) % 3][k], 512));
     weight /= mpf_class(square_of(n), 512);
-    reference.values.push_back(abs(weight) < 1e-100 ? 0.0 : weight.get_d());
+    reference.values.push_back(rounded(weight));
   }
   return reference;
 }
