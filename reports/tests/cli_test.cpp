@@ -482,13 +482,14 @@ fs::path property_program(const TemporaryFolder& folder, const std::string& name
 TEST(Nightly, CountsPropertiesAndGoesOnWithFreshSeedsUntilTheTimeIsOver) {
   const TemporaryFolder folder;
   const fs::path program = property_program(folder, "program", R"(
+echo "asks $NEARMISS_SUBJECTS $NEARMISS_PLUGINS"
 echo '[       OK ] Relations/EveryTierRelated.Keeps/one (3 ms)'
 echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two (4 ms)'
 echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two'
 sleep 0.6
 exit 1
 )");
-  const PropertyOutcome o = run_property_tests(program, {folder / "r", {}, 41, 2.5, [] {}, [] { return false; }});
+  const PropertyOutcome o = run_property_tests(program, {folder / "r", {"/a.so", "/b.so"}, 41, 2.5, [] {}, [] { return false; }});
   ASSERT_GE(o.seeds.size(), 2u);
   EXPECT_EQ(o.seeds[0], 41u);
   EXPECT_EQ(o.seeds[1], 42u);
@@ -496,6 +497,7 @@ exit 1
   EXPECT_EQ(o.failed, std::vector<std::string>(o.seeds.size(), "Agreement/EveryTier.Answers/two"));
   EXPECT_EQ(o.ended, "");
   EXPECT_EQ(read_file(folder / "r/properties/42.log").find("42 " + (folder / "r").string() + " seed=42 "), 0u);
+  EXPECT_NE(read_file(folder / "r/properties/42.log").find("\nasks added /a.so:/b.so\n"), std::string::npos);
 }
 
 TEST(Nightly, SaysHowPropertiesEndWithoutAResult) {
