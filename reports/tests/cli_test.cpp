@@ -532,7 +532,7 @@ TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
   fs::create_directory(folder / "targets");
   const std::string query(catalogue().front().name);
   folder.file("targets/fuzz_" + query, std::string("\0max_total_time\0", 16));  // nobody may execute it
-  const Ran ran = nearmiss({"nightly", "--minutes", "0.06", "--fuzz-targets", (folder / "targets").string(), "--out",
+  const Ran ran = nearmiss({"nightly", "--minutes", "0.1", "--fuzz-targets", (folder / "targets").string(), "--out",
                             (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r");
