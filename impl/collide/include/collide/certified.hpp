@@ -13,6 +13,11 @@
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define COLLIDE_SANITIZED
+#endif
+#endif
 
 #include <cfenv>
 #include <cstdint>
@@ -21,6 +26,14 @@
 #include <collide/contract.hpp>
 #include <collide/real.hpp>
 #include <collide/tiers.hpp>
+
+// Numbers with bounds are worth their speed where a whole text becomes one piece of code: the compiler then sees which
+// are exact. Sanitizers would check each operation of it by itself, and compile for very long.
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(COLLIDE_SANITIZED)
+#define COLLIDE_IN_ONE_PIECE [[gnu::noinline, gnu::flatten]]
+#else
+#define COLLIDE_IN_ONE_PIECE [[gnu::noinline]]
+#endif
 
 namespace collide {
 
@@ -216,7 +229,7 @@ struct Certified : Plain {
 
  private:
   template <class T, class F, class... Args>
-  [[gnu::noinline, gnu::flatten]] static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
+  COLLIDE_IN_ONE_PIECE static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
     using N = Bounded<T>;
     const detail::RangeFlags range;
     Doubt::any = false;
@@ -231,22 +244,31 @@ struct Certified : Plain {
     if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
       if constexpr (detail::has_long_double) {
         if (detail::known<T>(wide, detail::long_double_ratio)) {
-          return longer<T, detail::Longer<T, long double>>(wide.yes(), answer, text, args...);
+          in_long_double<T>(wide.yes(), answer, text, args...);
+          return true;
         }
       }
       if (detail::known<T>(wide, detail::double_word_ratio)) {
-        return longer<T, detail::Longer<T, DoubleWord<double>>>(wide.yes(), answer, text, args...) && !range.raised();
+        in_double_words<T>(wide.yes(), answer, text, args...);
+        return !range.raised();
       }
     }
     return false;
   }
 
+  template <class T, class F, class... Args>
+  COLLIDE_IN_ONE_PIECE static void in_long_double(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+    longer<T, detail::Longer<T, long double>>(yes, answer, text, args...);
+  }
+  template <class T, class F, class... Args>
+  [[gnu::noinline]] static void in_double_words(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+    longer<T, detail::Longer<T, DoubleWord<double>>>(yes, answer, text, args...);
+  }
   template <class T, class N, class F, class... Args>
-  static bool longer(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+  static void longer(bool yes, auto& answer, F& text, const Args&... args) noexcept {
     const auto wide = text(Plain{}, detail::raised<N>(args)...);
     convert(wide, answer, [](const N& from, T& to) { to = detail::rounded(from.value); });
     keep_apart(yes, answer);
-    return true;
   }
 
   template <class T, class F, class... Args>

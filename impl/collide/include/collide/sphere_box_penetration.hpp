@@ -33,8 +33,8 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
     if (!(depth >= T(0))) return {depth};
     std::array<T, 3> nearest;
     for (int i = 0; i < 3; ++i) nearest[i] = clamped(local[i], -half[i], half[i]);
-    const Vec3<T> normal = out_of_frame(axes, std::array<T, 3>{away[0] / -distance, away[1] / -distance, away[2] / -distance});
-    return {depth, normal, box.center + out_of_frame(axes, nearest)};
+    const Vec3<T> outward = unit<Tier>(Vec3<T>{away[0], away[1], away[2]});  // `distance` of subnormals has few digits
+    return {depth, -out_of_frame(axes, components(outward)), box.center + out_of_frame(axes, nearest)};
   }
   const NearestFace<T> face = nearest_face(local, half);
   const Vec3<T> normal = axes[face.axis] * -face.side;
