@@ -211,7 +211,8 @@ struct GivenPlace {
 };
 
 /// Only a name: an oracle's file adds its own where its query names a surface.
-void on_surface() = delete;
+class NoQuery;
+bool on_surface(const NoQuery&);
 
 /// Which three numbers of the answer are a place, from `number` on, and how far off they may be together.
 struct PlaceInAnswer {

@@ -248,7 +248,8 @@ TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
   arguments.insert(arguments.end(), {"sh", "-c", "echo $$"});
   if (run_program("unshare", arguments).out != "1\n") GTEST_SKIP() << "this machine allows no such space";
   const TemporaryFolder folder;
-  for (const char* files : {"4", "5", "6", "7", "8", "9"}) {
+  bool refused = false;
+  for (const char* files : {"4", "5", "6", "7", "8", "9", "10", "11"}) {
     const fs::path out = folder / files;
     const std::string run = std::string("ulimit -n ") + files + "; exec '" NEARMISS_PROGRAM "' run -n 20 -q box_box_overlap " +
                             "-s collide-fast-double -s collide-fast-float --out '" + out.string() + "'";
@@ -257,11 +258,14 @@ TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
                                        "sleep 60 & other=$!; (" + run + ") > '" + (folder / "log").string() +
                                            "' 2>&1; echo $?; kill $other && echo alive"});
     const Ran ran = run_program("unshare", arguments);
+    if (ran.out == "127\nalive\n") continue;  // too few to load the program itself
     EXPECT_TRUE(ran.out == "2\nalive\n" || ran.out == "0\nalive\n") << files << " files: " << ran.out << ran.err;
+    refused = refused || ran.out.starts_with("2");
     if (fs::exists(out / "index.json") && ran.out.starts_with("2")) {
       EXPECT_EQ(index_of(out)["state"], "failed");
     }
   }
+  EXPECT_TRUE(refused);
 }
 
 TEST(Run, SaysThatNothingWasAsked) {
