@@ -128,15 +128,21 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
     const auto cross = pair.cross_axis((axis - 6) / 3, (axis - 6) % 3).in1;
     return length(std::array<T, 3>{cross[0], cross[1], T(0)}) * pair.norm1;
   };
+  const auto apart = [](const T& distance, int axis) -> BoxPenetration<T> {
+    if constexpr (MachineNumber<T>) {  // a distance that underflows keeps its sign, for it decides
+      if (distance == T(0)) return {-std::numeric_limits<T>::denorm_min(), axis};
+    }
+    return {-distance, axis};
+  };
   if (hint >= 0 && hint < box_box_axes) {
     const T gap = detail::separation(pair, hint).gap;
-    if (!(gap <= T(0))) return {-(gap / length_of(hint)), hint};
+    if (!(gap <= T(0))) return apart(gap / length_of(hint), hint);
   }
   detail::BoxContact<T> least{-1, T(0), T(1)};
   for (int axis = 0; axis < box_box_axes; ++axis) {
     const detail::Separation<T> s = detail::separation(pair, axis);
     const T by = length_of(axis);
-    if (!(s.gap <= T(0))) return {-(s.gap / by), axis};
+    if (!(s.gap <= T(0))) return apart(s.gap / by, axis);
     if (by == T(0)) continue;
     const T depth = -s.gap / by;
     if (least.axis < 0 || depth < least.depth) least = {axis, depth, detail::sign_of(s.toward)};
