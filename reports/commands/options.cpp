@@ -9,6 +9,7 @@
 
 #include "corpus/bad_input.hpp"
 #include "oracles/plugin.hpp"
+#include "reports/run.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -150,5 +151,34 @@ void add_output_folder(CLI::App& app, std::string& folder, const std::string& de
 }
 
 std::uint64_t seed_or_random(std::optional<std::uint64_t> given) { return given ? *given : std::random_device{}(); }
+
+void Amount::declare(CLI::App& app, const std::string& what, const std::string& folder) {
+  constexpr std::uint64_t most_cases = 1'000'000'000'000;
+  constexpr double most_seconds = 1e8;
+  add_whole_number(app, "-n,--cases", cases, fmt::format("{}. Default: {}", what, default_cases), 1, most_cases);
+  add_positive_number(app, "-t,--seconds", seconds, "For so long, instead of a number of cases", "S", most_seconds);
+  app.get_option("--seconds")->excludes("--cases");
+  add_whole_number(app, "--seed", seed, "Of the generator. Default: a random one, which is printed", 0,
+                   std::numeric_limits<std::uint64_t>::max());
+  add_positive_number(app, "--measure", measure,
+                      "Judge all subjects by one promise in place of their own: a backward error of at most E, "
+                      "relative to the largest number of each kind, say 1e-6",
+                      "E", 1);
+  add_output_folder(app, out, folder + ". Default: reports/runs/TIME-SEED of the source tree");
+}
+
+std::optional<std::uint64_t> Amount::number() const {
+  return seconds ? std::nullopt : std::optional(cases.value_or(default_cases));
+}
+
+std::optional<std::chrono::steady_clock::time_point> Amount::until() const {
+  using Clock = std::chrono::steady_clock;
+  if (!seconds) return std::nullopt;
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*seconds));
+}
+
+std::filesystem::path Amount::folder(std::uint64_t chosen_seed) const {
+  return out.empty() ? new_run_folder(chosen_seed) : std::filesystem::path(out);
+}
 
 }  // namespace nearmiss

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,5 +52,22 @@ void add_output_folder(CLI::App& app, std::string& folder, const std::string& de
 
 /// `given`, or else one drawn from the system's entropy.
 std::uint64_t seed_or_random(std::optional<std::uint64_t> given);
+
+/// What commands share that ask generated cases: how many or how long, which ones, by which promise, and into which
+/// folder.
+struct Amount {
+  std::uint64_t default_cases;
+  std::optional<std::uint64_t> cases, seed;
+  std::optional<double> seconds, measure;
+  std::string out;
+
+  /// --cases, --seconds, --seed, --measure and --out. `what` is what --cases counts: "Cases of each query".
+  void declare(CLI::App& app, const std::string& what, const std::string& folder);
+  /// Empty where there is a time instead.
+  std::optional<std::uint64_t> number() const;
+  /// When the time is over that begins now; empty where there is a number of cases instead.
+  std::optional<std::chrono::steady_clock::time_point> until() const;
+  std::filesystem::path folder(std::uint64_t chosen_seed) const;
+};
 
 }  // namespace nearmiss

@@ -14,9 +14,6 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::uint64_t default_cases = 1'000, most_cases = 1'000'000'000;
-constexpr double most_seconds = 1e8;
-
 std::vector<std::string> relation_names() {
   std::vector<std::string> names;
   for (const Relation& r : relations()) names.emplace_back(r.name);
@@ -61,40 +58,26 @@ class RelationsCommand : public Command {
         ->check([](const std::string& name) {
           return find_relation(name) != nullptr ? "" : unknown_text("relation", name, relation_names());
         });
-    add_whole_number(app, "-n,--cases", cases_, fmt::format("Cases of each query and scalar. Default: {}", default_cases),
-                     1, most_cases);
-    add_positive_number(app, "-t,--seconds", seconds_, "For so long, instead of a number of cases", "S", most_seconds);
-    app.get_option("--seconds")->excludes("--cases");
-    add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
-                     std::numeric_limits<std::uint64_t>::max());
-    add_positive_number(app, "--measure", measure_,
-                        "Judge all subjects by one promise in place of their own: a backward error of at most E, "
-                        "relative to the largest number of each kind, say 1e-6",
-                        "E", 1);
+    amount_.declare(app, "Cases of each query and scalar", "The folder");
     app.add_flag("--bit-for-bit", bit_for_bit_,
                  "Every chosen subject claims to answer scaled cases alike bit for bit, as the tiers of collide do")
         ->disable_flag_override();
-    add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
-    if (measure_) hold_all_to(*measure_);
-    const std::uint64_t seed = seed_or_random(seed_);
+    if (amount_.measure) hold_all_to(*amount_.measure);
+    const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
     std::vector<const Relation*> wanted;
     for (const Relation& r : relations()) {
       if (chosen_.empty() || std::find(chosen_.begin(), chosen_.end(), r.name) != chosen_.end()) wanted.push_back(&r);
     }
-    const std::filesystem::path folder = out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_);
+    const std::filesystem::path folder = amount_.folder(seed);
     RelationsRun run({typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed, bit_for_bit_});
     const FolderLock lock(folder);
     fmt::print("seed {}\n", seed);
     std::fflush(stdout);
-    std::optional<RelationsRun::Clock::time_point> until;
-    if (seconds_) {
-      until = RelationsRun::Clock::now() +
-              std::chrono::duration_cast<RelationsRun::Clock::duration>(std::chrono::duration<double>(*seconds_));
-    }
-    run.run(seconds_ ? std::nullopt : std::optional(cases_.value_or(default_cases)), until);
+    const std::optional<RelationsRun::Clock::time_point> until = amount_.until();
+    run.run(amount_.number(), until);
     run.write();
     if (run.pairs() == 0 && !interrupted()) {
       if (until && RelationsRun::Clock::now() >= *until) {
@@ -111,9 +94,7 @@ class RelationsCommand : public Command {
  private:
   Selection selection_;
   std::vector<std::string> chosen_;
-  std::optional<std::uint64_t> cases_, seed_;
-  std::optional<double> seconds_, measure_;
-  std::string out_;
+  Amount amount_{1'000, {}, {}, {}, {}, {}};
   bool bit_for_bit_ = false;
 };
 

@@ -11,9 +11,6 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::uint64_t default_cases = 10'000, most_cases = 1'000'000'000'000;
-constexpr double most_seconds = 1e8;
-
 class RunCommand : public Command {
  public:
   Manual manual() const override {
@@ -49,45 +46,26 @@ class RunCommand : public Command {
   void declare(CLI::App& app) override {
     selection_.declare_subjects(app);
     selection_.declare_queries(app);
-    add_whole_number(app, "-n,--cases", cases_,
-                     fmt::format("Cases for each query and subject. Default: {}", default_cases), 1, most_cases);
-    add_positive_number(app, "-t,--seconds", seconds_, "For so long, instead of a number of cases", "S", most_seconds);
-    app.get_option("--seconds")->excludes("--cases");
-    add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
-                     std::numeric_limits<std::uint64_t>::max());
-    add_positive_number(app, "--measure", measure_,
-                        "Judge all subjects by one promise in place of their own: a backward error of at most E, "
-                        "relative to the largest number of each kind, say 1e-6",
-                        "E", 1);
+    amount_.declare(app, "Cases for each query and subject", "The run folder");
     app.add_flag("--by-class", by_class_,
                  "Print also each subject's findings by the generator's moves that made the cases")
         ->disable_flag_override();
-    add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
   }
 
   int run(const CLI::App&) override {
-    if (measure_) hold_all_to(*measure_);
+    if (amount_.measure) hold_all_to(*amount_.measure);
     selection_.check_offered();
-    const std::uint64_t seed = seed_or_random(seed_);
+    const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
-    RunSettings settings{typed_command_line(),
-                         out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
-                         selection_.queries(),
-                         selection_.subjects(),
-                         seed,
-                         std::nullopt,
-                         by_class_};
-    if (seconds_) {
-      settings.until = Run::Clock::now() +
-                       std::chrono::duration_cast<Run::Clock::duration>(std::chrono::duration<double>(*seconds_));
-    }
+    RunSettings settings{typed_command_line(), amount_.folder(seed), selection_.queries(), selection_.subjects(),
+                         seed, amount_.until(), by_class_};
     Run run(std::move(settings));
     fmt::print("seed {}, {}, into {}\n", seed,
-               seconds_ ? fmt::format("for {} s", *seconds_)
-                        : count_text(cases_.value_or(default_cases)) + " cases for each query and subject",
+               amount_.seconds ? fmt::format("for {} s", *amount_.seconds)
+                               : count_text(*amount_.number()) + " cases for each query and subject",
                run.settings().folder.string());
     std::fflush(stdout);
-    run.generate(seconds_ ? std::nullopt : std::optional(cases_.value_or(default_cases)));
+    run.generate(amount_.number());
     run.finish();
     fmt::print("\n{}\n", run.table());
     if (by_class_) fmt::print("{}\n", run.table_by_class());
@@ -98,9 +76,7 @@ class RunCommand : public Command {
 
  private:
   Selection selection_;
-  std::optional<std::uint64_t> cases_, seed_;
-  std::optional<double> seconds_, measure_;
-  std::string out_;
+  Amount amount_{10'000, {}, {}, {}, {}, {}};
   bool by_class_ = false;
 };
 
