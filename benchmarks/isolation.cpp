@@ -29,7 +29,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t batch_size = 512, batches = 16;  // as a run has them
+constexpr std::size_t batch_size = Workers::batch, batches = 16;
 constexpr double most_cost = 1.2;
 
 /// Seconds that some work took.

@@ -63,7 +63,8 @@ void try_to_load(const std::string& file, const std::string& path) {
 Answer ask(const void* offer, std::span<const double> inputs) {
   nearmiss_answer given{};
   given.given = ~std::uint64_t{0};
-  const int status = static_cast<const nearmiss_offer*>(offer)->answer(inputs.data(), &given);
+  const auto& of = *static_cast<const nearmiss_offer*>(offer);
+  const int status = of.answer(inputs.data(), &given);
   if (status != NEARMISS_ANSWERED && status != NEARMISS_CANNOT_ANSWER) {
     return Answer::without(Answer::Status::broke, fmt::format("the plugin's function returned {}", status));
   }
@@ -73,7 +74,8 @@ Answer ask(const void* offer, std::span<const double> inputs) {
   Answer a;
   a.yes = given.yes != 0;
   a.given = given.given;
-  std::copy(std::begin(given.values), std::end(given.values), a.values.begin());
+  a.count = static_cast<std::uint8_t>(of.outputs);
+  std::copy_n(std::begin(given.values), a.count, a.values.begin());
   return a;
 }
 

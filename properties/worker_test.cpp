@@ -1,12 +1,15 @@
 /// A subject may do anything in a worker: it costs one case, and the reason is told.
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -17,7 +20,7 @@
 namespace nearmiss {
 namespace {
 
-enum Misdeed { none, aborts, crashes, throws, throws_an_int, hangs, eats_memory, exits };
+enum Misdeed { none, aborts, crashes, throws, throws_an_int, hangs, sleeps, eats_memory, exits };
 
 /// Does what the first input says; otherwise answers with the second.
 Answer misbehave(std::span<const double> inputs) {
@@ -27,6 +30,7 @@ Answer misbehave(std::span<const double> inputs) {
     case throws: throw std::runtime_error("no contact found");
     case throws_an_int: throw 42;
     case hangs: for (volatile bool forever = true; forever;) {} break;
+    case sleeps: for (;;) pause();
     case eats_memory:
       for (std::vector<std::vector<char>> kept;;) kept.emplace_back(std::size_t{1} << 24, 'x');
     case exits: std::_Exit(3);
@@ -66,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Misdeeds, WorkerSurvives,
                                          std::tuple{"exception", throws, "no contact found"},
                                          std::tuple{"foreign_exception", throws_an_int, "no std::exception"},
                                          std::tuple{"hang", hangs, "no answer within 0.5"},
+                                         std::tuple{"sleep", sleeps, "no answer within 0.5"},
                                          std::tuple{"memory", eats_memory, "memory limit"},
                                          std::tuple{"exit", exits, "exit code 3"}),
                          [](const auto& test) { return std::string(std::get<0>(test.param)); });
@@ -84,6 +89,54 @@ TEST(Worker, SurvivesWhenEveryCaseBreaks) {
   std::vector<double> inputs;
   for (int i = 0; i < 20; ++i) inputs.insert(inputs.end(), {double(aborts), 0.0});
   for (const Answer& a : worker.ask(offering(), inputs, 2)) EXPECT_EQ(a.status, Answer::Status::broke);
+}
+
+/// Works for a tenth of a second of processor time.
+Answer work(std::span<const double>) {
+  const auto worked = [] {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+  };
+  for (const double begin = worked(); worked() < begin + 0.1;) {}
+  return {};
+}
+
+/// This process and those that it starts have one processor to share with `others` that never rest.
+class Crowd {
+ public:
+  explicit Crowd(int others) {
+    sched_getaffinity(0, sizeof before_, &before_);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(sched_getcpu(), &one);
+    sched_setaffinity(0, sizeof one, &one);
+    for (int i = 0; i < others; ++i) {
+      others_.push_back(fork());
+      if (others_.back() == 0) {
+        alarm(60);  // whatever becomes of the test
+        for (volatile bool forever = true; forever;) {}
+      }
+    }
+  }
+  ~Crowd() {
+    for (const pid_t p : others_) kill(p, SIGKILL), waitpid(p, nullptr, 0);
+    sched_setaffinity(0, sizeof before_, &before_);
+  }
+
+ private:
+  cpu_set_t before_;
+  std::vector<pid_t> others_;
+};
+
+TEST(Worker, HasPatienceWithASubjectThatWaitsForItsTurn) {
+  using Clock = std::chrono::steady_clock;
+  const Crowd crowd(24);
+  Worker worker(limits());
+  const Clock::time_point begin = Clock::now();
+  const auto answers = worker.ask({"work", Offer::answers, "", {}, work}, std::vector<double>{0}, 1);
+  EXPECT_EQ(answers[0].status, Answer::Status::answered) << answers[0].reason();
+  EXPECT_GT(Clock::now() - begin, std::chrono::seconds(1)) << "the machine was not busy: this shows nothing";
 }
 
 /// A pipe whose end is seen when every process that has it has ended.

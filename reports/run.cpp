@@ -29,7 +29,8 @@ using Json = nlohmann::ordered_json;
 using namespace std::chrono_literals;
 
 constexpr auto between_indexes = 5s;
-constexpr std::size_t batch_size = 512;
+constexpr std::size_t least_batch = 32;
+constexpr double most_seconds_per_batch = 0.4;
 constexpr int run_schema_version = 1;
 
 std::string utc_text(const char* format) { return fmt::format(fmt::runtime(format), fmt::gmtime(std::time(nullptr))); }
@@ -231,6 +232,7 @@ void Run::generate(std::optional<std::uint64_t> cases) {
     std::size_t subjects;
     std::uint64_t next = 0;
     double seconds = 0;
+    std::size_t batch = least_batch;  ///< cases to ask at once, as many as keep the run answering to a user who stops it
   };
   std::vector<Stream> streams;
   std::uint64_t total = cases_;
@@ -250,14 +252,14 @@ void Run::generate(std::optional<std::uint64_t> cases) {
   };
   const auto make = [&](Batch& batch) {
     const Clock::time_point begin = Clock::now();
-    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : std::uint64_t{batch_size}; };
+    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : std::uint64_t{s.batch}; };
     const auto behind = [&](const Stream& a, const Stream& b) {
       return std::pair(left(a) == 0, a.seconds) < std::pair(left(b) == 0, b.seconds);
     };
     const auto stream = std::min_element(streams.begin(), streams.end(), behind);
     batch.of = stream == streams.end() || left(*stream) == 0 ? nullptr : &*stream;
     if (batch.of == nullptr) return;
-    batch.cases.resize(std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)}));
+    batch.cases.resize(std::min({stream->batch, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)}));
     for (Case& c : batch.cases) nearmiss::generate(c, *stream->query, stream->scalar, settings_.seed, stream->next++);
     batch.seconds = seconds_since(begin);
     stream->seconds += batch.seconds;
@@ -266,7 +268,10 @@ void Run::generate(std::optional<std::uint64_t> cases) {
   for (make(now); now.of != nullptr && !should_stop(); std::swap(now, next)) {
     const Clock::time_point begin = Clock::now();
     examine(now.cases, [&] { make(next); });  // the subjects' processes answer meanwhile
-    now.of->seconds += seconds_since(begin) - next.seconds;
+    const double seconds = seconds_since(begin) - next.seconds;
+    now.of->seconds += seconds;
+    if (seconds < most_seconds_per_batch / 4) now.of->batch = std::min(2 * now.of->batch, Workers::batch);
+    if (seconds > most_seconds_per_batch) now.of->batch = std::max(now.of->batch / 2, least_batch);
   }
 }
 

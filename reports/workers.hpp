@@ -24,6 +24,8 @@ class Workers {
   std::span<const Answer> receive(const Subject& subject);
 
   static std::size_t capacity_for(const Query& query);
+  /// The most cases of one batch: the fewer, the more isolation costs (docs/isolation.md).
+  static constexpr std::size_t batch = 2048;
 
  private:
   Worker& of(const Subject& subject);

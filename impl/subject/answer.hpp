@@ -28,7 +28,7 @@ inline double ulp(double x, Scalar s) {
 }
 inline bool representable(double x, Scalar s) { return s == Scalar::float64 || double(float(x)) == x; }
 
-/// Plain bytes, so that it can live in memory shared with a worker process.
+/// Plain bytes, so that a worker process can hand it over.
 struct Answer {
   enum class Status : std::uint8_t {
     answered,
@@ -39,6 +39,7 @@ struct Answer {
 
   Status status = Status::answered;
   bool yes = false;                       ///< hit, overlap, inside
+  std::uint8_t count = capacity;          ///< of values; those behind are 0
   std::uint64_t given = ~std::uint64_t{0};  ///< bit i: values[i] is part of the answer
   std::array<double, capacity> values{};  ///< in the order of the query's outputs
   std::array<char, 200> why{};            ///< of cannot_answer and broke, cut to fit
@@ -49,6 +50,7 @@ struct Answer {
   static Answer without(Status status, std::string_view reason) {
     Answer a;
     a.status = status;
+    a.count = 0;
     a.given = 0;
     reason.copy(a.why.data(), a.why.size() - 1);
     return a;
@@ -72,6 +74,7 @@ Answer erase(const A& typed) {
   a.yes = typed.yes();
   std::size_t i = 0;
   collide::for_each_leaf(typed, [&](const auto& leaf, collide::Role) { a.values[i++] = static_cast<double>(leaf); });
+  a.count = static_cast<std::uint8_t>(i);
   return a;
 }
 

@@ -16,19 +16,56 @@
 #include <chrono>
 #include <exception>
 #include <fstream>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 namespace nearmiss {
 
 /// Lives in memory that both processes see. The parent writes it before it wakes the child; while the
-/// child works it alone writes `done` and `answers`.
+/// child works it alone writes `done` and the answers. To move memory from one core to another is what isolation
+/// costs most, so an answer takes no more of it than it has numbers, one behind the other.
 struct Worker::Shared {
+  struct Head {
+    Answer::Status status;
+    bool yes;
+    std::uint8_t count;
+    std::uint64_t given;
+  };
+
   std::atomic<std::size_t> done;  ///< cases answered
+  std::size_t used;               ///< of `numbers`
   std::size_t count, inputs;
   AnswerFunction answer;
   std::array<double, max_values> values;
-  std::array<Answer, capacity> answers;
+  std::array<Head, capacity> heads;
+  std::array<double, capacity * Answer::capacity> numbers;
+  std::array<decltype(Answer::why), capacity> reasons;  ///< of those without an answer; the others are not written
+
+  /// The answer to case number `done`.
+  void add(const Answer& a) {
+    const std::size_t i = done.load(std::memory_order_relaxed);
+    heads[i] = {a.status, a.yes, a.count, a.given};
+    std::copy_n(a.values.begin(), a.count, numbers.begin() + std::ptrdiff_t(used));
+    if (a.status != Answer::Status::answered) reasons[i] = a.why;
+    used += a.count;
+    done.store(i + 1, std::memory_order_release);
+  }
+  void take(std::vector<Answer>& answers) const {
+    answers.resize(std::max(answers.size(), count));
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Head& head = heads[i];
+      Answer& a = answers[i];
+      a.status = head.status, a.yes = head.yes, a.given = head.given;
+      std::copy_n(numbers.begin() + std::ptrdiff_t(at), head.count, a.values.begin());
+      if (head.count < a.count) std::fill(a.values.begin() + head.count, a.values.begin() + a.count, 0.0);
+      a.count = head.count;
+      if (head.status != Answer::Status::answered) a.why = reasons[i];
+      else a.why[0] = '\0';
+      at += head.count;
+    }
+  }
 };
 
 /// A process that runs; one that could not be started is never one, for its number would be -1, and to end that is to end
@@ -105,6 +142,30 @@ void confine(std::size_t bytes, int standard_error) {
   dup2(standard_error, STDERR_FILENO);
 }
 
+/// For how long in all a process has been ready to run while others ran; 0 where the system does not tell.
+double seconds_in_line(pid_t process) {
+  double running = 0, in_line = 0;  // nanoseconds
+  std::ifstream("/proc/" + std::to_string(process) + "/schedstat") >> running >> in_line;
+  return 1e-9 * in_line;
+}
+
+/// How long a process takes for a case, without the time for which a busy machine lets it wait.
+class Patience {
+ public:
+  void begin_again() { since_ = Clock::now(), in_line_before_.reset(); }
+  /// To be asked often: what it waited before it was first asked does not count.
+  double seconds(pid_t process) {
+    const double in_line = seconds_in_line(process);
+    if (!in_line_before_) in_line_before_ = in_line;
+    return std::chrono::duration<double>(Clock::now() - since_).count() - (in_line - in_line_before_.value_or(in_line));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point since_ = Clock::now();
+  std::optional<double> in_line_before_;
+};
+
 Answer answer_or_broke(const AnswerFunction& answer, std::span<const double> inputs) {
   try {
     return answer(inputs);
@@ -157,8 +218,7 @@ void Worker::start() {
     while (read(down.ends[0], &byte, 1) == 1) {
       for (std::size_t i = shared_->done; i < shared_->count; ++i) {
         const std::span<const double> inputs{shared_->values.data() + i * shared_->inputs, shared_->inputs};
-        shared_->answers[i] = answer_or_broke(shared_->answer, inputs);
-        shared_->done.store(i + 1, std::memory_order_release);
+        shared_->add(answer_or_broke(shared_->answer, inputs));
       }
       if (write(up.ends[1], &byte, 1) != 1) break;
     }
@@ -205,15 +265,15 @@ void Worker::send(const Offering& offering, std::span<const double> values, std:
   shared_->inputs = inputs_per_case;
   shared_->answer = offering.answer;
   shared_->done = 0;
+  shared_->used = 0;
   std::copy(values.begin(), values.end(), shared_->values.begin());
   if (!child_) start();
   [[maybe_unused]] const ssize_t woken = write(child_->to_child, "g", 1);  // a dead child is seen in receive
 }
 
 std::span<const Answer> Worker::receive() {
-  using Clock = std::chrono::steady_clock;
   std::size_t seen = 0;
-  auto since = Clock::now();
+  Patience patience;
   while (true) {
     pollfd p{child_->from_child, POLLIN, 0};
     const int ready = poll(&p, 1, 50);
@@ -221,24 +281,21 @@ std::span<const Answer> Worker::receive() {
     if (ready > 0 && read(child_->from_child, &byte, 1) == 1) break;
     if (const std::size_t done = shared_->done.load(std::memory_order_acquire); done != seen) {
       seen = done;
-      since = Clock::now();
+      patience.begin_again();
     }
-    const bool timed_out = std::chrono::duration<double>(Clock::now() - since).count() > limits_.seconds_per_case;
+    const bool timed_out = patience.seconds(child_->pid) > limits_.seconds_per_case;
     // What the subject started may hold the pipe open after the child itself has ended.
     if (ready <= 0 && !timed_out && !has_ended()) continue;
     const std::string how = how_it_ended(timed_out);
-    const std::size_t broken = shared_->done;
-    if (broken < shared_->count) {
-      shared_->answers[broken] = Answer::without(Answer::Status::broke, how);
-      shared_->done = broken + 1;
-    }
+    if (shared_->done < shared_->count) shared_->add(Answer::without(Answer::Status::broke, how));
     if (shared_->done >= shared_->count) break;
     start();
     [[maybe_unused]] const ssize_t woken = write(child_->to_child, "g", 1);
     seen = shared_->done;
-    since = Clock::now();
+    patience.begin_again();
   }
-  return {shared_->answers.data(), shared_->count};
+  shared_->take(answers_);
+  return {answers_.data(), shared_->count};
 }
 
 std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {

@@ -11,7 +11,7 @@
 namespace nearmiss {
 
 struct WorkerLimits {
-  double seconds_per_case = 2.0;             ///< of wall time
+  double seconds_per_case = 2.0;             ///< that pass, but for those in which others had the processor
   std::size_t bytes = std::size_t{2} << 30;  ///< of address space beyond what the process starts with
 };
 
@@ -30,14 +30,15 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   /// Answers to values.size() / inputs_per_case cases, in order. Until `receive` the caller is free to
-  /// do other work: the child runs beside it. At most `capacity` cases and max_values numbers.
+  /// do other work: the child runs beside it. At most `capacity` cases and max_values numbers. What is received stays
+  /// valid until the next send.
   void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
   std::span<const Answer> receive();
 
   /// send and receive, for any number of cases.
   std::vector<Answer> ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
 
-  static constexpr std::size_t capacity = 1024;
+  static constexpr std::size_t capacity = 2048;
   static constexpr std::size_t max_values = capacity * 64;
 
  private:
@@ -52,6 +53,7 @@ class Worker {
   WorkerLimits limits_;
   Shared* shared_;
   std::unique_ptr<Child> child_;
+  std::vector<Answer> answers_;  ///< of the batch that was received last
 };
 
 }  // namespace nearmiss
