@@ -73,10 +73,10 @@ void point_in_triangle(const collide::inputs::point_in_triangle<N>& q, Out& out)
   const auto along = [&](int axis) {
     const SeenAlong<N> view(corner, axis, p);
     if (view.may_be_outside) out.no();
-    if (view.may_have_area) out.yes({true, answer_vector<N>(view.weight)});
+    if (view.may_have_area) out.yes({answer_vector<N>(view.weight), true});
     if (!view.may_be_flat) return;
     const std::array<N, 3> given{N(out.given(0)), N(out.given(1)), N(out.given(2))};
-    out.yes({true, answer_vector<N>(flat_weights(corner, view.seen, p, given))});
+    out.yes({answer_vector<N>(flat_weights(corner, view.seen, p, given)), true});
   };
   if (q.axis >= 0) return along(q.axis);
   for_each_possible_axis(vector(q.normal), along);

@@ -10,9 +10,9 @@ template <class N, class Out>
 void ray_aabox(const collide::inputs::ray_aabox<N>& q, Out& out) {
   using RayHit = collide::RayHit<N>;
   const RayAndBox<N> r{vector(q.ray.origin), vector(q.ray.direction), vector(q.aabox.min), vector(q.aabox.max)};
-  if (may_start_in(r)) out.yes(RayHit{true, true, q.ray.origin});
+  if (may_start_in(r)) out.yes(RayHit{q.ray.origin, true, true});
   if (may_miss(r)) out.no(RayHit{}, 1);
-  for_each_entry(r, [&](const N&, const Vector<N>& place) { out.yes(RayHit{true, false, answer_vector(place)}); });
+  for_each_entry(r, [&](const N&, const Vector<N>& place) { out.yes(RayHit{answer_vector(place), true, false}); });
 }
 
 /// A ray that starts in the box meets it there.

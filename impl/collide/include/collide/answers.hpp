@@ -34,8 +34,8 @@ struct Decision {
 template <class T>
 struct Containment {
   static constexpr Kind kind = Kind::decision;
-  bool inside = false;
   Vec3<T> weights{};  ///< x, y, z are the weights of v0, v1, v2; their sum is 1; zero outside
+  bool inside = false;
 
   bool yes() const noexcept { return inside; }
   static constexpr auto decision() { return &Containment::inside; }
@@ -48,9 +48,9 @@ struct Containment {
 template <class T>
 struct RayHit {
   static constexpr Kind kind = Kind::decision;
+  Vec3<T> location{};    ///< where the ray enters, its origin for a start inside; zero for a miss
   bool hit = false;
   bool inside = false;   ///< the ray starts in the solid
-  Vec3<T> location{};    ///< where the ray enters, its origin for a start inside; zero for a miss
 
   bool yes() const noexcept { return hit; }
   static constexpr auto decision() { return &RayHit::hit; }

@@ -95,6 +95,66 @@ std::array<T, 3> contact_of_face(const BoxPair<T>& pair, const BoxContact<T>& at
   return vertex;
 }
 
+/// The answer for boxes that are apart along an axis.
+template <class T>
+BoxPenetration<T> apart(const T& distance, int axis) noexcept {
+  if constexpr (MachineNumber<T>) {  // a distance that underflows keeps its sign, for it decides
+    if (distance == T(0)) return {-std::numeric_limits<T>::denorm_min(), axis};
+  }
+  return {-distance, axis};
+}
+
+/// The answer for boxes that overlap least along an axis.
+template <class Tier, class T>
+BoxPenetration<T> contact_of_boxes(const Box<T>& box1, const Box<T>& box2, const BoxPair<T>& pair,
+                                   const BoxContact<T>& least) noexcept {
+  const Axes<T> axes1 = axes_of(box1.orientation);
+  const auto to_world = [&](const std::array<T, 3>& local) { return box1.center + out_of_frame(axes1, local); };
+  if (least.axis < 0) return {std::numeric_limits<T>::quiet_NaN()};  // only where nothing compares
+  const int axis = least.axis;
+  if (axis < 6) {
+    const Vec3<T> along = axis < 3 ? axes1[axis] : axes_of(box2.orientation)[axis - 3];
+    return {least.depth, axis, along * least.side, to_world(contact_of_face(pair, least))};
+  }
+  const int i = (axis - 6) / 3, j = (axis - 6) % 3;
+  const auto cross = pair.cross_axis(i, j).in1;
+  const T by = length(std::array<T, 3>{cross[0], cross[1], T(0)}) * least.side;
+  const Vec3<T> normal = axes1[(i + 1) % 3] * (cross[0] / by) + axes1[(i + 2) % 3] * (cross[1] / by);
+  return {least.depth, axis, normal, to_world(contact_of_edges<Tier>(pair, i, j, least.side))};
+}
+
+#if defined(COLLIDE_LANES)
+
+/// The same for the axis of a face.
+template <class T>
+BoxPenetration<T> contact_of_face(const Box<T>& box1, const Box<T>& box2, const BoxPairInLanes<T>& pair,
+                                  const BoxContact<T>& at) noexcept {
+  using L = Lanes<T>;
+  const FrameInLanes<T> frame1(lanes(box1.orientation));
+  const L side = L::all(at.side), half_depth = side * L::all(at.depth / T(2)), scale = pair.norm1 * pair.norm2;
+  const L sign_bit = L::all(T(-0.0)), index = L::of(T(0), T(1), T(2), T(3));
+  const std::array<L, 3> axes2 = FrameInLanes<T>::scaled(pair.turn).axes();  // in the frame of box 1, times scale
+  L along, vertex;
+  if (at.axis < 3) {
+    along = frame1.axes()[std::size_t(at.axis)];
+    const L is_axis = index == L::all(T(at.axis));
+    const std::array<T, 3> half2 = components(box2.half);
+    vertex = pair.between / pair.norm1;
+    for (std::size_t l = 0; l < 3; ++l) {  // to the side of box 2 that is deepest in
+      const L toward = sum_of_three(axes2[l] & is_axis) * side;
+      vertex = vertex - axes2[l] / scale * (L::all(half2[l]) ^ (toward & sign_bit));
+    }
+    vertex = vertex + (half_depth & is_axis);
+  } else {
+    along = FrameInLanes<T>(lanes(box2.orientation)).axes()[std::size_t(at.axis - 3)];
+    const L b = axes2[std::size_t(at.axis - 3)] / scale;
+    vertex = (pair.half1 ^ (b * side & sign_bit)) - b * half_depth;
+  }
+  return {at.depth, at.axis, first_three(along * side), first_three(lanes(box1.center) + frame1.out_of(vertex))};
+}
+
+#endif
+
 }  // namespace detail
 
 /// The penetration depth of two boxes: the least overlap of their projections onto the fifteen unit axes
@@ -113,6 +173,43 @@ std::array<T, 3> contact_of_face(const BoxPair<T>& pair, const BoxContact<T>& at
 /// of two boxes have these axes for normals, so the least overlap is the least translation that parts them.
 template <class Tier = Fast, class T>
 BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, int hint = -1) noexcept {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) {  // all axes at once: a hint could save nothing
+    using L = detail::Lanes<T>;
+    const detail::BoxPairInLanes<T> pair(box1, box2);
+    const L zero = L::all(T(0)), none = L::all(std::numeric_limits<T>::infinity());
+    std::array<detail::SeparationsInLanes<T>, 5> all;
+    unsigned overlaps = 0;
+    const bool good = pair.for_each_axis([&](int n, const auto& s) {
+      all[std::size_t(n)] = s;
+      overlaps |= unsigned((s.gap <= zero).bits() & 7) << 3 * n;
+    });
+    if (pair.is_usual() && good && all_three(are_finite(pair.between))) {
+      const auto number = [](const L& lanes, int bit) { return detail::four(lanes)[std::size_t(bit % 3)]; };
+      const int outside = detail::first_bit(~overlaps);
+      if (outside < box_box_axes) {
+        const auto& s = all[std::size_t(outside / 3)];
+        return detail::apart(number(s.gap, outside) / number(pair.lengths(outside / 3, s), outside), detail::axis_of_bit(outside));
+      }
+      const L per_scale = L::all(T(1)) / (pair.norm1 * pair.norm2), per_norm = L::all(T(1)) / pair.norm1;
+      const auto of_face = [&](int n, const L& per_length) { return (zero - all[std::size_t(n)].gap) * per_length; };
+      const auto of_family = [&](int n) {
+        const auto& s = all[std::size_t(n)];
+        return select(zero < s.cross2, (zero - s.gap) * per_norm / sqrt(s.cross2), none);
+      };
+      const std::array<L, 5> depths{of_face(0, per_scale), of_face(1, per_scale * per_norm), of_family(2), of_family(3), of_family(4)};
+      const L least = smallest_of_three(smaller(smaller(smaller(depths[0], depths[1]), smaller(depths[2], depths[3])), depths[4]));
+      unsigned is_least = 0;
+      for (int n = 0; n < 5; ++n) is_least |= unsigned((depths[std::size_t(n)] == least).bits() & 7) << 3 * n;
+      const int bit = detail::first_bit(is_least);
+      if (bit < box_box_axes) {
+        const detail::BoxContact<T> at{detail::axis_of_bit(bit), least.first(), detail::sign_of(number(all[std::size_t(bit / 3)].toward, bit))};
+        if (at.axis < 6) return detail::contact_of_face(box1, box2, pair, at);
+        return detail::contact_of_boxes<Plain>(box1, box2, detail::BoxPair<T>(pair), at);
+      }
+    }
+  }
+#endif
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return box_box_penetration<decltype(by)>(a...); }, box1, box2, hint);
   }
@@ -128,38 +225,20 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
     const auto cross = pair.cross_axis((axis - 6) / 3, (axis - 6) % 3).in1;
     return length(std::array<T, 3>{cross[0], cross[1], T(0)}) * pair.norm1;
   };
-  const auto apart = [](const T& distance, int axis) -> BoxPenetration<T> {
-    if constexpr (MachineNumber<T>) {  // a distance that underflows keeps its sign, for it decides
-      if (distance == T(0)) return {-std::numeric_limits<T>::denorm_min(), axis};
-    }
-    return {-distance, axis};
-  };
   if (hint >= 0 && hint < box_box_axes) {
     const T gap = detail::separation(pair, hint).gap;
-    if (!(gap <= T(0))) return apart(gap / length_of(hint), hint);
+    if (!(gap <= T(0))) return detail::apart(gap / length_of(hint), hint);
   }
   detail::BoxContact<T> least{-1, T(0), T(1)};
   for (int axis = 0; axis < box_box_axes; ++axis) {
     const detail::Separation<T> s = detail::separation(pair, axis);
     const T by = length_of(axis);
-    if (!(s.gap <= T(0))) return apart(s.gap / by, axis);
+    if (!(s.gap <= T(0))) return detail::apart(s.gap / by, axis);
     if (by == T(0)) continue;
     const T depth = -s.gap / by;
     if (least.axis < 0 || depth < least.depth) least = {axis, depth, detail::sign_of(s.toward)};
   }
-  const Axes<T> axes1 = axes_of(box1.orientation);
-  const auto to_world = [&](const std::array<T, 3>& local) { return box1.center + out_of_frame(axes1, local); };
-  if (least.axis < 0) return {std::numeric_limits<T>::quiet_NaN()};  // only where nothing compares
-  const int axis = least.axis;
-  if (axis < 6) {
-    const Vec3<T> along = axis < 3 ? axes1[axis] : axes_of(box2.orientation)[axis - 3];
-    return {least.depth, axis, along * least.side, to_world(detail::contact_of_face(pair, least))};
-  }
-  const int i = (axis - 6) / 3, j = (axis - 6) % 3;
-  const auto cross = pair.cross_axis(i, j).in1;
-  const T by = length(std::array<T, 3>{cross[0], cross[1], T(0)}) * least.side;
-  const Vec3<T> normal = axes1[(i + 1) % 3] * (cross[0] / by) + axes1[(i + 2) % 3] * (cross[1] / by);
-  return {least.depth, axis, normal, to_world(detail::contact_of_edges<Tier>(pair, i, j, least.side))};
+  return detail::contact_of_boxes<Tier>(box1, box2, pair, least);
 }
 
 namespace inputs {

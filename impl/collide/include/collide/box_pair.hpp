@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include <collide/frame.hpp>
@@ -76,6 +77,17 @@ struct CrossAxis {
   std::array<T, 2> in1, in2;
 };
 
+#if defined(COLLIDE_LANES)
+template <class T>
+struct BoxPairInLanes;
+template <class T>
+std::array<T, 4> four(const Lanes<T>& a) noexcept {
+  std::array<T, 4> numbers;
+  a.store(numbers.data());
+  return numbers;
+}
+#endif
+
 /// Both boxes, their quaternions q1 and q2 brought to a moderate length, with every number multiplied by
 /// |q1|^2 |q2|^2 (by |q1|^2 for the centers): each is a polynomial of the input, and nothing is divided.
 template <class T>
@@ -99,6 +111,22 @@ struct BoxPair {
     norm1 = detail::norm2(a);
     norm2 = detail::norm2(b);
   }
+
+#if defined(COLLIDE_LANES)
+  explicit BoxPair(const BoxPairInLanes<T>& pair) noexcept
+      : turn(four(pair.turn)),
+        between(components(first_three(pair.between))),
+        half1(components(first_three(pair.half1))),
+        half2(components(first_three(pair.half2))),
+        norm1(pair.norm1.first()),
+        norm2(pair.norm2.first()) {
+    const auto axes2 = FrameInLanes<T>::scaled(pair.turn).axes();
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::array<T, 4> axis = four(axes2[j]);
+      for (std::size_t i = 0; i < 3; ++i) cosine[i][j] = axis[i];
+    }
+  }
+#endif
 
   /// Of nearly parallel axes the cross product is small: each of its numbers is a sum of products p s of
   /// a small p, whose squares add up to 1 - |cosine|, and a large s, so that none is the difference of
@@ -164,6 +192,111 @@ Separation<T> separation(const BoxPair<T>& p, int axis, bool as_direction = true
   const T reach2 = (p.half2[j1] * abs(cross.in2[0]) + p.half2[j2] * abs(cross.in2[1])) * p.norm1;
   return {abs(toward) - (reach1 + reach2), toward};
 }
+
+#if defined(COLLIDE_LANES)
+
+/// Three axes at once, as Separation.
+template <class T>
+struct SeparationsInLanes {
+  Lanes<T> gap, toward;
+  Lanes<T> cross2;  ///< of a family: the squared lengths of the cross products
+};
+
+/// Axis i of the n-th three of BoxPairInLanes is bit 3 n + i; bit 15, no axis, is -1.
+inline int axis_of_bit(int bit) noexcept {
+  constexpr signed char axes[] = {0, 1, 2, 3, 4, 5, 6, 10, 14, 7, 11, 12, 8, 9, 13, -1};
+  return axes[bit];
+}
+inline int first_bit(unsigned bits) noexcept { return std::countr_zero(bits | 1u << box_box_axes); }
+
+/// BoxPair in lanes, and what every axis says. In lane i are what belongs to axis i of box 1, or to axis i of box 2,
+/// or to the cross products of axis i of box 1 with axis i + f of box 2, f = 0, 1, 2 the family.
+template <class T>
+struct BoxPairInLanes {
+  using L = Lanes<T>;
+  L turn, between, half1, half2, norm1, norm2;
+
+  BoxPairInLanes(const Box<T>& box1, const Box<T>& box2) noexcept
+      : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
+                       lanes(box2.half)) {}
+  /// Of boxes with these orientations and half extents, box 2 `way` from box 1.
+  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1, const L& half_of_2) noexcept
+      : half1(half_of_1), half2(half_of_2) {
+    const L a = of_moderate_length(q1), b = of_moderate_length(q2);
+    const L aw = a.template broadcast<3>(), bw = b.template broadcast<3>();
+    const L vector = (aw * b - a * bw) - (yzx(a) * zxy(b) - zxy(a) * yzx(b));
+    turn = select(L::first_three(), vector, sum_of_four(a * b));
+    between = FrameInLanes<T>::scaled(a).into(way);
+    norm1 = sum_of_four(a * a);
+    norm2 = sum_of_four(b * b);
+  }
+
+  /// What `moderate` makes of a quaternion; the squared length is where it may leave one as it is.
+  static L of_moderate_length(const Quaternion<T>& q) noexcept {
+    const L four = lanes(q);
+    if (all_three(is_moderate(sum_of_four(four * four)))) return four;
+    const auto [x, y, z, w] = moderate(q);
+    return L::of(x, y, z, w);
+  }
+  static L is_moderate(const L& norm) noexcept {
+    return (L::all(T(0.00390625)) <= norm) & (norm <= L::all(T(1024)));
+  }
+
+  /// Whether the quaternions are some, and the half extents finite.
+  bool is_usual() const noexcept { return all_three(is_moderate(norm1) & is_moderate(norm2) & are_finite(half1, half2)); }
+
+  /// What the n-th three are multiplied by.
+  L lengths(int n, const SeparationsInLanes<T>& s) const noexcept {
+    if (n == 0) return norm1 * norm2;
+    return norm1 * (n == 1 ? norm1 * norm2 : sqrt(s.cross2));
+  }
+
+  /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether
+  /// all of them are good: a cross product so small that products underflow is not.
+  template <class Each>
+  bool for_each_axis(Each each) const noexcept {
+    const auto frame = FrameInLanes<T>::scaled(turn), sizes = frame.magnitudes();
+    const L scale = norm1 * norm2;
+    const L toward1 = between * norm2, toward2 = frame.into(between);
+    each(0, SeparationsInLanes<T>{absolute(toward1) - (half1 * scale + sizes.out_of(half2)), toward1, scale});
+    each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2, scale});
+
+    const L v = turn, v1 = yzx(turn), v2 = zxy(turn), w = turn.template broadcast<3>();
+    const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
+    // Far above what underflows, and the same whatever the quaternions' lengths.
+    const L least = L::all(std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(0x1p40)) * scale * scale;
+    std::array<L, 3> small;
+    const auto family = [&](int number, const L& in1_0, const L& in1_1, const L& in2_0, const L& in2_1, const L& far1, const L& far2) COLLIDE_INLINE {
+      const L toward = b1 * in1_0 + b2 * in1_1;
+      const L reach1 = near1 * absolute(in1_0) + near2 * absolute(in1_1);
+      const L reach2 = far1 * absolute(in2_0) + far2 * absolute(in2_1);
+      const L cross2 = in1_0 * in1_0 + in1_1 * in1_1;
+      small[std::size_t(number) - 2] = cross2 < least;
+      each(number, SeparationsInLanes<T>{absolute(toward) - (reach1 + reach2) * norm1, toward, cross2});
+    };
+    family(2, w * v1 - v * v2, v * v1 + w * v2, v * v2 + w * v1, w * v2 - v * v1, yzx(half2), zxy(half2));
+    const auto mixed = [&](const L& p, const L& s, const L& q, const L& t, auto last) COLLIDE_INLINE {
+      const L qt = q * t, ps = p * s, sq = s * q, pt = p * t;
+      last(qt - ps, sq + pt, qt + ps, sq - pt);  // jj, kj, ii, ik
+    };
+    const L zero = L::all(T(0));
+    mixed(v - v1, v + v1, w + v2, w - v2, [&](const L& jj, const L& kj, const L& ii, const L& ik) {
+      family(3, zero - kj, jj, ii, zero - ik, zxy(half2), half2);
+    });
+    mixed(v - v2, v + v2, w - v1, w + v1, [&](const L& jj, const L& kj, const L& ii, const L& ik) {
+      family(4, zero - jj, zero - kj, zero - ik, zero - ii, half2, yzx(half2));
+    });
+    if (!any_of_three(small[0] | small[1] | small[2])) return true;
+    // Parallel axes have none, which is as good.
+    const auto vanish = [&](const L& p, const L& q) { return (p == zero) & (q == zero); };
+    const L bad = without(small[0], vanish(v1, v2) | vanish(v, w)) |
+                  without(small[1], vanish(v - v1, w + v2) | vanish(v + v1, w - v2)) |
+                  without(small[2], vanish(v - v2, w - v1) | vanish(v + v2, w + v1));
+    return !any_of_three(bad);
+  }
+};
+
+#endif
 
 }  // namespace detail
 }  // namespace collide

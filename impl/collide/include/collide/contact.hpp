@@ -55,4 +55,22 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) no
   return not_negative(nearest - sqrt(chord2) / sqrt(speed2));
 }
 
+/// Whether a moving point is surely outside of a ball and never comes to it; `from` is seen from the center, with numbers
+/// that are known to 1 u each (u = 2^-53), and the radius to 2^8 u.
+///
+/// Of numbers that neither overflow nor underflow each sum of products is known to 8 u of the sum of their magnitudes.
+inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) noexcept {
+  const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
+  const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;
+  const double scale = (distance2 + radius2) * speed2;
+  constexpr double least = 0x1p-800, most = 0x1p800, known = 0x1p-42;
+  if (!(scale >= least && scale <= most && distance2 >= least && distance2 <= most && speed2 >= least && speed2 <= most)) return false;
+  if (!(distance2 - radius2 > known * (distance2 + radius2))) return false;
+  if (along > known * (std::abs(x) + std::abs(y) + std::abs(z))) return true;  // it moves away
+  return (distance2 - radius2) * speed2 - along * along > known * (scale + along * along);
+}
+
+template <class T>
+Vec3<double> in_double(const Vec3<T>& a) noexcept { return {double(a.x), double(a.y), double(a.z)}; }
+
 }  // namespace collide::detail

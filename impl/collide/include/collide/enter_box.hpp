@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include <collide/lanes.hpp>
 #include <collide/number.hpp>
 
 namespace collide::detail {
@@ -45,5 +46,38 @@ BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, 
   }
   return entry;
 }
+
+#if defined(COLLIDE_LANES)
+
+/// The same in lanes, for any start.
+template <class T>
+struct BoxEntryInLanes {
+  bool enters;      ///< or starts inside
+  bool inside;      ///< starts in the closed box
+  Lanes<T> time;    ///< in every lane; 0 for a start inside
+  Lanes<T> at;
+  Lanes<T> axis;    ///< all bits where a face is entered: several where they are reached at once
+  Lanes<T> below;   ///< all bits where the start is below the box
+};
+
+/// Everybody is asked everything, and then selected from. Infinity and NaN do not enter.
+template <class T, class Over>
+BoxEntryInLanes<T> enter_box(const Lanes<T>& at, const Lanes<T>& step, const Lanes<T>& low, const Lanes<T>& high,
+                             Over over) noexcept {
+  using L = Lanes<T>;
+  const L zero = L::all(T(0)), most = L::all(std::numeric_limits<T>::max());
+  const L within = (low <= at) & (at <= high), below = at < low;
+  const L face = select(below, low, high), gap = face - at;
+  const L times = without(over(gap), within);
+  const L time = largest_of_three(times);
+  const L x = at + step * time;
+  const L axis = without(times == time, within);
+  const L ends_within = select(zero < step, x <= high, low <= x) | axis;
+  const L wrong_way = without((gap ^ step) | (step == zero), within);  // in the sign bits
+  const bool enters = all_three(without(ends_within & are_finite(at, step, low, high) & (time <= most), wrong_way));
+  return {enters, all_three(within), time, select(axis, face, smaller(larger(x, low), high)), axis, below};
+}
+
+#endif
 
 }  // namespace collide::detail

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <collide/lanes.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -83,5 +84,73 @@ NearestFace<T> nearest_face(const std::array<T, 3>& local, const std::array<T, 3
   }
   return best;
 }
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// axes_of and what is computed with it, in lanes.
+///
+/// The matrix has `main` on its diagonal, and beside it sums and differences of the same products, which both ways
+/// through it use in cyclic order.
+template <class T>
+class FrameInLanes {
+ public:
+  explicit FrameInLanes(const Lanes<T>& q) noexcept {
+    const Lanes<T> scaled = q * (Lanes<T>::all(T(2)) / sum_of_four(q * q));
+    const Lanes<T> squares = q * scaled;                             // xx, yy, zz
+    const Lanes<T> products = yzx(q) * zxy(scaled);                  // yz, zx, xy
+    const Lanes<T> turns = q.template broadcast<3>() * scaled;  // wx, wy, wz
+    main_ = Lanes<T>::all(T(1)) - (yzx(squares) + zxy(squares));
+    sums_ = products + turns;
+    differences_ = products - turns;
+  }
+  /// Of the rotation q / |q|, all numbers times |q|^2, so that nothing is divided.
+  static FrameInLanes scaled(const Lanes<T>& q) noexcept {
+    const Lanes<T> squares = q * q, two = Lanes<T>::all(T(2)), w = q.template broadcast<3>();
+    const Lanes<T> products = yzx(q) * zxy(q), turns = w * q;
+    FrameInLanes frame;
+    frame.main_ = (w * w - zxy(squares)) + (squares - yzx(squares));
+    frame.sums_ = two * (products + turns);
+    frame.differences_ = two * (products - turns);
+    return frame;
+  }
+  /// Every number's magnitude: what it makes of half extents is how far they reach.
+  FrameInLanes magnitudes() const noexcept {
+    FrameInLanes frame;
+    frame.main_ = absolute(main_);
+    frame.sums_ = absolute(sums_);
+    frame.differences_ = absolute(differences_);
+    return frame;
+  }
+  Lanes<T> into(const Lanes<T>& world) const noexcept {
+    return main_ * world + zxy(sums_) * yzx(world) + yzx(differences_) * zxy(world);
+  }
+  Lanes<T> out_of(const Lanes<T>& local) const noexcept {
+    return main_ * local + zxy(differences_) * yzx(local) + yzx(sums_) * zxy(local);
+  }
+  /// The columns: the axes in world coordinates.
+  std::array<Lanes<T>, 3> axes() const noexcept {
+    using L = Lanes<T>;
+    const L x = L::only(0), y = L::only(1), z = L::only(2), s = yzx(sums_), d = zxy(differences_);
+    const L mx = main_ & x, my = main_ & y, mz = main_ & z;
+    return {mx | (s & y) | (d & z), (d & x) | my | (s & z), (s & x) | (d & y) | mz};
+  }
+
+ private:
+  FrameInLanes() = default;
+  Lanes<T> main_, sums_, differences_;
+};
+
+/// See above.
+template <class T>
+Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) noexcept {
+  const Lanes<T> zero = Lanes<T>::all(T(0));
+  return larger(coordinate - half, zero) + smaller(coordinate + half, zero);
+}
+
+}  // namespace detail
+
+#endif
 
 }  // namespace collide

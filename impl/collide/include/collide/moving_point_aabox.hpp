@@ -22,6 +22,23 @@ namespace collide {
 /// Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) noexcept {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) {
+    using L = detail::Lanes<T>;
+    using detail::lanes;
+    const L step = lanes(velocity);
+    const auto entry = detail::enter_box(lanes(point), step, lanes(aabox.min), lanes(aabox.max),
+                                         [&](const L& gap) { return gap / step; });
+    const bool inside = entry.enters & entry.inside, enters = entry.enters & !inside;
+    const L normal = select(entry.below, L::all(T(-1)), L::all(T(1))) & first_of_three(entry.axis);
+    Entry<T> answer;
+    answer.inside = inside;
+    answer.location = first_three(entry.at & L::when(entry.enters));
+    answer.time = select(L::when(enters), entry.time, L::all(std::numeric_limits<T>::infinity())).first();
+    answer.normal = first_three(normal & L::when(enters));
+    return answer;
+  }
+#endif
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return moving_point_aabox<decltype(by)>(a...); },
                       point, velocity, aabox);

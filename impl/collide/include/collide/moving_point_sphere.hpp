@@ -24,6 +24,10 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                               bool solid) noexcept {
+  if constexpr (looks_first<Tier, T>) {
+    const Vec3<double> from = detail::in_double(point) - detail::in_double(sphere.center);
+    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius))) return Tier::sure(Impact<T>::miss());
+  }
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); },
                       point, velocity, sphere, solid);

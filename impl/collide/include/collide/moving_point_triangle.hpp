@@ -99,6 +99,26 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
   return time;
 }
 
+#if defined(COLLIDE_LANES)
+
+/// Whether the line of motion surely passes an edge on its outer side.
+///
+/// Each volume is a sum of products of three, known to 16 u of the product of the vectors' |x| + |y| + |z|, u = 2^-53,
+/// where nothing underflows.
+template <class T>
+bool surely_passes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept {
+  using L = Lanes<double>;
+  const L from = wide_lanes(point), along = wide_lanes(velocity);
+  const L a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from, c = wide_lanes(triangle.v2) - from;
+  const L volumes = sums_of_three(along * cross(a, b), along * cross(b, c), along * cross(c, a), along);
+  const L sizes = sums_of_three(absolute(a), absolute(b), absolute(c), absolute(along));
+  const L products = sizes * yzx(sizes), most = L::all(0x1p900);  // nothing overflows
+  const L bounds = L::all(0x1p-48) * (products * sizes.template broadcast<3>()) + L::all(0x1p-900);
+  return any_of_three((bounds < volumes) & (products <= most) & (bounds <= most));
+}
+
+#endif
+
 }  // namespace detail
 
 /// The first contact of `point`, moving by `velocity` per unit of time, with the front of `triangle`.
@@ -116,6 +136,38 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 template <class Tier = Fast, class T>
 Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                 const Triangle<T>& triangle) noexcept {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) {
+    using detail::lanes;
+    using L = detail::Lanes<T>;
+    using limits = std::numeric_limits<T>;
+    const L zero = L::all(T(0)), from_point = lanes(point), along = lanes(velocity);
+    const L v0 = lanes(triangle.v0), v1 = lanes(triangle.v1), v2 = lanes(triangle.v2);
+    const L a = v0 - from_point, b = v1 - from_point, c = v2 - from_point;
+    const L edge1 = v1 - v0, edge2 = v2 - v0, n = cross(edge1, edge2);
+    // The volumes beside the edges, none where an edge is too short to be seen, and minus the approach.
+    const L volumes = sums_of_three(along * cross(a, b), along * cross(b, c), along * cross(c, a), along * n);
+    const L others = sums_of_three(n * a, n * n, edge1 * edge1, edge2 * edge2);
+    const L behind = others.template broadcast<0>(), n2 = others.template broadcast<1>();
+    const bool hits = ((volumes < zero).bits() & (behind <= zero).bits()) == 15;
+    const L hit = L::when(hits);
+    const L time = behind / volumes.template broadcast<3>(), way = along * time;
+    // What needs no closer look: see normal_of and time_in_triangle.
+    const L wide = others.template broadcast<2>() * others.template broadcast<3>() <= L::all(T(16)) * n2;
+    const L in_range = (L::all(limits::min() / limits::epsilon()) <= n2) & (n2 <= L::all(limits::max() / T(16)));
+    const L beside = cross(n, way - a);
+    const L areas = sums_of_three(beside * (zero - edge1), beside * edge2, beside * (edge1 - edge2), zero);
+    const L over = zero < areas + (n2 & L::only(2));  // the third side's area is n . n less the others
+    const L sure = wide & in_range & without(over | L::when(!hits), volumes == zero);
+    if (all_three(sure) || any_of_three(zero < volumes)) {
+      return {select(hit, time, L::all(limits::infinity())).first(), first_three((from_point + way) & hit),
+              first_three((n / sqrt(n2)) & hit)};
+    }
+  }
+  if constexpr (looks_first<Tier, T>) {
+    if (detail::surely_passes(point, velocity, triangle)) return Tier::sure(Impact<T>::miss());
+  }
+#endif
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); },
                       point, velocity, triangle);

@@ -21,6 +21,12 @@ namespace collide {
 /// Source: a point that meets a ball with both radii.
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) noexcept {
+  if constexpr (looks_first<Tier, T>) {
+    const Vec3<double> from = detail::in_double(sphere.center) - detail::in_double(fixed.center);
+    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius) + double(fixed.radius))) {
+      return Tier::sure(Impact<T>::miss());
+    }
+  }
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); },
                       sphere, velocity, fixed);

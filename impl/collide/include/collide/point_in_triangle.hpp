@@ -83,7 +83,7 @@ Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& nor
   const detail::FaceFoot<T> face = detail::foot_on_face<Tier>(v[1] - v[0], v[2] - v[0], p - v[0]);
   if (face.inside) {
     const T rest = not_negative(T(1) - face.base_weight - face.apex_weight);
-    return {true, {rest, face.base_weight, face.apex_weight}};
+    return {{rest, face.base_weight, face.apex_weight}, true};
   }
   // No area, or on an edge but for rounding: the weights of the nearest edge's ends.
   std::array<T, 3> weights{};
@@ -98,7 +98,7 @@ Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& nor
     weights[i] = T(1) - foot.share;
     weights[(i + 1) % 3] = foot.share;
   }
-  return {true, {weights[0], weights[1], weights[2]}};
+  return {{weights[0], weights[1], weights[2]}, true};
 }
 
 namespace inputs {

@@ -14,13 +14,21 @@ namespace collide {
 template <class T>
 struct PreparedRay {
   Ray<T> ray{};
-  Vec3<T> inverse{};  ///< 1 / direction in each coordinate; 0 where that is 0
+  Vec3<T> inverse{};  ///< 1 / direction in each coordinate, at most the largest number; NaN where the ray is not finite
+  T padding{};        ///< makes any three numbers readable as four
 };
 
 template <class T>
 PreparedRay<T> prepare_ray(const Ray<T>& ray) noexcept {
-  const auto inverse = [](const T& x) { return x == T(0) ? T(0) : T(T(1) / x); };
-  return {ray, {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)}};
+  if constexpr (MachineNumber<T>) {
+    using limits = std::numeric_limits<T>;
+    if (!all_finite(ray)) return {ray, {limits::quiet_NaN(), limits::quiet_NaN(), limits::quiet_NaN()}};
+    const auto inverse = [](T x) { return x == T(0) ? limits::max() : clamped(T(1) / x, -limits::max(), limits::max()); };
+    return {ray, {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)}};
+  } else {
+    const auto inverse = [](const T& x) { return x == T(0) ? T(0) : T(T(1) / x); };  // 0 is not used
+    return {ray, {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)}};
+  }
 }
 
 /// A box that is asked about many rays; made by `prepare_aabox`.
@@ -28,7 +36,7 @@ template <class T>
 struct PreparedAABox {
   AABox<T> aabox{};
   Vec3<T> center{};   ///< nearly: whatever it is, the ball around it holds the box
-  T radius2{};        ///< of that ball, squared
+  T radius2{};        ///< of that ball, squared; NaN where the box is not finite
 };
 
 template <class T>
@@ -44,9 +52,43 @@ PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
   if constexpr (MachineNumber<T>) {
     using limits = std::numeric_limits<T>;
     radius2 = radius2 * (T(1) + T(8) * limits::epsilon()) + limits::min();
+    if (!all_finite(aabox)) radius2 = limits::quiet_NaN();
   }
   return {aabox, center, radius2};
 }
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// Three numbers of a prepared thing, which has a fourth behind them.
+template <class T, class Prepared>
+Lanes<T> three_of(const Prepared& prepared, const Vec3<T>& member) noexcept {
+  const char* const whole = reinterpret_cast<const char*>(&prepared);
+  return Lanes<T>::load(whole + (reinterpret_cast<const char*>(&member) - whole));
+}
+
+/// The ray is in the box from the last entry of a pair of faces to the first exit. Along a pair that it is parallel to
+/// it moves so slowly, by 1 / max, that it comes in time to neither face, unless it starts there.
+///
+/// Every time is off by 3 eps of itself, as if the gap were: faces and origin explain that.
+template <class T>
+inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) noexcept {
+  using L = Lanes<T>;
+  const L origin = three_of(prepared, prepared.ray.origin), direction = three_of(prepared, prepared.ray.direction);
+  const L inverse = three_of(prepared, prepared.inverse);
+  const L low = three_of(box, box.aabox.min), high = three_of(box, box.aabox.max);
+  const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
+  const L entry = largest_of_three(smaller(to_low, to_high)), exit = smallest_of_three(larger(to_low, to_high));
+  const L zero = L::all(T(0)), radius2 = L::all(box.radius2), time = larger(entry, zero);
+  const L hit = (time <= exit) & (radius2 == radius2);
+  const L location = smaller(larger(origin + direction * time, low), high) & hit;
+  return {first_three(location), (hit.bits() & 1) != 0, ((hit & (entry <= zero)).bits() & 1) != 0};
+}
+
+}  // namespace detail
+
+#endif
 
 /// Whether `ray` meets the closed `aabox`, and where it enters. A ray that starts in the box meets it there.
 ///
@@ -57,7 +99,10 @@ PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
 /// and the inverse saves divisions. Source: the face planes in front of the origin, the last one reached
 /// (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
-RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept {
+inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) return detail::ray_aabox_in_lanes(ray, box);
+#endif
   if constexpr (Tier::template lifts<T>) {
     const auto text = [&](auto by, const auto& r, const auto& b) {
       if constexpr (Tier::template keeps<T>) return ray_aabox<decltype(by)>(ray, box);
@@ -69,13 +114,13 @@ RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noex
   const std::array<T, 3> low = components(box.aabox.min), high = components(box.aabox.max);
   bool inside = true;
   for (int i = 0; i < 3; ++i) inside = inside && low[i] <= at[i] && at[i] <= high[i];
-  if (inside) return {true, true, ray.ray.origin};
+  if (inside) return {ray.ray.origin, true, true};
   const Vec3<T> to_center = box.center - ray.ray.origin;
   if (Tier::dot(to_center, ray.ray.direction) < T(0) && Tier::dot(to_center, to_center) > box.radius2) return {};
   const std::array<T, 3> inverse = components(ray.inverse);
   const auto entry = detail::enter_box(at, step, low, high, [&](const T& gap, int i) -> T { return gap * inverse[i]; });
   if (entry.axis < 0) return {};
-  return {true, false, {entry.at[0], entry.at[1], entry.at[2]}};
+  return {{entry.at[0], entry.at[1], entry.at[2]}, true, false};
 }
 
 namespace inputs {

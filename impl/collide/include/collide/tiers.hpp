@@ -6,6 +6,9 @@
 /// be right where numbers are real numbers: it uses + - * /, comparisons, sqrt, abs and the words of
 /// number.hpp, decides by comparisons alone, and keeps what guards against rounding, overflow and
 /// underflow behind `if constexpr (MachineNumber<T>)`.
+///
+/// Some queries have a second text, in lanes (lanes.hpp), which `Fast` takes where the machine has them, and some a first
+/// look in doubles, which `Certified` takes.
 #pragma once
 
 #include <bit>
@@ -18,6 +21,7 @@
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
 #include <collide/double_word.hpp>
+#include <collide/lanes.hpp>
 #include <collide/number.hpp>
 #include <collide/vec3.hpp>
 
@@ -169,6 +173,15 @@ struct Fast : Plain {
     return fast;
   }
 };
+
+/// Whether a tier answers a query that has a text in lanes with that text.
+template <class Tier, class T>
+inline constexpr bool in_lanes = std::same_as<Tier, Fast> && MachineNumber<T>;
+
+/// Whether a tier must be sure of a decision, and counts those of which the lanes are: a query that has such a look
+/// takes it before its text is computed with error bounds.
+template <class Tier, class T>
+inline constexpr bool looks_first = MachineNumber<T> && requires { Tier::sure(true); };
 
 /// After rounding: a depth that became zero keeps its sign, for it decides.
 template <class A>

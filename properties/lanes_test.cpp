@@ -1,0 +1,56 @@
+/// Queries that `Fast` answers in lanes have a text in plain numbers too, for machines without lanes and for the other
+/// tiers: it keeps the same promises.
+#include <collide/tiers.hpp>
+#include <gtest/gtest.h>
+
+#include "corpus/generator.hpp"
+#include "nearmiss/catalogue_inputs.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// `Fast` on a machine without lanes.
+struct WithoutLanes : collide::Fast {};
+static_assert(!collide::in_lanes<WithoutLanes, float> && collide::in_lanes<collide::Fast, float>);
+
+using AnswerTo = Answer (*)(std::span<const double> inputs);
+
+template <template <class> class Inputs, class T>
+Answer answer_without_lanes(std::span<const double> inputs) {
+  return erase(inputs_from<Inputs<T>>(inputs.data()).template ask<WithoutLanes>());
+}
+
+struct Asked {
+  const char* query;
+  AnswerTo in_float, in_double;
+};
+std::ostream& operator<<(std::ostream& out, const Asked& a) { return out << a.query; }
+
+class FastWithoutLanes : public testing::TestWithParam<Asked> {};
+
+TEST_P(FastWithoutLanes, KeepsItsContract) {
+  const Query& query = *find_query(GetParam().query);
+  for (const Scalar scalar : scalars) {
+    const bool is_float = scalar == Scalar::float32;
+    const collide::Contract& contract =
+        find_subject(is_float ? "collide-fast-float" : "collide-fast-double")->offering(query.name).contract;
+    for (std::uint64_t i = 0; i < 5000; ++i) {
+      const Case c = generate(query, scalar, stream(7), i);
+      const Answer answer = (is_float ? GetParam().in_float : GetParam().in_double)(c.values);
+      ASSERT_FALSE(is_violation(judge(c, answer, contract, Detail::verdict))) << query.name << ' ' << name_of(scalar) << ' ' << i;
+    }
+  }
+}
+
+#define NEARMISS_QUERY(name) \
+  Asked{#name, answer_without_lanes<collide::inputs::name, float>, answer_without_lanes<collide::inputs::name, double>},
+constexpr Asked every[] = {
+#include "oracles/catalogue.def"
+};
+#undef NEARMISS_QUERY
+
+INSTANTIATE_TEST_SUITE_P(Queries, FastWithoutLanes, testing::ValuesIn(every), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss
