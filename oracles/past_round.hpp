@@ -90,10 +90,13 @@ struct RoundPast {
       if (surely_zero(m.radius)) return out.yes(impact, normals_of_axis(c.part));
       // Of all right answers the one with the given normal, the one with the given location, and one half way
       // between them: which is nearest depends on how the radius compares with the location's own magnitude.
-      bool told = false;
+      bool told = false, all_told = true;
       const auto toward = [&](const Vector<N>& wish) {
         const std::optional<Vector<N>> normal = out_of_axis(wish, c.part);
-        if (!normal) return;
+        if (!normal) {
+          all_told = false;
+          return;
+        }
         impact.location = answer_vector(plus(c.on_axis, times(*normal, m.radius)));
         impact.normal = answer_vector(*normal);
         out.yes(impact);
@@ -108,7 +111,7 @@ struct RoundPast {
         toward(plus(times(normal, m.radius), place));
       }
       if (may_be_positive(norm2(place)) || !told) toward(place);
-      if (told) return;
+      if (told && all_told) return;  // else the right answer that is nearest may be among those not told
     }
     const auto unit = [&](const N& x) -> N {
       if constexpr (is_enclosure<N>) {
