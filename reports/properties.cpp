@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 34> for_every_query = {
     "Enclosures.ContainTheExactAnswerOfEveryInputWithinTheWidening",
     "Enclosures.GrowWithTheWidening",
     "Enclosures.OfTheInputItselfContainTheExactAnswers",
+    "FastInLanes.LeavesNothingInAMiss",
     "FastWithoutLanes.KeepsItsContract",
     "Generator.MakesCasesThatAreValidAndExactInTheirScalar",
     "Generator.KeepsToModerateMagnitudes",

@@ -25,7 +25,7 @@ class Workers {
 
   static std::size_t capacity_for(const Query& query);
   /// The most cases of one batch: the fewer, the more isolation costs (docs/isolation.md).
-  static constexpr std::size_t batch = 2048;
+  static constexpr std::size_t batch = Worker::capacity;
 
  private:
   Worker& of(const Subject& subject);

@@ -215,7 +215,7 @@ TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
   const Ran one = run_with_small_files(folder / "one", "4", "-q moving_sphere_box");
   EXPECT_EQ(one.exit_code, 2);
   EXPECT_EQ(std::count(one.err.begin(), one.err.end(), '\n'), 1) << one.err;
-  for (const char* part : {"/findings/moving_sphere_box/fcl-", "File too large; the run ends after ", " answers, violations: "}) {
+  for (const char* part : {"/findings/moving_sphere_box/fcl-", "File too large; the run ends after ", " answers, violations: ", " wrong time"}) {
     EXPECT_NE(one.err.find(part), std::string::npos) << one.err;
   }
   json index = index_of(folder / "one");

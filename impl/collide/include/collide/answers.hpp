@@ -30,6 +30,9 @@ struct Decision {
   static constexpr auto members() { return std::tuple<>(); }
 };
 
+// Of a decision with a place the place is first: in float such an answer comes back in two registers, and a place behind
+// the flags would lie in both.
+
 /// Whether a point lies in a triangle, seen along an axis.
 template <class T>
 struct Containment {

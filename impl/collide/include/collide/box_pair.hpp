@@ -17,21 +17,6 @@ inline constexpr int box_box_axes = 15;
 
 namespace detail {
 
-/// x, y, z, w of a quaternion, brought to a moderate length by a power of two: nothing is rounded.
-template <class T>
-std::array<T, 4> moderate(const Quaternion<T>& q) noexcept {
-  if constexpr (MachineNumber<T>) {
-    using std::abs;
-    const T largest = larger(larger(abs(q.x), abs(q.y)), larger(abs(q.z), abs(q.w)));
-    const bool usable = largest > T(0) && largest <= std::numeric_limits<T>::max();
-    if (usable && !(largest >= T(0.0625) && largest <= T(16))) {
-      const int down = -std::ilogb(largest);
-      return {std::ldexp(q.x, down), std::ldexp(q.y, down), std::ldexp(q.z, down), std::ldexp(q.w, down)};
-    }
-  }
-  return {q.x, q.y, q.z, q.w};
-}
-
 /// conj(a) b: the rotation b seen from the rotation a.
 template <class T>
 std::array<T, 4> seen_from(const std::array<T, 4>& a, const std::array<T, 4>& b) noexcept {
@@ -80,12 +65,6 @@ struct CrossAxis {
 #if defined(COLLIDE_LANES)
 template <class T>
 struct BoxPairInLanes;
-template <class T>
-std::array<T, 4> four(const Lanes<T>& a) noexcept {
-  std::array<T, 4> numbers;
-  a.store(numbers.data());
-  return numbers;
-}
 #endif
 
 /// Both boxes, their quaternions q1 and q2 brought to a moderate length, with every number multiplied by
@@ -199,7 +178,7 @@ Separation<T> separation(const BoxPair<T>& p, int axis, bool as_direction = true
 template <class T>
 struct SeparationsInLanes {
   Lanes<T> gap, toward;
-  Lanes<T> cross2;  ///< of a family: the squared lengths of the cross products
+  Lanes<T> length2;  ///< squares of what the gaps are multiplied by, over norm1: of a family those of the cross products
 };
 
 /// Axis i of the n-th three of BoxPairInLanes is bit 3 n + i; bit 15, no axis, is -1.
@@ -231,25 +210,8 @@ struct BoxPairInLanes {
     norm2 = sum_of_four(b * b);
   }
 
-  /// What `moderate` makes of a quaternion; the squared length is where it may leave one as it is.
-  static L of_moderate_length(const Quaternion<T>& q) noexcept {
-    const L four = lanes(q);
-    if (all_three(is_moderate(sum_of_four(four * four)))) return four;
-    const auto [x, y, z, w] = moderate(q);
-    return L::of(x, y, z, w);
-  }
-  static L is_moderate(const L& norm) noexcept {
-    return (L::all(T(0.00390625)) <= norm) & (norm <= L::all(T(1024)));
-  }
-
   /// Whether the quaternions are some, and the half extents finite.
   bool is_usual() const noexcept { return all_three(is_moderate(norm1) & is_moderate(norm2) & are_finite(half1, half2)); }
-
-  /// What the n-th three are multiplied by.
-  L lengths(int n, const SeparationsInLanes<T>& s) const noexcept {
-    if (n == 0) return norm1 * norm2;
-    return norm1 * (n == 1 ? norm1 * norm2 : sqrt(s.cross2));
-  }
 
   /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether
   /// all of them are good: a cross product so small that products underflow is not.
@@ -258,8 +220,8 @@ struct BoxPairInLanes {
     const auto frame = FrameInLanes<T>::scaled(turn), sizes = frame.magnitudes();
     const L scale = norm1 * norm2;
     const L toward1 = between * norm2, toward2 = frame.into(between);
-    each(0, SeparationsInLanes<T>{absolute(toward1) - (half1 * scale + sizes.out_of(half2)), toward1, scale});
-    each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2, scale});
+    each(0, SeparationsInLanes<T>{absolute(toward1) - (half1 * scale + sizes.out_of(half2)), toward1, norm2 * norm2});
+    each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2, scale * scale});
 
     const L v = turn, v1 = yzx(turn), v2 = zxy(turn), w = turn.template broadcast<3>();
     const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
@@ -280,10 +242,10 @@ struct BoxPairInLanes {
       last(qt - ps, sq + pt, qt + ps, sq - pt);  // jj, kj, ii, ik
     };
     const L zero = L::all(T(0));
-    mixed(v - v1, v + v1, w + v2, w - v2, [&](const L& jj, const L& kj, const L& ii, const L& ik) {
+    mixed(v - v1, v + v1, w + v2, w - v2, [&](const L& jj, const L& kj, const L& ii, const L& ik) COLLIDE_INLINE {
       family(3, zero - kj, jj, ii, zero - ik, zxy(half2), half2);
     });
-    mixed(v - v2, v + v2, w - v1, w + v1, [&](const L& jj, const L& kj, const L& ii, const L& ik) {
+    mixed(v - v2, v + v2, w - v1, w + v1, [&](const L& jj, const L& kj, const L& ii, const L& ik) COLLIDE_INLINE {
       family(4, zero - jj, zero - kj, zero - ik, zero - ii, half2, yzx(half2));
     });
     if (!any_of_three(small[0] | small[1] | small[2])) return true;

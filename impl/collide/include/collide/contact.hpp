@@ -16,6 +16,40 @@ Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal)
   return {time, location, normal};
 }
 
+#if defined(COLLIDE_LANES)
+/// What `impact` stores, as registers: shuffles would take longer.
+inline Impact<float> stored(Lanes<float> time, Lanes<float> location, Lanes<float> normal) noexcept {
+  static_assert(sizeof(Impact<float>) == 28);
+  Impact<float> answer;
+  char* const numbers = reinterpret_cast<char*>(&answer);
+  _mm_store_ss(&answer.time, time.v);
+  _mm_storeu_ps(reinterpret_cast<float*>(numbers + 4), location.v);  // and a fourth number, which the next replaces
+  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + 16), normal.v);
+  _mm_store_ss(&answer.normal.z, _mm_movehl_ps(normal.v, normal.v));
+  return answer;
+}
+inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<double> normal) noexcept {
+  static_assert(sizeof(Impact<double>) == 56);
+  Impact<double> answer;
+  char* const numbers = reinterpret_cast<char*>(&answer);
+  _mm_store_sd(&answer.time, time.v);
+  _mm_storeu_pd(reinterpret_cast<double*>(numbers + 8), location.low.v);
+  _mm_store_sd(&answer.location.z, location.high.v);
+  _mm_storeu_pd(reinterpret_cast<double*>(numbers + 32), normal.low.v);
+  _mm_store_sd(&answer.normal.z, normal.high.v);
+  return answer;
+}
+
+/// A contact where `hit` has all bits in the first lane, whatever the others are where it has none. A time is not negative.
+template <class P, class L>
+auto impact(const P& hit, const P& time, const L& location, const L& normal) noexcept {
+  using T = decltype(time.first());
+  const P none = without(P::first_is(std::numeric_limits<T>::infinity()), hit);
+  const L hits = every(hit);
+  return stored(larger(none, time), location & hits, normal & hits);
+}
+#endif
+
 /// A unit vector at a right angle to the unit vector u; any unit vector where u is zero.
 template <class Tier, class T>
 Vec3<T> perpendicular(const Vec3<T>& u) noexcept {
@@ -55,10 +89,28 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) no
   return not_negative(nearest - sqrt(chord2) / sqrt(speed2));
 }
 
-/// Whether a moving point is surely outside of a ball and never comes to it; `from` is seen from the center, with numbers
-/// that are known to 1 u each (u = 2^-53), and the radius to 2^8 u.
+/// Whether a ball surely moves away from the front of a plane, or starts wholly behind it; a point is a ball of radius 0.
 ///
-/// Of numbers that neither overflow nor underflow each sum of products is known to 8 u of the sum of their magnitudes.
+/// A sum of n products is known to n u of the sum of their magnitudes (u = 2^-53), the length of the normal to 3 u of
+/// itself, each product to 2^-1074 where it underflows; 8 u are asked for.
+inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
+                          const Plane<double>& plane) noexcept {
+  const Vec3<double>& n = plane.normal;
+  const auto magnitudes = [&n](const Vec3<double>& v) { return std::abs(n.x * v.x) + std::abs(n.y * v.y) + std::abs(n.z * v.z); };
+  constexpr double known = 0x1p-50, least = 0x1p-1000;
+  if (Plain::dot(n, velocity) > known * magnitudes(velocity) + least) return true;
+  const double length2 = Plain::dot(n, n), reach = radius * std::sqrt(length2);
+  if (!(length2 >= least)) return false;
+  const double height = Plain::dot(n, center) + plane.offset;
+  return -height - reach > known * (magnitudes(center) + std::abs(plane.offset) + reach) + least;
+}
+
+/// Whether a moving point is surely outside of a ball and never comes to it. `from`, seen from the center, and `radius`
+/// are differences and sums of what is given, each number known to 1 u (u = 2^-53).
+///
+/// Where nothing overflows or underflows a square of a length is known to 5 u of itself, `along` to 5 u of the sum of its
+/// terms' magnitudes, at most sqrt(distance2 speed2): each difference below is known to less than 2^6 u of what it is
+/// compared with, and 2^11 u are asked for.
 inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) noexcept {
   const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
   const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;

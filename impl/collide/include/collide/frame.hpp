@@ -85,9 +85,41 @@ NearestFace<T> nearest_face(const std::array<T, 3>& local, const std::array<T, 3
   return best;
 }
 
+namespace detail {
+
+/// x, y, z, w of a quaternion, brought to a moderate length by a power of two: nothing is rounded.
+template <class T>
+std::array<T, 4> moderate(const Quaternion<T>& q) noexcept {
+  if constexpr (MachineNumber<T>) {
+    using std::abs;
+    const T largest = larger(larger(abs(q.x), abs(q.y)), larger(abs(q.z), abs(q.w)));
+    const bool usable = largest > T(0) && largest <= std::numeric_limits<T>::max();
+    if (usable && !(largest >= T(0.0625) && largest <= T(16))) {
+      const int down = -std::ilogb(largest);
+      return {std::ldexp(q.x, down), std::ldexp(q.y, down), std::ldexp(q.z, down), std::ldexp(q.w, down)};
+    }
+  }
+  return {q.x, q.y, q.z, q.w};
+}
+
+}  // namespace detail
+
 #if defined(COLLIDE_LANES)
 
 namespace detail {
+
+/// Whether `moderate` may leave a quaternion of that squared length as it is; not where that is NaN.
+template <class T>
+Lanes<T> is_moderate(const Lanes<T>& norm2) noexcept {
+  return (Lanes<T>::all(T(0.00390625)) <= norm2) & (norm2 <= Lanes<T>::all(T(1024)));
+}
+template <class T>
+Lanes<T> of_moderate_length(const Quaternion<T>& q) noexcept {
+  const Lanes<T> four = lanes(q);
+  if (all_three(is_moderate(sum_of_four(four * four)))) return four;
+  const auto [x, y, z, w] = moderate(q);
+  return Lanes<T>::of(x, y, z, w);
+}
 
 /// axes_of and what is computed with it, in lanes.
 ///
@@ -107,12 +139,12 @@ class FrameInLanes {
   }
   /// Of the rotation q / |q|, all numbers times |q|^2, so that nothing is divided.
   static FrameInLanes scaled(const Lanes<T>& q) noexcept {
-    const Lanes<T> squares = q * q, two = Lanes<T>::all(T(2)), w = q.template broadcast<3>();
-    const Lanes<T> products = yzx(q) * zxy(q), turns = w * q;
+    const Lanes<T> squares = q * q, twice = q + q, w = q.template broadcast<3>();
+    const Lanes<T> products = yzx(q) * zxy(twice), turns = w * twice;
     FrameInLanes frame;
     frame.main_ = (w * w - zxy(squares)) + (squares - yzx(squares));
-    frame.sums_ = two * (products + turns);
-    frame.differences_ = two * (products - turns);
+    frame.sums_ = products + turns;
+    frame.differences_ = products - turns;
     return frame;
   }
   /// Every number's magnitude: what it makes of half extents is how far they reach.
@@ -145,8 +177,7 @@ class FrameInLanes {
 /// See above.
 template <class T>
 Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) noexcept {
-  const Lanes<T> zero = Lanes<T>::all(T(0));
-  return larger(coordinate - half, zero) + smaller(coordinate + half, zero);
+  return coordinate - smaller(larger(coordinate, Lanes<T>::all(T(0)) - half), half);
 }
 
 }  // namespace detail

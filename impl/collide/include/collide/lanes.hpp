@@ -2,6 +2,10 @@
 /// misses nobody can predict. A text in lanes has no branches to mispredict: it selects.
 #pragma once
 
+#include <array>
+#include <concepts>
+#include <type_traits>
+
 #include <collide/number.hpp>
 #include <collide/shapes.hpp>
 
@@ -10,8 +14,10 @@
 #define COLLIDE_LANES 1
 #if defined(__GNUC__)  // for lambdas: as functions they would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
+#define COLLIDE_APART __attribute__((noinline, cold))  // for what is rare: inlined it would cost registers where it is not
 #else
 #define COLLIDE_INLINE
+#define COLLIDE_APART
 #endif
 #endif
 
@@ -28,6 +34,10 @@ struct Lanes<float> {
   __m128 v;
 
   static Lanes all(float x) noexcept { return {_mm_set1_ps(x)}; }
+  /// x, 0, 0, 0.
+  static Lanes first_is(float x) noexcept { return {_mm_set_ss(x)}; }
+  /// x, y, 0, 0.
+  static Lanes two(float x, float y) noexcept { return {_mm_setr_ps(x, y, 0, 0)}; }
   static Lanes of(float x, float y, float z, float w = 0) noexcept { return {_mm_setr_ps(x, y, z, w)}; }
   /// The four numbers that lie from there on.
   static Lanes load(const char* there) noexcept { return {_mm_loadu_ps(reinterpret_cast<const float*>(there))}; }
@@ -69,65 +79,119 @@ struct Lanes<float> {
   float first() const noexcept { return _mm_cvtss_f32(v); }
 };
 
+/// A register of two doubles.
+struct TwoDoubles {
+  __m128d v;
+
+  static TwoDoubles all(double x) noexcept { return {_mm_set1_pd(x)}; }
+  static TwoDoubles first_is(double x) noexcept { return {_mm_set_sd(x)}; }
+  static TwoDoubles two(double x, double y) noexcept { return {_mm_setr_pd(x, y)}; }
+
+  friend TwoDoubles operator+(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_add_pd(a.v, b.v)}; }
+  friend TwoDoubles operator-(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_sub_pd(a.v, b.v)}; }
+  friend TwoDoubles operator*(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_mul_pd(a.v, b.v)}; }
+  friend TwoDoubles operator/(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_div_pd(a.v, b.v)}; }
+  friend TwoDoubles operator<(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_cmplt_pd(a.v, b.v)}; }
+  friend TwoDoubles operator<=(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_cmple_pd(a.v, b.v)}; }
+  friend TwoDoubles operator==(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_cmpeq_pd(a.v, b.v)}; }
+  friend TwoDoubles operator&(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_and_pd(a.v, b.v)}; }
+  friend TwoDoubles operator|(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_or_pd(a.v, b.v)}; }
+  friend TwoDoubles operator^(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_xor_pd(a.v, b.v)}; }
+  friend TwoDoubles without(TwoDoubles a, TwoDoubles where) noexcept { return {_mm_andnot_pd(where.v, a.v)}; }
+  int bits() const noexcept { return _mm_movemask_pd(v); }
+
+  friend TwoDoubles sqrt(TwoDoubles a) noexcept { return {_mm_sqrt_pd(a.v)}; }
+  friend TwoDoubles larger(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_max_pd(b.v, a.v)}; }
+  friend TwoDoubles smaller(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_min_pd(b.v, a.v)}; }
+
+  template <int x, int y>
+  TwoDoubles shuffled() const noexcept { return {_mm_shuffle_pd(v, v, x | y << 1)}; }
+  double first() const noexcept { return _mm_cvtsd_f64(v); }
+};
+
 template <>
 struct Lanes<double> {
-  __m128d low, high;
+  TwoDoubles low, high;
 
-  static Lanes all(double x) noexcept { return {_mm_set1_pd(x), _mm_set1_pd(x)}; }
-  static Lanes of(double x, double y, double z, double w = 0) noexcept { return {_mm_setr_pd(x, y), _mm_setr_pd(z, w)}; }
+  static Lanes all(double x) noexcept { return {TwoDoubles::all(x), TwoDoubles::all(x)}; }
+  static Lanes of(double x, double y, double z, double w = 0) noexcept { return {{_mm_setr_pd(x, y)}, {_mm_setr_pd(z, w)}}; }
   static Lanes load(const char* there) noexcept {
     const double* const first = reinterpret_cast<const double*>(there);
-    return {_mm_loadu_pd(first), _mm_loadu_pd(first + 2)};
+    return {{_mm_loadu_pd(first)}, {_mm_loadu_pd(first + 2)}};
   }
   static Lanes when(bool yes) noexcept {
-    const __m128d bits = _mm_castsi128_pd(_mm_set1_epi32(-int(yes)));
+    const TwoDoubles bits{_mm_castsi128_pd(_mm_set1_epi32(-int(yes)))};
     return {bits, bits};
   }
 
   static Lanes first_three() noexcept {
-    return {_mm_castsi128_pd(_mm_set1_epi32(-1)), _mm_castsi128_pd(_mm_setr_epi32(-1, -1, 0, 0))};
+    return {{_mm_castsi128_pd(_mm_set1_epi32(-1))}, {_mm_castsi128_pd(_mm_setr_epi32(-1, -1, 0, 0))}};
   }
   static Lanes only(int i) noexcept {
-    return {_mm_castsi128_pd(_mm_setr_epi32(-(i == 0), -(i == 0), -(i == 1), -(i == 1))),
-            _mm_castsi128_pd(_mm_setr_epi32(-(i == 2), -(i == 2), -(i == 3), -(i == 3)))};
+    return {{_mm_castsi128_pd(_mm_setr_epi32(-(i == 0), -(i == 0), -(i == 1), -(i == 1)))},
+            {_mm_castsi128_pd(_mm_setr_epi32(-(i == 2), -(i == 2), -(i == 3), -(i == 3)))}};
   }
 
-  friend Lanes operator+(Lanes a, Lanes b) noexcept { return {_mm_add_pd(a.low, b.low), _mm_add_pd(a.high, b.high)}; }
-  friend Lanes operator-(Lanes a, Lanes b) noexcept { return {_mm_sub_pd(a.low, b.low), _mm_sub_pd(a.high, b.high)}; }
-  friend Lanes operator*(Lanes a, Lanes b) noexcept { return {_mm_mul_pd(a.low, b.low), _mm_mul_pd(a.high, b.high)}; }
-  friend Lanes operator/(Lanes a, Lanes b) noexcept { return {_mm_div_pd(a.low, b.low), _mm_div_pd(a.high, b.high)}; }
-  friend Lanes operator<(Lanes a, Lanes b) noexcept { return {_mm_cmplt_pd(a.low, b.low), _mm_cmplt_pd(a.high, b.high)}; }
-  friend Lanes operator<=(Lanes a, Lanes b) noexcept { return {_mm_cmple_pd(a.low, b.low), _mm_cmple_pd(a.high, b.high)}; }
-  friend Lanes operator==(Lanes a, Lanes b) noexcept { return {_mm_cmpeq_pd(a.low, b.low), _mm_cmpeq_pd(a.high, b.high)}; }
-  friend Lanes operator&(Lanes a, Lanes b) noexcept { return {_mm_and_pd(a.low, b.low), _mm_and_pd(a.high, b.high)}; }
-  friend Lanes operator|(Lanes a, Lanes b) noexcept { return {_mm_or_pd(a.low, b.low), _mm_or_pd(a.high, b.high)}; }
-  friend Lanes operator^(Lanes a, Lanes b) noexcept { return {_mm_xor_pd(a.low, b.low), _mm_xor_pd(a.high, b.high)}; }
-  friend Lanes without(Lanes a, Lanes where) noexcept {
-    return {_mm_andnot_pd(where.low, a.low), _mm_andnot_pd(where.high, a.high)};
-  }
-  int bits() const noexcept { return _mm_movemask_pd(low) | _mm_movemask_pd(high) << 2; }
+  friend Lanes operator+(Lanes a, Lanes b) noexcept { return {a.low + b.low, a.high + b.high}; }
+  friend Lanes operator-(Lanes a, Lanes b) noexcept { return {a.low - b.low, a.high - b.high}; }
+  friend Lanes operator*(Lanes a, Lanes b) noexcept { return {a.low * b.low, a.high * b.high}; }
+  friend Lanes operator/(Lanes a, Lanes b) noexcept { return {a.low / b.low, a.high / b.high}; }
+  friend Lanes operator<(Lanes a, Lanes b) noexcept { return {a.low < b.low, a.high < b.high}; }
+  friend Lanes operator<=(Lanes a, Lanes b) noexcept { return {a.low <= b.low, a.high <= b.high}; }
+  friend Lanes operator==(Lanes a, Lanes b) noexcept { return {a.low == b.low, a.high == b.high}; }
+  friend Lanes operator&(Lanes a, Lanes b) noexcept { return {a.low & b.low, a.high & b.high}; }
+  friend Lanes operator|(Lanes a, Lanes b) noexcept { return {a.low | b.low, a.high | b.high}; }
+  friend Lanes operator^(Lanes a, Lanes b) noexcept { return {a.low ^ b.low, a.high ^ b.high}; }
+  friend Lanes without(Lanes a, Lanes where) noexcept { return {without(a.low, where.low), without(a.high, where.high)}; }
+  int bits() const noexcept { return low.bits() | high.bits() << 2; }
 
-  friend Lanes sqrt(Lanes a) noexcept { return {_mm_sqrt_pd(a.low), _mm_sqrt_pd(a.high)}; }
-  friend Lanes larger(Lanes a, Lanes b) noexcept { return {_mm_max_pd(b.low, a.low), _mm_max_pd(b.high, a.high)}; }
-  friend Lanes smaller(Lanes a, Lanes b) noexcept { return {_mm_min_pd(b.low, a.low), _mm_min_pd(b.high, a.high)}; }
+  friend Lanes sqrt(Lanes a) noexcept { return {sqrt(a.low), sqrt(a.high)}; }
+  friend Lanes larger(Lanes a, Lanes b) noexcept { return {larger(a.low, b.low), larger(a.high, b.high)}; }
+  friend Lanes smaller(Lanes a, Lanes b) noexcept { return {smaller(a.low, b.low), smaller(a.high, b.high)}; }
 
-  void store(double* four) const noexcept { _mm_storeu_pd(four, low), _mm_storeu_pd(four + 2, high); }
+  void store(double* four) const noexcept { _mm_storeu_pd(four, low.v), _mm_storeu_pd(four + 2, high.v); }
   template <int x, int y, int z, int w>
   Lanes shuffled() const noexcept { return {pair<x, y>(), pair<z, w>()}; }
   template <int i>
   Lanes broadcast() const noexcept {
-    const __m128d twice = pair<i, i>();
+    const TwoDoubles twice = pair<i, i>();
     return {twice, twice};
   }
-  double first() const noexcept { return _mm_cvtsd_f64(low); }
+  double first() const noexcept { return low.first(); }
 
  private:
   template <int x, int y>
-  __m128d pair() const noexcept {
-    const __m128d from_x = x < 2 ? low : high, from_y = y < 2 ? low : high;
-    return _mm_shuffle_pd(from_x, from_y, (x & 1) | (y & 1) << 1);
+  TwoDoubles pair() const noexcept {
+    const TwoDoubles from_x = x < 2 ? low : high, from_y = y < 2 ? low : high;
+    return {_mm_shuffle_pd(from_x.v, from_y.v, (x & 1) | (y & 1) << 1)};
   }
 };
+
+/// One register, of which the first two lanes count: half the work of four where these are two registers.
+template <class T>
+using Pair = std::conditional_t<std::same_as<T, float>, Lanes<float>, TwoDoubles>;
+
+inline Lanes<float> first_pair(Lanes<float> a) noexcept { return a; }
+inline TwoDoubles first_pair(Lanes<double> a) noexcept { return a.low; }
+inline Lanes<float> second_pair(Lanes<float> a) noexcept { return {_mm_movehl_ps(a.v, a.v)}; }
+inline TwoDoubles second_pair(Lanes<double> a) noexcept { return a.high; }
+
+/// Of a pair x, y: y, x.
+inline Lanes<float> swapped(Lanes<float> a) noexcept { return a.shuffled<1, 0, 3, 2>(); }
+inline TwoDoubles swapped(TwoDoubles a) noexcept { return a.shuffled<1, 0>(); }
+/// y, x, y, x.
+inline Lanes<float> swapped_twice(Lanes<float> a) noexcept { return a.shuffled<1, 0, 1, 0>(); }
+inline Lanes<double> swapped_twice(TwoDoubles a) noexcept { return {swapped(a), swapped(a)}; }
+/// x in every lane.
+inline Lanes<float> every(Lanes<float> a) noexcept { return a.broadcast<0>(); }
+inline Lanes<double> every(TwoDoubles a) noexcept { return {a.shuffled<0, 0>(), a.shuffled<0, 0>()}; }
+/// The first lanes of three pairs.
+inline Lanes<float> firsts(Lanes<float> x, Lanes<float> y, Lanes<float> z) noexcept {
+  return {_mm_movelh_ps(_mm_unpacklo_ps(x.v, y.v), z.v)};
+}
+inline Lanes<double> firsts(TwoDoubles x, TwoDoubles y, TwoDoubles z) noexcept {
+  return {{_mm_unpacklo_pd(x.v, y.v)}, z};
+}
 
 /// x, y, z and 0.
 inline Lanes<float> lanes(const Vec3<float>& a) noexcept {
@@ -137,7 +201,7 @@ inline Lanes<float> lanes(const Vec3<float>& a) noexcept {
 }
 inline Lanes<double> lanes(const Vec3<double>& a) noexcept {
   static_assert(sizeof(Vec3<double>) == 24);
-  return {_mm_loadu_pd(reinterpret_cast<const double*>(&a)), _mm_load_sd(&a.z)};
+  return {{_mm_loadu_pd(reinterpret_cast<const double*>(&a))}, {_mm_load_sd(&a.z)}};
 }
 template <class T>
 Vec3<T> first_three(const Lanes<T>& a) noexcept {
@@ -150,7 +214,32 @@ inline Lanes<float> lanes(const Quaternion<float>& q) noexcept {
 }
 inline Lanes<double> lanes(const Quaternion<double>& q) noexcept {
   static_assert(sizeof q == 32);
-  return {_mm_loadu_pd(reinterpret_cast<const double*>(&q)), _mm_loadu_pd(&q.z)};
+  return {{_mm_loadu_pd(reinterpret_cast<const double*>(&q))}, {_mm_loadu_pd(&q.z)}};
+}
+
+/// The normal and the offset, the center and the radius.
+template <class T>
+Lanes<T> lanes(const Plane<T>& plane) noexcept {
+  static_assert(sizeof plane == 4 * sizeof(T));
+  return Lanes<T>::load(reinterpret_cast<const char*>(&plane));
+}
+template <class T>
+Lanes<T> lanes(const Sphere<T>& sphere) noexcept {
+  static_assert(sizeof sphere == 4 * sizeof(T));
+  return Lanes<T>::load(reinterpret_cast<const char*>(&sphere));
+}
+/// Its corners, with any number in the fourth lane.
+template <class T>
+struct CornerLanes {
+  Lanes<T> v0, v1, v2;
+};
+inline CornerLanes<float> corner_lanes(const Triangle<float>& triangle) noexcept {
+  static_assert(sizeof triangle == 36);
+  const char* const numbers = reinterpret_cast<const char*>(&triangle);
+  return {Lanes<float>::load(numbers), Lanes<float>::load(numbers + 12), Lanes<float>::load(numbers + 20).shuffled<1, 2, 3, 3>()};
+}
+inline CornerLanes<double> corner_lanes(const Triangle<double>& triangle) noexcept {
+  return {lanes(triangle.v0), lanes(triangle.v1), lanes(triangle.v2)};
 }
 
 /// The same in doubles.
@@ -158,10 +247,16 @@ template <class T>
 Lanes<double> wide_lanes(const Vec3<T>& a) noexcept { return Lanes<double>::of(a.x, a.y, a.z); }
 template <class T>
 Lanes<double> wide_lanes(const Quaternion<T>& q) noexcept { return Lanes<double>::of(q.x, q.y, q.z, q.w); }
+template <class T>
+std::array<T, 4> four(const Lanes<T>& a) noexcept {
+  std::array<T, 4> numbers;
+  a.store(numbers.data());
+  return numbers;
+}
 
 /// a where `where` has all bits, b where it has none.
-template <class T>
-Lanes<T> select(const Lanes<T>& where, const Lanes<T>& a, const Lanes<T>& b) noexcept { return (a & where) | without(b, where); }
+template <class L>
+L select(const L& where, const L& a, const L& b) noexcept { return (a & where) | without(b, where); }
 template <class T>
 Lanes<T> absolute(const Lanes<T>& a) noexcept { return without(a, Lanes<T>::all(T(-0.0))); }
 
@@ -177,20 +272,6 @@ bool all_three(const Lanes<T>& mask) noexcept { return (mask.bits() & 7) == 7; }
 template <class T>
 bool any_of_three(const Lanes<T>& mask) noexcept { return (mask.bits() & 7) != 0; }
 
-/// The sums of the first three lanes of each.
-inline Lanes<float> sums_of_three(Lanes<float> a, Lanes<float> b, Lanes<float> c, Lanes<float> d) noexcept {
-  const __m128 ab = _mm_unpacklo_ps(a.v, b.v), cd = _mm_unpacklo_ps(c.v, d.v);  // a0 b0 a1 b1
-  const Lanes<float> x{_mm_movelh_ps(ab, cd)}, y{_mm_movehl_ps(cd, ab)};
-  const Lanes<float> z{_mm_movelh_ps(_mm_unpackhi_ps(a.v, b.v), _mm_unpackhi_ps(c.v, d.v))};
-  return x + y + z;
-}
-inline Lanes<double> sums_of_three(Lanes<double> a, Lanes<double> b, Lanes<double> c, Lanes<double> d) noexcept {
-  const Lanes<double> x{_mm_unpacklo_pd(a.low, b.low), _mm_unpacklo_pd(c.low, d.low)};
-  const Lanes<double> y{_mm_unpackhi_pd(a.low, b.low), _mm_unpackhi_pd(c.low, d.low)};
-  const Lanes<double> z{_mm_unpacklo_pd(a.high, b.high), _mm_unpacklo_pd(c.high, d.high)};
-  return x + y + z;
-}
-
 /// y, z, x and z, x, y of the first three lanes.
 template <class T>
 Lanes<T> yzx(const Lanes<T>& a) noexcept { return a.template shuffled<1, 2, 0, 3>(); }
@@ -200,15 +281,63 @@ Lanes<T> zxy(const Lanes<T>& a) noexcept { return a.template shuffled<2, 0, 1, 3
 template <class T>
 Lanes<T> cross(const Lanes<T>& a, const Lanes<T>& b) noexcept { return yzx(a * yzx(b) - yzx(a) * b); }
 
+/// Of four vectors the first, second and third numbers: vector i is lane i of all three.
+template <class T>
+struct Columns {
+  Lanes<T> x, y, z;
+
+  template <int i>
+  Columns broadcast() const noexcept {
+    return {x.template broadcast<i>(), y.template broadcast<i>(), z.template broadcast<i>()};
+  }
+  friend Columns operator+(const Columns& a, const Columns& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Columns operator-(const Columns& a, const Columns& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Columns operator*(const Columns& a, const Lanes<T>& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
+  friend Lanes<T> dot(const Columns& a, const Columns& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  /// Vector i + 1 in the place of vector i, of the first three.
+  friend Columns yzx(const Columns& a) noexcept { return {yzx(a.x), yzx(a.y), yzx(a.z)}; }
+  friend Columns select(const Lanes<T>& where, const Columns& a, const Columns& b) noexcept {
+    return {select(where, a.x, b.x), select(where, a.y, b.y), select(where, a.z, b.z)};
+  }
+};
+inline Columns<float> columns(Lanes<float> a, Lanes<float> b, Lanes<float> c, Lanes<float> d) noexcept {
+  const __m128 ab = _mm_unpacklo_ps(a.v, b.v), cd = _mm_unpacklo_ps(c.v, d.v);  // a0 b0 a1 b1
+  return {{_mm_movelh_ps(ab, cd)}, {_mm_movehl_ps(cd, ab)},
+          {_mm_movelh_ps(_mm_unpackhi_ps(a.v, b.v), _mm_unpackhi_ps(c.v, d.v))}};
+}
+inline Columns<double> columns(Lanes<double> a, Lanes<double> b, Lanes<double> c, Lanes<double> d) noexcept {
+  return {{{_mm_unpacklo_pd(a.low.v, b.low.v)}, {_mm_unpacklo_pd(c.low.v, d.low.v)}},
+          {{_mm_unpackhi_pd(a.low.v, b.low.v)}, {_mm_unpackhi_pd(c.low.v, d.low.v)}},
+          {{_mm_unpacklo_pd(a.high.v, b.high.v)}, {_mm_unpacklo_pd(c.high.v, d.high.v)}}};
+}
+
+/// Whether a mask that is the same in every lane has all bits, or all four lanes of a are zero.
+inline bool holds_or_all_zero(const Lanes<float>& mask, const Lanes<float>& a) noexcept {
+  return (mask | (a == Lanes<float>::all(0))).bits() == 15;
+}
+inline bool holds_or_all_zero(const TwoDoubles& mask, const Lanes<double>& a) noexcept {
+  return (mask | ((a.low | a.high) == TwoDoubles::all(0))).bits() == 3;
+}
+
+/// The sums of the first three lanes of each.
+template <class T>
+Lanes<T> sums_of_three(const Lanes<T>& a, const Lanes<T>& b, const Lanes<T>& c, const Lanes<T>& d) noexcept {
+  const Columns<T> n = columns(a, b, c, d);
+  return n.x + n.y + n.z;
+}
+
 /// Of the first three lanes, in every lane.
 template <class T>
 Lanes<T> sum_of_three(const Lanes<T>& a) noexcept {
   return a.template broadcast<0>() + a.template broadcast<1>() + a.template broadcast<2>();
 }
-template <class T>
-Lanes<T> sum_of_four(const Lanes<T>& a) noexcept {
-  const Lanes<T> pairs = a + a.template shuffled<1, 0, 3, 2>();
-  return pairs + pairs.template shuffled<2, 3, 0, 1>();
+inline Lanes<float> sum_of_four(const Lanes<float>& a) noexcept {
+  const Lanes<float> pairs = a + a.shuffled<1, 0, 3, 2>();
+  return pairs + pairs.shuffled<2, 3, 0, 1>();
+}
+inline Lanes<double> sum_of_four(const Lanes<double>& a) noexcept {
+  const TwoDoubles pairs = a.low + a.high, sum = pairs + swapped(pairs);
+  return {sum, sum};
 }
 template <class T>
 Lanes<T> largest_of_three(const Lanes<T>& a) noexcept {
@@ -218,6 +347,11 @@ template <class T>
 Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept {
   return smaller(smaller(a.template broadcast<0>(), a.template broadcast<1>()), a.template broadcast<2>());
 }
+/// The same, in the first lane.
+template <class T>
+Pair<T> largest_of(const Lanes<T>& a) noexcept { return larger(larger(first_pair(a), swapped(first_pair(a))), second_pair(a)); }
+template <class T>
+Pair<T> smallest_of(const Lanes<T>& a) noexcept { return smaller(smaller(first_pair(a), swapped(first_pair(a))), second_pair(a)); }
 /// Of a mask's first three lanes only the first that has bits.
 template <class T>
 Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {
@@ -225,39 +359,6 @@ Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {
   const Lanes<T> before_z = three.template shuffled<3, 3, 1, 3>();
   return without(three, three.template shuffled<3, 0, 0, 3>() | before_z);
 }
-
-/// Three vectors, vector i in lane i.
-template <class T>
-struct ThreeVectors {
-  Lanes<T> x, y, z;
-
-  static ThreeVectors of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) noexcept {
-    return {Lanes<T>::of(a.x, b.x, c.x), Lanes<T>::of(a.y, b.y, c.y), Lanes<T>::of(a.z, b.z, c.z)};
-  }
-  static ThreeVectors all(const Vec3<T>& a) noexcept { return {Lanes<T>::all(a.x), Lanes<T>::all(a.y), Lanes<T>::all(a.z)}; }
-
-  /// Vector i + 1 in the place of vector i.
-  ThreeVectors next() const noexcept { return {yzx(x), yzx(y), yzx(z)}; }
-  /// Vector 0 in every place.
-  ThreeVectors first() const noexcept {
-    return {x.template broadcast<0>(), y.template broadcast<0>(), z.template broadcast<0>()};
-  }
-  friend ThreeVectors operator+(const ThreeVectors& a, const ThreeVectors& b) noexcept {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-  friend ThreeVectors operator-(const ThreeVectors& a, const ThreeVectors& b) noexcept {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
-  friend ThreeVectors operator*(const ThreeVectors& a, const Lanes<T>& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
-  /// All bits where vector i of a is that of b.
-  friend Lanes<T> equal(const ThreeVectors& a, const ThreeVectors& b) noexcept {
-    return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
-  }
-  friend Lanes<T> dot(const ThreeVectors& a, const ThreeVectors& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  friend ThreeVectors cross(const ThreeVectors& a, const ThreeVectors& b) noexcept {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-};
 
 }  // namespace collide::detail
 

@@ -9,6 +9,33 @@
 
 namespace collide {
 
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
+template <class T, class Shared>
+inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane,
+                                             const Shared& shared) noexcept {
+  using L = Lanes<T>;
+  using P = Pair<T>;
+  using limits = std::numeric_limits<T>;
+  const L from = lanes(point), along = lanes(velocity), n = lanes(plane);
+  const P zero = P::all(T(0));
+  const L sums = sums_of_three(n * along, n * from, n * n, n);
+  const P approach = zero - first_pair(sums), height = swapped(first_pair(sums)) + P::all(plane.offset);
+  const P n2 = second_pair(sums), time = height / approach;
+  const L location = from + along * every(time);
+  const P hit = (zero < approach) & (zero <= height) & (time <= P::all(limits::max()));
+  const P in_range = (P::all(limits::min() / limits::epsilon()) <= n2) & (n2 <= P::all(limits::max()));
+  if (!all_three(are_finite(location & every(hit)) & every(in_range))) return shared(point, velocity, plane);
+  return impact(hit, time, location, n / every(sqrt(n2)));
+}
+
+}  // namespace detail
+
+#endif
+
 /// The first contact of `point`, moving by `velocity` per unit of time, with the front of `plane`.
 ///
 /// A hit needs normal . velocity < 0 and a start on the plane or in front of it. A start behind, a
@@ -21,8 +48,20 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_plane<decltype(by)>(a...); },
-                      point, velocity, plane);
+    const auto shared = [](const auto&... inputs) {
+      return Tier::lift([](auto by, const auto&... a) { return moving_point_plane<decltype(by)>(a...); }, inputs...);
+    };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_point_plane_in_lanes(point, velocity, plane, [shared](const auto&... inputs) COLLIDE_APART { return shared(inputs...); });
+    }
+#endif
+    if constexpr (looks_first<Tier, T>) {
+      if (detail::surely_misses(detail::in_double(point), 0.0, detail::in_double(velocity), {detail::in_double(plane.normal), double(plane.offset)})) {
+        return Tier::sure(Impact<T>::miss());
+      }
+    }
+    return shared(point, velocity, plane);
   }
   const T approach = -Tier::dot(plane.normal, velocity);
   if (!(approach > T(0))) return Impact<T>::miss();

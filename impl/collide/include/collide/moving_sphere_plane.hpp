@@ -9,6 +9,36 @@
 
 namespace collide {
 
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
+template <class T, class Shared>
+inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane,
+                                              const Shared& shared) noexcept {
+  using L = Lanes<T>;
+  using P = Pair<T>;
+  using limits = std::numeric_limits<T>;
+  const L center = lanes(sphere), along = lanes(velocity), n = lanes(plane);
+  const P zero = P::all(T(0)), radius = P::all(sphere.radius), most = P::all(limits::max());
+  const L sums = sums_of_three(n * along, n * center, n * n, n);
+  const P approach = zero - first_pair(sums), height = swapped(first_pair(sums)) + P::all(plane.offset);
+  const P n2 = second_pair(sums), length = sqrt(n2), reach = radius * length;
+  const P starts = height <= reach, time = without((height - reach) / approach, starts);
+  const P down = select(starts, height / length, radius);
+  const P hit = (zero <= approach) & (zero - reach <= height) & (starts | ((zero < approach) & (time <= most)));
+  const L normal = n / every(length);
+  const L location = (center + along * every(time)) - normal * every(down);
+  const P in_range = (P::all(limits::min() / limits::epsilon()) <= n2) & (n2 <= most) & (reach <= most);
+  if (!all_three(are_finite(location & every(hit)) & every(in_range))) return shared(sphere, velocity, plane);
+  return impact(hit, time, location, normal);
+}
+
+}  // namespace detail
+
+#endif
+
 /// The first contact of `sphere`, moving by `velocity` per unit of time, with the front of `plane`.
 ///
 /// A contact needs normal . velocity <= 0 and a sphere that does not start wholly behind the plane. A sphere
@@ -21,8 +51,21 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_plane<decltype(by)>(a...); },
-                      sphere, velocity, plane);
+    const auto shared = [](const auto&... inputs) {
+      return Tier::lift([](auto by, const auto&... a) { return moving_sphere_plane<decltype(by)>(a...); }, inputs...);
+    };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, [shared](const auto&... inputs) COLLIDE_APART { return shared(inputs...); });
+    }
+#endif
+    if constexpr (looks_first<Tier, T>) {
+      if (detail::surely_misses(detail::in_double(sphere.center), double(sphere.radius), detail::in_double(velocity),
+                                {detail::in_double(plane.normal), double(plane.offset)})) {
+        return Tier::sure(Impact<T>::miss());
+      }
+    }
+    return shared(sphere, velocity, plane);
   }
   const Vec3<T> normal = unit<Tier>(plane.normal);
   const T length = Tier::dot(normal, plane.normal);

@@ -15,7 +15,6 @@ template <class T>
 struct PreparedRay {
   Ray<T> ray{};
   Vec3<T> inverse{};  ///< 1 / direction in each coordinate, at most the largest number; NaN where the ray is not finite
-  T padding{};        ///< makes any three numbers readable as four
 };
 
 template <class T>
@@ -34,39 +33,37 @@ PreparedRay<T> prepare_ray(const Ray<T>& ray) noexcept {
 /// A box that is asked about many rays; made by `prepare_aabox`.
 template <class T>
 struct PreparedAABox {
-  AABox<T> aabox{};
-  Vec3<T> center{};   ///< nearly: whatever it is, the ball around it holds the box
-  T radius2{};        ///< of that ball, squared; NaN where the box is not finite
+  AABox<T> aabox{};  ///< its six numbers NaN where one of them is not finite: nothing meets it
 };
 
 template <class T>
 PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
-  const auto middle = [](const T& low, const T& high) { return T(low / T(2) + high / T(2)); };
-  const Vec3<T> center{middle(aabox.min.x, aabox.max.x), middle(aabox.min.y, aabox.max.y),
-                       middle(aabox.min.z, aabox.max.z)};
-  const Vec3<T> up = aabox.max - center, down = center - aabox.min;
-  const Vec3<T> half{larger(up.x, down.x), larger(up.y, down.y), larger(up.z, down.z)};
-  T radius2 = half.x * half.x + half.y * half.y + half.z * half.z;
-  // Rounding must not make the ball smaller than the box: 5 eps here, 5 in the distance compared with it;
-  // and squares may underflow.
   if constexpr (MachineNumber<T>) {
-    using limits = std::numeric_limits<T>;
-    radius2 = radius2 * (T(1) + T(8) * limits::epsilon()) + limits::min();
-    if (!all_finite(aabox)) radius2 = limits::quiet_NaN();
+    constexpr T no = std::numeric_limits<T>::quiet_NaN();
+    if (!all_finite(aabox)) return {{{no, no, no}, {no, no, no}}};
   }
-  return {aabox, center, radius2};
+  return {aabox};
 }
 
 #if defined(COLLIDE_LANES)
 
 namespace detail {
 
-/// Three numbers of a prepared thing, which has a fourth behind them.
-template <class T, class Prepared>
-Lanes<T> three_of(const Prepared& prepared, const Vec3<T>& member) noexcept {
+/// Three numbers of a prepared thing, with any number in the fourth lane: `other` has one behind them, `last` before them.
+template <class Prepared>
+Lanes<float> three_of(const Prepared& prepared, const Vec3<float>& other) noexcept {
   const char* const whole = reinterpret_cast<const char*>(&prepared);
-  return Lanes<T>::load(whole + (reinterpret_cast<const char*>(&member) - whole));
+  return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&other) - whole));
 }
+template <class Prepared>
+Lanes<float> last_three_of(const Prepared& prepared, const Vec3<float>& last) noexcept {
+  const char* const whole = reinterpret_cast<const char*>(&prepared);
+  return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&last) - whole) - sizeof(float)).shuffled<1, 2, 3, 3>();
+}
+template <class Prepared>
+Lanes<double> three_of(const Prepared&, const Vec3<double>& other) noexcept { return lanes(other); }
+template <class Prepared>
+Lanes<double> last_three_of(const Prepared&, const Vec3<double>& last) noexcept { return lanes(last); }
 
 /// The ray is in the box from the last entry of a pair of faces to the first exit. Along a pair that it is parallel to
 /// it moves so slowly, by 1 / max, that it comes in time to neither face, unless it starts there.
@@ -75,15 +72,16 @@ Lanes<T> three_of(const Prepared& prepared, const Vec3<T>& member) noexcept {
 template <class T>
 inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) noexcept {
   using L = Lanes<T>;
+  using P = Pair<T>;
   const L origin = three_of(prepared, prepared.ray.origin), direction = three_of(prepared, prepared.ray.direction);
-  const L inverse = three_of(prepared, prepared.inverse);
-  const L low = three_of(box, box.aabox.min), high = three_of(box, box.aabox.max);
+  const L inverse = last_three_of(prepared, prepared.inverse);
+  const L low = three_of(box, box.aabox.min), high = last_three_of(box, box.aabox.max);
   const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
-  const L entry = largest_of_three(smaller(to_low, to_high)), exit = smallest_of_three(larger(to_low, to_high));
-  const L zero = L::all(T(0)), radius2 = L::all(box.radius2), time = larger(entry, zero);
-  const L hit = (time <= exit) & (radius2 == radius2);
-  const L location = smaller(larger(origin + direction * time, low), high) & hit;
-  return {first_three(location), (hit.bits() & 1) != 0, ((hit & (entry <= zero)).bits() & 1) != 0};
+  const P entry = largest_of(smaller(to_low, to_high)), exit = smallest_of(larger(to_low, to_high));
+  const P zero = P::all(T(0)), time = larger(entry, zero);
+  const bool hit = time.first() <= exit.first();
+  const L location = smaller(larger(origin + direction * every(time), low), high) & every(time <= exit);
+  return {first_three(location), hit, (int(hit) & int(entry.first() <= T(0))) != 0};
 }
 
 }  // namespace detail
@@ -95,8 +93,8 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
 /// 1. location == origin + direction * t for some t >= 0 (exactly, in real numbers), a point of the box
 /// 2. inside exactly when the origin is in the box; then location == origin
 ///
-/// The helps never change the answer: a ray that leaves the ball around the box behind cannot meet the box,
-/// and the inverse saves divisions. Source: the face planes in front of the origin, the last one reached
+/// The inverse saves divisions and never changes the answer. Source: the face planes in front of the origin, the last one
+/// reached
 /// (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept {
@@ -115,8 +113,6 @@ inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& bo
   bool inside = true;
   for (int i = 0; i < 3; ++i) inside = inside && low[i] <= at[i] && at[i] <= high[i];
   if (inside) return {ray.ray.origin, true, true};
-  const Vec3<T> to_center = box.center - ray.ray.origin;
-  if (Tier::dot(to_center, ray.ray.direction) < T(0) && Tier::dot(to_center, to_center) > box.radius2) return {};
   const std::array<T, 3> inverse = components(ray.inverse);
   const auto entry = detail::enter_box(at, step, low, high, [&](const T& gap, int i) -> T { return gap * inverse[i]; });
   if (entry.axis < 0) return {};

@@ -9,6 +9,44 @@
 
 namespace collide {
 
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// What `Fast` answers; where the square of the distance says nothing about it, what `shared` does.
+template <class T, class Shared>
+inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, const Box<T>& box,
+                                                      const Shared& shared) noexcept {
+  using L = Lanes<T>;
+  using P = Pair<T>;
+  using limits = std::numeric_limits<T>;
+  const L center = lanes(sphere.center), middle = lanes(box.center), half = lanes(box.half);
+  const L q = of_moderate_length(box.orientation), norm_squared = sum_of_four(q * q);
+  const P radius = P::all(sphere.radius), zero = P::all(T(0)), one = P::all(T(1)), no_radius = radius * zero;  // or NaN
+  // The rotation times |q|^2, which is divided out beside the rotating.
+  const auto frame = FrameInLanes<T>::scaled(q);
+  const L inverse = every(one / first_pair(norm_squared));
+  // NaN where an argument is not finite.
+  const L local = frame.into(center - middle) * inverse, away = excess(local, half) + half * every(no_radius);
+  const P distance2 = first_pair(sum_of_three(away * away)), is_outside = zero < distance2;
+  const P in_range = (P::all(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= P::all(limits::max() / T(16)));
+  if (!(holds_or_all_zero(in_range, away) && all_three(is_moderate(norm_squared)))) return shared(sphere, box);
+
+  const L to_face = half - absolute(local), to_nearest_face = smallest_of_three(to_face);
+  const L side = L::all(T(1)) ^ (local & L::all(T(-0.0)));
+  const L face = without(first_of_three(to_face == to_nearest_face) & side, every(is_outside));
+  const L way = frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
+  const P distance = sqrt(distance2), depth = radius - distance + without(first_pair(to_nearest_face), is_outside);
+  const L overlap = every(zero <= depth);
+  const L normal = way / every(zero - (distance | without(one, is_outside)));
+  const L contact = center - way * every(select(is_outside, one, radius));
+  return {depth.first(), first_three(normal & overlap), first_three(contact & overlap)};
+}
+
+}  // namespace detail
+
+#endif
+
 /// The penetration depth of `sphere` and the solid `box`, with one contact.
 ///
 /// Center outside: depth = radius - distance, the contact is the point of the box nearest to the
@@ -20,32 +58,17 @@ namespace collide {
 /// 2. moving the sphere by -depth * normal makes them touch
 template <class Tier = Fast, class T>
 Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) noexcept {
-#if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T>) {
-    using detail::lanes;
-    using L = detail::Lanes<T>;
-    const L center = lanes(sphere.center), middle = lanes(box.center), half = lanes(box.half);
-    const L q = lanes(box.orientation), radius = L::all(sphere.radius), zero = L::all(T(0));
-    const detail::FrameInLanes<T> frame(q);
-    const L local = frame.into(center - middle), away = excess(local, half);
-    const L distance2 = sum_of_three(away * away), is_outside = zero < distance2;
-    using limits = std::numeric_limits<T>;
-    const L in_range = (L::all(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= L::all(limits::max() / T(16)));
-    // Of the other arguments all that is not finite leaves a lane of `away` that is not.
-    if (all_three(are_finite(half, radius) & (in_range | (away == zero)))) {
-      const L to_face = half - absolute(local), to_nearest_face = without(smallest_of_three(to_face), is_outside);
-      const L side = L::all(T(1)) ^ (local & L::all(T(-0.0)));
-      const L face = without(first_of_three(to_face == to_nearest_face) & side, is_outside);
-      const L distance = sqrt(distance2), depth = radius - distance + to_nearest_face, overlap = zero <= depth;
-      const L outward = face | ((away / distance) & is_outside);
-      const L normal = (zero - frame.out_of(outward)) & overlap;
-      const L contact = center + normal * select(is_outside, distance, radius);
-      return {depth.first(), first_three(normal), first_three(contact & overlap)};
-    }
-  }
-#endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); }, sphere, box);
+    const auto shared = [](const auto&... inputs) {
+      return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); }, inputs...);
+    };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::sphere_box_penetration_in_lanes(
+          sphere, box, [shared](const auto&... inputs) COLLIDE_APART { return shared(inputs...); });
+    }
+#endif
+    return shared(sphere, box);
   }
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);
