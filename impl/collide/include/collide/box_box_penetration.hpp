@@ -203,7 +203,9 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
       const auto bits = [&](int n, const L& squares) { return unsigned((squares == least).bits() & 7) << 3 * n; };
       const unsigned is_least = bits(0, face1) | bits(1, face2) | bits(2, family0) | bits(3, family1) | bits(4, family2);
       const int bit = detail::first_bit(is_least);
-      if (bit < box_box_axes && least.first() <= std::numeric_limits<T>::max()) {
+      using limits = std::numeric_limits<T>;
+      // Squares that leave the range compare nothing.
+      if (bit < box_box_axes && least.first() >= limits::min() / limits::epsilon() && least.first() <= limits::max()) {
         const auto& s = all[std::size_t(bit / 3)];
         const detail::BoxContact<T> at{detail::axis_of_bit(bit), T(0) - distance(bit), detail::sign_of(number(s.toward, bit))};
         if (at.axis < 6) return detail::contact_of_face(box1, box2, pair, at);
