@@ -207,7 +207,8 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
       // Squares that leave the range compare nothing.
       if (bit < box_box_axes && least.first() >= limits::min() / limits::epsilon() && least.first() <= limits::max()) {
         const auto& s = all[std::size_t(bit / 3)];
-        const detail::BoxContact<T> at{detail::axis_of_bit(bit), T(0) - distance(bit), detail::sign_of(number(s.toward, bit))};
+        const T side = detail::sign_of(number(s.toward, bit));
+        const detail::BoxContact<T> at{detail::axis_of_bit(bit), T(0) - distance(bit), side};
         if (at.axis < 6) return detail::contact_of_face(box1, box2, pair, at);
         return detail::contact_of_boxes<Plain>(box1, box2, detail::BoxPair<T>(pair), at);
       }
@@ -263,8 +264,7 @@ struct box_box_penetration {
   /// First order, G the largest position: an overlap carries what box_box_overlap's gaps do, 32 eps of G and
   /// 24 eps of rotations and sizes, and 12 eps of itself, and 4 eps more where squares of overlaps were compared; a
   /// vertex is the sum of three edges, known to 9 eps of them and to 9 eps of `between`, and 19 eps of 4 G on the way
-  /// back to the world: less than
-  /// 128 eps of either. Unit: the axes are combined by a unit vector.
+  /// back to the world: less than 128 eps of either. Unit: the axes are combined by a unit vector.
   static constexpr Contract contract(Fast) {
     return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
   }

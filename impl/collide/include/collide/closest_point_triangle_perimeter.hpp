@@ -15,7 +15,7 @@ namespace detail {
 
 /// What `Fast` answers, edge i in lane i; where an argument is not finite, what `shared` does.
 template <class T, class Shared>
-inline ClosestPoint<T> closest_on_edges_in_lanes(const Triangle<T>& triangle, const Vec3<T>& point,
+inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<T>& triangle, const Vec3<T>& point,
                                                  const Shared& shared) noexcept {
   using L = Lanes<T>;
   const auto [v0, v1, v2] = corner_lanes(triangle);
@@ -52,13 +52,11 @@ template <class Tier = Fast, class T>
 ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point) noexcept {
   if constexpr (Tier::template lifts<T>) {
     const auto shared = [](const auto&... inputs) {
-      return Tier::lift([](auto by, const auto&... a) { return closest_point_triangle_perimeter<decltype(by)>(a...); }, inputs...);
+      return Tier::lift([](auto by, const auto&... a) { return closest_point_triangle_perimeter<decltype(by)>(a...); },
+                        inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) {
-      return detail::closest_on_edges_in_lanes(triangle, point,
-                                               [shared](const auto&... inputs) COLLIDE_APART { return shared(inputs...); });
-    }
+    if constexpr (in_lanes<Tier, T>) return detail::closest_point_triangle_perimeter_in_lanes(triangle, point, detail::apart(shared));
 #endif
     return shared(triangle, point);
   }

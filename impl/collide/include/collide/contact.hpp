@@ -96,7 +96,9 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) no
 inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
                           const Plane<double>& plane) noexcept {
   const Vec3<double>& n = plane.normal;
-  const auto magnitudes = [&n](const Vec3<double>& v) { return std::abs(n.x * v.x) + std::abs(n.y * v.y) + std::abs(n.z * v.z); };
+  const auto magnitudes = [&n](const Vec3<double>& v) {
+    return std::abs(n.x * v.x) + std::abs(n.y * v.y) + std::abs(n.z * v.z);
+  };
   constexpr double known = 0x1p-50, least = 0x1p-1000;
   if (Plain::dot(n, velocity) > known * magnitudes(velocity) + least) return true;
   const double length2 = Plain::dot(n, n), reach = radius * std::sqrt(length2);

@@ -174,7 +174,7 @@ class FrameInLanes {
   Lanes<T> main_, sums_, differences_;
 };
 
-/// See above.
+/// The same, but that NaN of `half` alone is lost.
 template <class T>
 Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) noexcept {
   return coordinate - smaller(larger(coordinate, Lanes<T>::all(T(0)) - half), half);

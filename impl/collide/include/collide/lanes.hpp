@@ -14,7 +14,7 @@
 #define COLLIDE_LANES 1
 #if defined(__GNUC__)  // for lambdas: as functions they would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
-#define COLLIDE_APART __attribute__((noinline, cold))  // for what is rare: inlined it would cost registers where it is not
+#define COLLIDE_APART __attribute__((noinline, cold))  // for what is rare: in line it would take registers all the time
 #else
 #define COLLIDE_INLINE
 #define COLLIDE_APART
@@ -24,6 +24,12 @@
 #if defined(COLLIDE_LANES)
 
 namespace collide::detail {
+
+/// `text`, called out of line.
+template <class Text>
+auto apart(Text text) noexcept {
+  return [text](const auto&... arguments) COLLIDE_APART { return text(arguments...); };
+}
 
 /// One register of a machine, or two where four numbers do not fit into one.
 template <class T>
@@ -236,7 +242,8 @@ struct CornerLanes {
 inline CornerLanes<float> corner_lanes(const Triangle<float>& triangle) noexcept {
   static_assert(sizeof triangle == 36);
   const char* const numbers = reinterpret_cast<const char*>(&triangle);
-  return {Lanes<float>::load(numbers), Lanes<float>::load(numbers + 12), Lanes<float>::load(numbers + 20).shuffled<1, 2, 3, 3>()};
+  return {Lanes<float>::load(numbers), Lanes<float>::load(numbers + 12),
+          Lanes<float>::load(numbers + 20).shuffled<1, 2, 3, 3>()};
 }
 inline CornerLanes<double> corner_lanes(const Triangle<double>& triangle) noexcept {
   return {lanes(triangle.v0), lanes(triangle.v1), lanes(triangle.v2)};
@@ -321,7 +328,7 @@ inline bool holds_or_all_zero(const TwoDoubles& mask, const Lanes<double>& a) no
 
 /// The sums of the first three lanes of each.
 template <class T>
-Lanes<T> sums_of_three(const Lanes<T>& a, const Lanes<T>& b, const Lanes<T>& c, const Lanes<T>& d) noexcept {
+Lanes<T> sums_of_three(Lanes<T> a, Lanes<T> b, Lanes<T> c, Lanes<T> d) noexcept {
   const Columns<T> n = columns(a, b, c, d);
   return n.x + n.y + n.z;
 }
@@ -339,19 +346,22 @@ inline Lanes<double> sum_of_four(const Lanes<double>& a) noexcept {
   const TwoDoubles pairs = a.low + a.high, sum = pairs + swapped(pairs);
   return {sum, sum};
 }
+/// Of the first three lanes, in the first.
 template <class T>
-Lanes<T> largest_of_three(const Lanes<T>& a) noexcept {
-  return larger(larger(a.template broadcast<0>(), a.template broadcast<1>()), a.template broadcast<2>());
+Pair<T> largest_of(const Lanes<T>& a) noexcept {
+  const Pair<T> pair = first_pair(a);
+  return larger(larger(pair, swapped(pair)), second_pair(a));
 }
 template <class T>
-Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept {
-  return smaller(smaller(a.template broadcast<0>(), a.template broadcast<1>()), a.template broadcast<2>());
+Pair<T> smallest_of(const Lanes<T>& a) noexcept {
+  const Pair<T> pair = first_pair(a);
+  return smaller(smaller(pair, swapped(pair)), second_pair(a));
 }
-/// The same, in the first lane.
+/// And in every lane.
 template <class T>
-Pair<T> largest_of(const Lanes<T>& a) noexcept { return larger(larger(first_pair(a), swapped(first_pair(a))), second_pair(a)); }
+Lanes<T> largest_of_three(const Lanes<T>& a) noexcept { return every(largest_of(a)); }
 template <class T>
-Pair<T> smallest_of(const Lanes<T>& a) noexcept { return smaller(smaller(first_pair(a), swapped(first_pair(a))), second_pair(a)); }
+Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept { return every(smallest_of(a)); }
 /// Of a mask's first three lanes only the first that has bits.
 template <class T>
 Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {

@@ -101,7 +101,7 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 
 #if defined(COLLIDE_LANES)
 
-/// The same where the normal must be looked at more closely and the edges need no look.
+/// What moving_point_triangle_in_lanes answers where the sides are known and the normal is not: of a thin triangle.
 template <class T, class Shared>
 COLLIDE_APART Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
                                                   const Shared& shared) noexcept {
@@ -137,7 +137,7 @@ COLLIDE_APART Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Ve
 /// What overflows is not sure, or is thin. `least` numbers are added to the squares so that what they bound is far above
 /// whatever underflows.
 template <class T, class Shared>
-inline Impact<T> impact_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
+inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
                                  const Shared& shared) noexcept {
   using L = Lanes<T>;
   using P = Pair<T>;
@@ -208,10 +208,7 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
       return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); }, inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) {
-      return detail::impact_in_lanes(point, velocity, triangle,
-                                     [shared](const auto&... inputs) COLLIDE_APART { return shared(inputs...); });
-    }
+    if constexpr (in_lanes<Tier, T>) return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::apart(shared));
     if constexpr (looks_first<Tier, T>) {
       if (detail::surely_passes(point, velocity, triangle)) return Tier::sure(Impact<T>::miss());
     }

@@ -93,9 +93,8 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
 /// 1. location == origin + direction * t for some t >= 0 (exactly, in real numbers), a point of the box
 /// 2. inside exactly when the origin is in the box; then location == origin
 ///
-/// The inverse saves divisions and never changes the answer. Source: the face planes in front of the origin, the last one
-/// reached
-/// (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
+/// The inverse saves divisions and never changes the answer. Source: the face planes in front of the origin, the
+/// last one reached (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept {
 #if defined(COLLIDE_LANES)

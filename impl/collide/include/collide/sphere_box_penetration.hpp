@@ -63,10 +63,7 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
       return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); }, inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) {
-      return detail::sphere_box_penetration_in_lanes(
-          sphere, box, [shared](const auto&... inputs) COLLIDE_APART { return shared(inputs...); });
-    }
+    if constexpr (in_lanes<Tier, T>) return detail::sphere_box_penetration_in_lanes(sphere, box, detail::apart(shared));
 #endif
     return shared(sphere, box);
   }
