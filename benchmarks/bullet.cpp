@@ -7,7 +7,9 @@
 ///   gjk          btGjkPairDetector with EPA
 ///   subsimplex   btSubsimplexConvexCast, as its ray tests use it
 ///   continuous   btContinuousConvexCollision, as its sweep tests use it
-///   triangle-ray btTriangleRaycastCallback; slabs: btRayAabb2; outcodes: btRayAabb
+///   triangle-ray btTriangleRaycastCallback; slabs: btRayAabb2; outcodes: btRayAabb. They tell how far along the ray it
+///                meets the thing; the contact, which the queries ask for, is computed from that as Bullet's
+///                ClosestRayResultCallback does
 #include <btBulletCollisionCommon.h>
 
 #include <BulletCollision/CollisionDispatch/SphereTriangleDetector.h>
@@ -266,6 +268,12 @@ struct RaySubsimplex {
   btTransform from, to, still;
 };
 
+void keep_contact(const btVector3& from, const btVector3& to, btScalar fraction) {
+  btVector3 contact;
+  contact.setInterpolate3(from, to, fraction);
+  keep(contact);
+}
+
 struct TriangleRay {
   struct Nearest final : btTriangleRaycastCallback {
     using btTriangleRaycastCallback::btTriangleRaycastCallback;
@@ -284,6 +292,7 @@ struct TriangleRay {
     Nearest nearest(from, to, btTriangleRaycastCallback::kF_FilterBackfaces);
     nearest.processTriangle(corners, 0, 0);
     keep(nearest.normal);
+    if (nearest.hit) keep_contact(from, to, nearest.m_hitFraction);
     return {nearest.hit, nearest.m_hitFraction};
   }
   mutable btVector3 corners[3];
@@ -300,6 +309,7 @@ struct AABoxOutcodes {
     btVector3 normal(0, 0, 0);
     const bool hit = btRayAabb(from, to, min, max, fraction, normal);
     keep(normal);
+    if (hit) keep_contact(from, to, fraction);
     return {hit, fraction};
   }
   btVector3 from, to, min, max;
@@ -307,19 +317,21 @@ struct AABoxOutcodes {
 
 struct AABoxSlabs {
   template <class Q>
-  explicit AABoxSlabs(const Q& q) : from(vector(the<Ray>(q).origin)), bounds{vector(the<AABox>(q).min), vector(the<AABox>(q).max)} {
-    const btVector3 d = vector(the<Ray>(q).direction);
+  explicit AABoxSlabs(const Q& q)
+      : from(vector(the<Ray>(q).origin)), direction(vector(the<Ray>(q).direction)),
+        bounds{vector(the<AABox>(q).min), vector(the<AABox>(q).max)} {
     for (int i = 0; i < 3; ++i) {
-      inverse[i] = d[i] == 0 ? BT_LARGE_FLOAT : 1 / d[i];
+      inverse[i] = direction[i] == 0 ? BT_LARGE_FLOAT : 1 / direction[i];
       sign[i] = inverse[i] < 0;
     }
   }
   Said ask() const {
     btScalar entry = 0;
     const bool hit = btRayAabb2(from, inverse, sign, bounds, entry, 0, BT_LARGE_FLOAT);
+    if (hit) keep(btVector3(from + direction * entry));
     return {hit, entry};
   }
-  btVector3 from, inverse{0, 0, 0};
+  btVector3 from, direction, inverse{0, 0, 0};
   unsigned int sign[3];
   btVector3 bounds[2];
 };

@@ -38,18 +38,15 @@ template <class T>
 T sign_of(const T& x) noexcept { return x < T(0) ? T(-1) : T(1); }
 
 /// The middle of the shortest segment between an edge of box 1 and one of box 2, those that reach furthest
-/// along the cross product of axes i and j.
+/// along the cross product of axes i and j; `unit` is that as a unit vector.
 template <class Tier, class T>
-std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const T& side) noexcept {
+std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const CrossAxis<T>& unit, const T& side) noexcept {
   const BoxesInFrame<T> frame(pair);
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-  const CrossAxis<T> cross = pair.cross_axis(i, j);
-  const T cross_length = length(std::array<T, 3>{cross.in1[0], cross.in1[1], T(0)});
+  const std::array<T, 2>&u1 = unit.in1, &u2 = unit.in2;
   const CrossAxis<T> product = pair.cross_axis(i, j, false);
   T sine = length(std::array<T, 3>{product.in1[0], product.in1[1], T(0)}) / (pair.norm1 * pair.norm2);
   if constexpr (MachineNumber<T>) sine = larger(sine, std::numeric_limits<T>::min());
-  const std::array<T, 2> u1{cross.in1[0] / cross_length, cross.in1[1] / cross_length};
-  const std::array<T, 2> u2{cross.in2[0] / cross_length, cross.in2[1] / cross_length};
   // The middles of both edges, and the way from one to the other in both frames.
   std::array<T, 3> middle1{}, middle2 = frame.center2;
   middle1[i1] = pair.half1[i1] * sign_of(side * u1[0]);
@@ -117,10 +114,11 @@ BoxPenetration<T> contact_of_boxes(const Box<T>& box1, const Box<T>& box2, const
     return {least.depth, axis, along * least.side, to_world(contact_of_face(pair, least))};
   }
   const int i = (axis - 6) / 3, j = (axis - 6) % 3;
-  const auto cross = pair.cross_axis(i, j).in1;
-  const T by = length(std::array<T, 3>{cross[0], cross[1], T(0)}) * least.side;
-  const Vec3<T> normal = axes1[(i + 1) % 3] * (cross[0] / by) + axes1[(i + 2) % 3] * (cross[1] / by);
-  return {least.depth, axis, normal, to_world(contact_of_edges<Tier>(pair, i, j, least.side))};
+  const CrossAxis<T> cross = pair.cross_axis(i, j);
+  const T by = length(std::array<T, 3>{cross.in1[0], cross.in1[1], T(0)});
+  const CrossAxis<T> unit{{cross.in1[0] / by, cross.in1[1] / by}, {cross.in2[0] / by, cross.in2[1] / by}};
+  const Vec3<T> normal = axes1[(i + 1) % 3] * unit.in1[0] + axes1[(i + 2) % 3] * unit.in1[1];
+  return {least.depth, axis, normal * least.side, to_world(contact_of_edges<Tier>(pair, i, j, unit, least.side))};
 }
 
 #if defined(COLLIDE_LANES)
@@ -185,7 +183,7 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
       all[std::size_t(n)] = s;
       overlaps |= unsigned((s.gap <= zero).bits() & 7) << 3 * n;
     });
-    if (pair.is_usual() && good && all_three(are_finite(pair.between))) {
+    if (pair.is_usual() && good) {
       const auto number = [](const L& lanes, int bit) { return detail::four(lanes)[std::size_t(bit % 3)]; };
       const auto distance = [&](int bit) {
         const auto& s = all[std::size_t(bit / 3)];
@@ -198,7 +196,11 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
         const auto& s = all[std::size_t(n)];
         return select(zero < s.length2, s.gap * s.gap / s.length2, none);
       };
-      const L face1 = square(0), face2 = square(1), family0 = square(2), family1 = square(3), family2 = square(4);
+      const auto face_square = [&](int n) {  // all three of one length
+        const auto& s = all[std::size_t(n)];
+        return s.gap * s.gap * every(detail::Pair<T>::all(T(1)) / first_pair(s.length2));
+      };
+      const L face1 = face_square(0), face2 = face_square(1), family0 = square(2), family1 = square(3), family2 = square(4);
       const L least = smallest_of_three(smaller(smaller(smaller(face1, face2), smaller(family0, family1)), family2));
       const auto bits = [&](int n, const L& squares) { return unsigned((squares == least).bits() & 7) << 3 * n; };
       const unsigned is_least = bits(0, face1) | bits(1, face2) | bits(2, family0) | bits(3, family1) | bits(4, family2);

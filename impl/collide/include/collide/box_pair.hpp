@@ -194,6 +194,7 @@ template <class T>
 struct BoxPairInLanes {
   using L = Lanes<T>;
   L turn, between, half1, half2, norm1, norm2;
+  bool are_rotations = true;
 
   BoxPairInLanes(const Box<T>& box1, const Box<T>& box2) noexcept
       : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
@@ -201,17 +202,24 @@ struct BoxPairInLanes {
   /// Of boxes with these orientations and half extents, box 2 `way` from box 1.
   BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1, const L& half_of_2) noexcept
       : half1(half_of_1), half2(half_of_2) {
-    const L a = of_moderate_length(q1), b = of_moderate_length(q2);
+    L a = lanes(q1), b = lanes(q2);
+    norm1 = sum_of_four(a * a);
+    norm2 = sum_of_four(b * b);
+    const auto are_moderate = [&] { return is_moderate(norm1.first()) && is_moderate(norm2.first()); };
+    if (!are_moderate()) {
+      a = apart(of_moderate_length<T>)(q1), b = apart(of_moderate_length<T>)(q2);
+      norm1 = sum_of_four(a * a);
+      norm2 = sum_of_four(b * b);
+      are_rotations = are_moderate();
+    }
     const L aw = a.template broadcast<3>(), bw = b.template broadcast<3>();
     const L vector = (aw * b - a * bw) - (yzx(a) * zxy(b) - zxy(a) * yzx(b));
     turn = select(L::first_three(), vector, sum_of_four(a * b));
     between = FrameInLanes<T>::scaled(a).into(way);
-    norm1 = sum_of_four(a * a);
-    norm2 = sum_of_four(b * b);
   }
 
   /// Whether the quaternions are some, and the half extents finite.
-  bool is_usual() const noexcept { return all_three(is_moderate(norm1) & is_moderate(norm2) & are_finite(half1, half2)); }
+  bool is_usual() const noexcept { return are_rotations && all_three(are_finite(half1, half2, between)); }
 
   /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether
   /// all of them are good: a cross product so small that products underflow is not.

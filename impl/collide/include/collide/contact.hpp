@@ -124,7 +124,4 @@ inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity
   return (distance2 - radius2) * speed2 - along * along > known * (scale + along * along);
 }
 
-template <class T>
-Vec3<double> in_double(const Vec3<T>& a) noexcept { return {double(a.x), double(a.y), double(a.z)}; }
-
 }  // namespace collide::detail

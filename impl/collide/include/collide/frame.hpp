@@ -110,13 +110,9 @@ namespace detail {
 
 /// Whether `moderate` may leave a quaternion of that squared length as it is; not where that is NaN.
 template <class T>
-Lanes<T> is_moderate(const Lanes<T>& norm2) noexcept {
-  return (Lanes<T>::all(T(0.00390625)) <= norm2) & (norm2 <= Lanes<T>::all(T(1024)));
-}
+bool is_moderate(T norm2) noexcept { return norm2 >= T(0.00390625) && norm2 <= T(1024); }
 template <class T>
 Lanes<T> of_moderate_length(const Quaternion<T>& q) noexcept {
-  const Lanes<T> four = lanes(q);
-  if (all_three(is_moderate(sum_of_four(four * four)))) return four;
   const auto [x, y, z, w] = moderate(q);
   return Lanes<T>::of(x, y, z, w);
 }

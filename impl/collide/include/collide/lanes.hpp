@@ -301,6 +301,9 @@ struct Columns {
   friend Columns operator-(const Columns& a, const Columns& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Columns operator*(const Columns& a, const Lanes<T>& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
   friend Lanes<T> dot(const Columns& a, const Columns& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend Columns cross(const Columns& a, const Columns& b) noexcept {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
   /// Vector i + 1 in the place of vector i, of the first three.
   friend Columns yzx(const Columns& a) noexcept { return {yzx(a.x), yzx(a.y), yzx(a.z)}; }
   friend Columns select(const Lanes<T>& where, const Columns& a, const Columns& b) noexcept {
@@ -316,6 +319,12 @@ inline Columns<double> columns(Lanes<double> a, Lanes<double> b, Lanes<double> c
   return {{{_mm_unpacklo_pd(a.low.v, b.low.v)}, {_mm_unpacklo_pd(c.low.v, d.low.v)}},
           {{_mm_unpackhi_pd(a.low.v, b.low.v)}, {_mm_unpackhi_pd(c.low.v, d.low.v)}},
           {{_mm_unpacklo_pd(a.high.v, b.high.v)}, {_mm_unpacklo_pd(c.high.v, d.high.v)}}};
+}
+
+/// The same vector four times.
+template <class T>
+Columns<T> every_column(const Lanes<T>& a) noexcept {
+  return {a.template broadcast<0>(), a.template broadcast<1>(), a.template broadcast<2>()};
 }
 
 /// Whether a mask that is the same in every lane has all bits, or all four lanes of a are zero.

@@ -5,6 +5,7 @@
 #include <collide/contract.hpp>
 #include <collide/edges.hpp>
 #include <collide/frame.hpp>
+#include <collide/lanes.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -63,11 +64,21 @@ struct SpherePastTriangle {
     if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
+    place.feature = 0;
     if constexpr (MachineNumber<T>) {  // a sum off by as much as itself: so thin a triangle is all edges
       const T n2 = n_length * n_length;
       if (!(sum <= T(2) * n2 && sum >= n2 / T(2))) return false;
+      if (is_thin(n2, Tier::dot(edge[0], edge[0]), Tier::dot(edge[2], edge[2]))) {
+        const Vec3<T> w = point - v[0];
+        const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], w - n * (Tier::dot(n, w) / n2));
+        const T rest = T(1) - foot.base_weight - foot.apex_weight;
+        // Far beyond a tip the sides of the edges that meet there are nothing but rounding.
+        if (!(larger(rest, larger(foot.base_weight, foot.apex_weight)) <= T(1))) return false;
+        const T apex = not_negative(foot.apex_weight), base = clamped(foot.base_weight, T(0), T(1) - apex);
+        place.weights = {T(1) - apex - base, base, apex};
+        return true;
+      }
     }
-    place.feature = 0;
     place.weights = {a / sum, b / sum, c / sum};
     return true;
   }
@@ -251,6 +262,139 @@ struct SpherePastTriangle {
   }
 };
 
+#if defined(COLLIDE_LANES)
+
+/// An impact with its weights, stored as registers.
+inline TriangleImpact<float> stored(float time, Lanes<float> location, Lanes<float> normal, Lanes<float> weights) noexcept {
+  static_assert(sizeof(TriangleImpact<float>) == 40);
+  TriangleImpact<float> answer;
+  char* const numbers = reinterpret_cast<char*>(&answer);
+  answer.time = time;
+  location.store(reinterpret_cast<float*>(numbers + 4));  // and a fourth number, which the next replaces
+  normal.store(reinterpret_cast<float*>(numbers + 16));
+  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + 28), weights.v);
+  _mm_store_ss(&answer.weights.z, _mm_movehl_ps(weights.v, weights.v));
+  return answer;
+}
+inline TriangleImpact<double> stored(double time, Lanes<double> location, Lanes<double> normal,
+                                     Lanes<double> weights) noexcept {
+  static_assert(sizeof(TriangleImpact<double>) == 80);
+  TriangleImpact<double> answer;
+  char* const numbers = reinterpret_cast<char*>(&answer);
+  answer.time = time;
+  location.store(reinterpret_cast<double*>(numbers + 8));
+  normal.store(reinterpret_cast<double*>(numbers + 32));
+  _mm_storeu_pd(reinterpret_cast<double*>(numbers + 56), weights.low.v);
+  _mm_store_sd(&answer.weights.z, weights.high.v);
+  return answer;
+}
+
+/// Of four things that a sphere nears, the times at which it first touches them; +infinity: never. A thing's distance,
+/// squared, is beyond the radius, squared, by speed2 t^2 - 2 closing t + outside; `chord2` is closing^2 - speed2 outside.
+///
+/// No later than the time of the least distance, which counts where rounding is all that closes in.
+template <class T>
+Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const Lanes<T>& outside,
+                        const Lanes<T>& chord2) noexcept {
+  using L = Lanes<T>;
+  const L zero = L::all(T(0)), never = L::all(std::numeric_limits<T>::infinity());
+  const L time = smaller(larger(outside, zero) / (closing + sqrt(chord2)), closing / speed2);
+  const L at_start = (outside < zero) | ((outside == zero) & (closing == zero));
+  return without(select((zero < closing) & (zero <= chord2), time, never), at_start);
+}
+
+/// What `Fast` answers; of what is extreme, and where rounding leaves the nearest feature open, what `shared` does. Lane i
+/// is edge i, from corner i to the next, or corner i. What decides on which side of an edge the center is, or how far
+/// along it, is linear in time: the triangle is looked at once.
+///
+/// Rounding, u the unit roundoff. The normal as in moving_point_triangle: corners move by 30 u of G, the largest position.
+/// Let w be a corner seen from the center at the start, d the way to the contact, w + d the corner seen from there. Where
+/// the center is beside an edge is known to 5 u of |w + d| and 4 u of |w| and of |d|; |w| and |w + d| are at most 3.5 G:
+/// 60 u. Where two edges meet in a tip both may be wrong far beyond it: a contact on the face is within the corners' bounds,
+/// or no farther from them than rounding takes it. The time on the face takes 7 u of |w| and 3 u of the velocity, the
+/// location 3 u of the center and of d: 128 u together. The way to an edge's line, at right angles to the edge, is known as
+/// well as the velocity is, whose part across the edge takes 3 u of the whole: of a motion along the edge, that is 16 times
+/// as much of the part, and more is left open. An edge or a corner counts where the center is beyond it by 7 times what
+/// rounding makes of that: then no direction from there to the center is nothing but rounding.
+template <class T, class Shared>
+inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                         const Triangle<T>& triangle, const Shared& shared) noexcept {
+  using L = Lanes<T>;
+  using limits = std::numeric_limits<T>;
+  // Of lengths: products of eight of them stay in range.
+  constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120), most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
+  constexpr T least2 = least * least, most2 = most * most, known = T(64) * limits::epsilon();
+  const L center = lanes(sphere), along = lanes(velocity), zero = L::all(T(0));
+  const CornerLanes<T> t = corner_lanes(triangle);
+  const T radius = sphere.radius, radius2 = radius * radius;
+  const auto sums_with = [&](const L& n) { return sums_of_three(n * along, n * (center - t.v0), n * n, along * along); };
+  L n = cross(t.v1 - t.v0, t.v2 - t.v0), sums = sums_with(n);
+  const Columns<T> corner = columns(t.v0, t.v1, t.v2, t.v0), edge = yzx(corner) - corner, from = every_column(center) - corner;
+  const L edge2 = dot(edge, edge), from2 = dot(from, from);
+  if (!all_three((L::all(least2) <= edge2) & (edge2 <= L::all(most2)) & (from2 <= L::all(most2)))) {
+    return shared(sphere, velocity, triangle);
+  }
+  const bool thin = is_thin(second_pair(sums).first(), edge2.first(), edge2.template broadcast<2>().first());
+  if (thin) {
+    n = lanes(apart([](const Triangle<T>& x) { return normal_of<Plain>(x.v1 - x.v0, x.v2 - x.v0); })(triangle));
+    sums = sums_with(n);
+  }
+  const auto [receding, height, n2, speed2] = four(sums);
+  const bool in_range = n2 >= least2 * least2 && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
+  if (!in_range) return shared(sphere, velocity, triangle);
+  if (!(receding <= T(0) && (height >= T(0) || height * height <= radius2 * n2))) return TriangleImpact<T>::miss();
+  const T n_length = std::sqrt(n2), reach = radius * n_length;
+  if (height > reach && receding == T(0)) return TriangleImpact<T>::miss();
+
+  const Columns<T> u = every_column(along), inward = cross(every_column(n), edge);
+  const L beside = dot(inward, from), moves_in = dot(inward, u);
+  const T face_time = height > reach ? (reach - height) / receding : T(0);
+  if (const L weights = beside + moves_in * L::all(face_time); all_three(zero <= weights)) {
+    const L at = center + along * L::all(face_time), location = at - n * L::all(smaller(height, reach) / n2);
+    const L corners = larger(absolute(t.v0), larger(absolute(t.v1), absolute(t.v2)));
+    const L rounding = L::all(T(16) * limits::epsilon()) * largest_of_three(larger(absolute(center), corners));
+    const L low = smaller(t.v0, smaller(t.v1, t.v2)) - rounding, high = larger(t.v0, larger(t.v1, t.v2)) + rounding;
+    if (thin || !all_three((low <= location) & (location <= high))) return shared(sphere, velocity, triangle);
+    return stored(face_time, location, n / L::all(height < T(0) ? -n_length : n_length), yzx(weights) / sum_of_three(weights));
+  }
+
+  // Each line's distances are multiplied by its edge's length.
+  const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across), moment = cross(from, u);
+  const L r2 = L::all(radius2), u2 = L::all(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
+  if (any_of_three(across2 * L::all(T(256)) < edge2 * u2)) return shared(sphere, velocity, triangle);
+  const L line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
+  const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2, line_chord2);
+  const L corner_chord2 = r2 * u2 - dot(moment, moment);
+  const L corner_times = touching_times(zero - dot(from, u), u2, from2 - r2, corner_chord2);
+  const L along_edge = dot(from, edge), moves_along = dot(u, edge);
+  const L reached = along_edge + moves_along * line_times;
+  const L on_line = (zero <= reached) & (reached <= edge2);
+  const T time = smallest_of(smaller(corner_times, select(on_line, line_times, corner_times))).first();
+  if (time == limits::infinity()) return TriangleImpact<T>::miss();
+
+  // Which feature is nearest then: times that differ by a square do not tell.
+  const T speed = std::sqrt(speed2), least_way = known * speed * time;
+  const L passed = L::all(time), moved_along = moves_along * passed, scale = L::all(known * n_length);
+  const L doubt = scale * (from2 + edge2) + scale * sqrt(edge2) * L::all(speed * time);
+  const L after_start = along_edge + moved_along, after_end = dot(yzx(from), edge) + moved_along;
+  const L at_corner = (after_start <= zero) & (zero <= zxy(after_end));
+  const L at_edge = (zero < after_start) & (after_end < zero) & (beside + moves_in * passed < zero - doubt);
+  const int features = (at_corner | at_edge).bits() & 7, i = features >> 1;
+  if (!(features == 1 || features == 2 || features == 4)) return shared(sphere, velocity, triangle);
+  static constexpr std::array<std::array<T, 4>, 4> unit{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}}};
+  const auto unit_at = [](int k) { return L::load(reinterpret_cast<const char*>(&unit[k])); };
+  const std::array<L, 4> v{t.v0, t.v1, t.v2, t.v0};
+  const T per_edge2 = four((L::all(T(1)) / edge2) & at_edge)[i], share = smaller(four(after_start)[i] * per_edge2, T(1));
+  const L e = v[i + 1] - v[i], way = e * L::all(share), seen = (center + along * passed - v[i]) - way;
+  // What rounding left of a part along the edge counts where the rest is small.
+  const L away = seen - e * (sum_of_three(seen * e) * L::all(per_edge2)), away2 = sum_of_three(away * away);
+  const T away2_least = limits::min() / limits::epsilon() + least_way * least_way;
+  if (!(away2.first() >= away2_least)) return shared(sphere, velocity, triangle);
+  return stored(time, v[i] + way, away / sqrt(away2), unit_at(i) * L::all(T(1) - share) + unit_at(i + 1) * L::all(share));
+}
+
+#endif
+
 }  // namespace detail
 
 /// The first contact of `sphere`, moving by `velocity` per unit of time, with `triangle`.
@@ -273,7 +417,15 @@ template <class Tier = Fast, class T>
 TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                          const Triangle<T>& triangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_triangle<decltype(by)>(a...); }, sphere, velocity, triangle);
+    const auto shared = [](const auto&... inputs) {
+      return Tier::lift([](auto by, const auto&... a) { return moving_sphere_triangle<decltype(by)>(a...); }, inputs...);
+    };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::apart(shared));
+    }
+#endif
+    return shared(sphere, velocity, triangle);
   }
   return detail::SpherePastTriangle<Tier, T>(sphere, velocity, triangle).impact();
 }

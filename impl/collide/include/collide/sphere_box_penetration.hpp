@@ -21,8 +21,12 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
   const L center = lanes(sphere.center), middle = lanes(box.center), half = lanes(box.half);
-  const L q = of_moderate_length(box.orientation), norm_squared = sum_of_four(q * q);
-  const P radius = P::all(sphere.radius), zero = P::all(T(0)), one = P::all(T(1)), no_radius = radius * zero;  // or NaN
+  L q = lanes(box.orientation), norm_squared = sum_of_four(q * q);
+  if (!is_moderate(norm_squared.first())) {
+    q = apart(of_moderate_length<T>)(box.orientation), norm_squared = sum_of_four(q * q);
+    if (!is_moderate(norm_squared.first())) return shared(sphere, box);
+  }
+  const P radius = P::all(sphere.radius), zero = P::all(T(0)), one = P::first_is(T(1)), no_radius = radius * zero;  // or NaN
   // The rotation times |q|^2, which is divided out beside the rotating.
   const auto frame = FrameInLanes<T>::scaled(q);
   const L inverse = every(one / first_pair(norm_squared));
@@ -30,7 +34,7 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   const L local = frame.into(center - middle) * inverse, away = excess(local, half) + half * every(no_radius);
   const P distance2 = first_pair(sum_of_three(away * away)), is_outside = zero < distance2;
   const P in_range = (P::all(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= P::all(limits::max() / T(16)));
-  if (!(holds_or_all_zero(in_range, away) && all_three(is_moderate(norm_squared)))) return shared(sphere, box);
+  if (!holds_or_all_zero(in_range, away)) return shared(sphere, box);
 
   const L to_face = half - absolute(local), to_nearest_face = smallest_of_three(to_face);
   const L side = L::all(T(1)) ^ (local & L::all(T(-0.0)));
@@ -38,7 +42,7 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   const L way = frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
   const P distance = sqrt(distance2), depth = radius - distance + without(first_pair(to_nearest_face), is_outside);
   const L overlap = every(zero <= depth);
-  const L normal = way / every(zero - (distance | without(one, is_outside)));
+  const L normal = way * every(one / (zero - (distance | without(one, is_outside))));
   const L contact = center - way * every(select(is_outside, one, radius));
   return {depth.first(), first_three(normal & overlap), first_three(contact & overlap)};
 }

@@ -30,4 +30,9 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+namespace detail {
+template <class T>
+Vec3<double> in_double(const Vec3<T>& a) noexcept { return {double(a.x), double(a.y), double(a.z)}; }
+}  // namespace detail
+
 }  // namespace collide
