@@ -148,10 +148,14 @@ double allowed(double largest) {
 inline double leading(double value) { return value; }
 inline double leading(const DoubleWord<double>& value) { return value.high; }
 
-/// Whether the numbers of one quantity (a time, a point, a vector) over Bounded or WideBounded are known well
-/// enough for T, their errors times `ratio`. Infinities and what is exactly a T are.
+/// How well the numbers of a quantity or an answer are known: well enough as they are, if they are computed again in
+/// long doubles, in double-words, or not even then.
+enum class Known { not_yet, in_double_words, in_long_double, now };
+
+/// Of one quantity (a time, a point, a vector) over Bounded or WideBounded, for T. Infinities and what is exactly a T are
+/// known.
 template <class T, class Quantity>
-bool known_quantity(const Quantity& quantity, double ratio) {
+Known known_quantity(const Quantity& quantity) {
   double largest = 0, error = 0;
   for_each_leaf(quantity, [&](const auto& leaf, Role) {
     if constexpr (requires { leaf.error; }) {
@@ -159,7 +163,8 @@ bool known_quantity(const Quantity& quantity, double ratio) {
       error = leaf.error <= error ? error : leaf.error;  // NaN stays
     }
   });
-  if (error * ratio * (1 + 0x1p-20) <= allowed<T>(largest)) return true;
+  const double most = allowed<T>(largest), needed = error * (1 + 0x1p-20);
+  if (needed <= most) return Known::now;
   bool all = true;
   for_each_leaf(quantity, [&](const auto& leaf, Role) {
     if constexpr (requires { leaf.error; }) {
@@ -167,26 +172,28 @@ bool known_quantity(const Quantity& quantity, double ratio) {
       if (leaf.error != 0 || !(double(T(value)) == value || std::isinf(value))) all = false;
     }
   });
-  return all;
+  if (all) return Known::now;
+  if (has_long_double && needed * long_double_ratio <= most) return Known::in_long_double;
+  return needed * double_word_ratio <= most ? Known::in_double_words : Known::not_yet;
 }
 
-/// The same for a whole answer. A member without a role of its own consists of several quantities.
+/// Of a whole answer. A member without a role of its own consists of several quantities.
 template <class T, class A>
-bool known(const A& answer, double ratio, Role role = Role::inherited) {
-  bool all = true;
+Known known(const A& answer, Role role = Role::inherited) {
   if constexpr (Listed<A> || requires { answer.begin(); }) {
     if (role == Role::inherited) {
+      Known all = Known::now;
       if constexpr (Listed<A>) {
         for_each_member(answer, [&](std::string_view, const auto& member, Role own) {
-          all = known<T>(member, ratio, own) && all;
+          all = std::min(all, known<T>(member, own));
         });
       } else {
-        for (const auto& item : answer) all = known<T>(item, ratio, role) && all;
+        for (const auto& item : answer) all = std::min(all, known<T>(item, role));
       }
       return all;
     }
   }
-  return known_quantity<T>(answer, ratio);
+  return known_quantity<T>(answer);
 }
 
 }  // namespace detail
@@ -243,19 +250,20 @@ struct Certified : Plain {
     auto wide = text(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     if (Doubt::any || range.raised()) return false;
-    if (detail::known<T>(wide, 1)) {
+    const detail::Known known = detail::known<T>(wide);
+    if (known == detail::Known::now) {
       convert(wide, answer, [](const N& from, T& to) { to = T(from.value); });
       keep_apart(wide.yes(), answer);
       return true;
     }
     if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
       if constexpr (detail::has_long_double) {
-        if (detail::known<T>(wide, detail::long_double_ratio)) {
+        if (known == detail::Known::in_long_double) {
           in_long_double<T>(wide.yes(), answer, text, args...);
           return true;
         }
       }
-      if (detail::known<T>(wide, detail::double_word_ratio)) {
+      if (known == detail::Known::in_double_words) {
         in_double_words<T>(wide.yes(), answer, text, args...);
         return !range.raised();
       }
@@ -285,7 +293,7 @@ struct Certified : Plain {
     Doubt::any = false;
     auto wide = text(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
-    if (Doubt::any || range.raised() || !detail::known<T>(wide, 1)) return false;
+    if (Doubt::any || range.raised() || detail::known<T>(wide) != detail::Known::now) return false;
     convert(wide, answer, [](const N& from, T& to) { to = T(from.value.high); });
     keep_apart(wide.yes(), answer);
     return true;

@@ -65,8 +65,15 @@ Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, 
     }
     return shared(sphere, velocity, plane);
   }
-  const Vec3<T> normal = unit<Tier>(plane.normal);
-  const T length = Tier::dot(normal, plane.normal);
+  Vec3<T> normal = plane.normal;
+  T length;
+  if constexpr (MachineNumber<T>) {
+    normal = unit<Tier>(plane.normal), length = Tier::dot(normal, plane.normal);
+  } else {  // one root, which need not be kept in range, makes both
+    using std::sqrt;
+    length = sqrt(Tier::dot(normal, normal));
+    if (!(length == T(0))) normal = normal / length;
+  }
   const T approach = -Tier::dot(plane.normal, velocity);
   const T height = Tier::dot(plane.normal, sphere.center) + plane.offset;
   const T reach = sphere.radius * length;

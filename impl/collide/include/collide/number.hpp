@@ -21,6 +21,15 @@ namespace collide {
 template <class T>
 concept MachineNumber = std::floating_point<T>;
 
+namespace detail {
+/// The machine's next wider number.
+template <MachineNumber T>
+using Wider = std::conditional_t<std::same_as<T, float>, double, long double>;
+/// Whether it has at least ten digits more: on some machines long double is double.
+template <MachineNumber T>
+inline constexpr bool has_wider = std::numeric_limits<Wider<T>>::digits >= std::numeric_limits<T>::digits + 10;
+}  // namespace detail
+
 // Continuous functions, which a number type with error bounds evaluates without deciding anything. NaN in
 // the first argument stays.
 

@@ -3,10 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <limits>
 #include <optional>
-#include <type_traits>
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
@@ -61,18 +59,17 @@ bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) 
   return left || right;
 }
 
-/// The answer where it is sure, in a type with at least ten digits more: the sides of the edges, whose shares of their sum are
-/// the weights. Nothing where the point may lie on an edge's line, the triangle has no area, or an input is not finite.
+/// The answer where it is sure, computed in the next wider type: the sides of the edges, whose shares of their sum are the
+/// weights. Nothing where the point may lie on an edge's line, the triangle has no area, or an input is not finite.
 ///
 /// In the wider type nothing overflows or underflows. A side is known to 4 u of the sum of its terms' magnitudes, u its
 /// unit roundoff, and the weights to 11 u of all terms' magnitudes over the sum of the sides; 16 u are allowed to be a
 /// quarter of the scalar's epsilon, one unit in the last place of the largest weight.
 template <class T>
 std::optional<Containment<T>> surely(const Triangle<T>& triangle, int axis, const Vec3<T>& point) noexcept {
-  using W = std::conditional_t<std::same_as<T, float>, double, long double>;
-  using limits = std::numeric_limits<W>;
-  if constexpr (limits::digits >= std::numeric_limits<T>::digits + 10) {
-    constexpr W u = limits::epsilon() / 2;
+  if constexpr (has_wider<T>) {
+    using W = Wider<T>;
+    constexpr W u = std::numeric_limits<W>::epsilon() / 2;
     const std::size_t a = std::size_t(axis + 1) % 3, b = std::size_t(axis + 2) % 3;
     const std::array<T, 3> at = components(point);
     std::array<W, 3> from_a, from_b;

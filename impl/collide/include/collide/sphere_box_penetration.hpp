@@ -36,15 +36,20 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   const P in_range = (P::all(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= P::all(limits::max() / T(16)));
   if (!holds_or_all_zero(in_range, away)) return shared(sphere, box);
 
+  const P distance = sqrt(distance2);
+  const auto answer = [&](const P& depth, const L& way, const P& per_way, const P& to_contact) COLLIDE_INLINE {
+    const L overlap = every(zero <= depth), normal = way * every(per_way), contact = center - way * every(to_contact);
+    return Penetration<T>{depth.first(), first_three(normal & overlap), first_three(contact & overlap)};
+  };
+  if constexpr (std::same_as<T, double>) {  // in two registers what only the inside needs costs more than a wrong guess
+    if (distance2.first() > T(0)) return answer(radius - distance, frame.out_of(away) * inverse, one / (zero - distance), one);
+  }
   const L to_face = half - absolute(local), to_nearest_face = smallest_of_three(to_face);
   const L side = L::all(T(1)) ^ (local & L::all(T(-0.0)));
   const L face = without(first_of_three(to_face == to_nearest_face) & side, every(is_outside));
   const L way = frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
-  const P distance = sqrt(distance2), depth = radius - distance + without(first_pair(to_nearest_face), is_outside);
-  const L overlap = every(zero <= depth);
-  const L normal = way * every(one / (zero - (distance | without(one, is_outside))));
-  const L contact = center - way * every(select(is_outside, one, radius));
-  return {depth.first(), first_three(normal & overlap), first_three(contact & overlap)};
+  return answer(radius - distance + without(first_pair(to_nearest_face), is_outside), way,
+                one / (zero - (distance | without(one, is_outside))), select(is_outside, one, radius));
 }
 
 }  // namespace detail
