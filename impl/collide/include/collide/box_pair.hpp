@@ -194,7 +194,7 @@ template <class T>
 struct BoxPairInLanes {
   using L = Lanes<T>;
   L turn, between, half1, half2, norm1, norm2;
-  bool are_rotations = true;
+  bool are_rotations = true;  ///< whether the quaternions are some
 
   BoxPairInLanes(const Box<T>& box1, const Box<T>& box2) noexcept
       : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
@@ -207,7 +207,7 @@ struct BoxPairInLanes {
     norm2 = sum_of_four(b * b);
     const auto are_moderate = [&] { return is_moderate(norm1.first()) && is_moderate(norm2.first()); };
     if (!are_moderate()) {
-      a = apart(of_moderate_length<T>)(q1), b = apart(of_moderate_length<T>)(q2);
+      a = out_of_line(of_moderate_length<T>)(q1), b = out_of_line(of_moderate_length<T>)(q2);
       norm1 = sum_of_four(a * a);
       norm2 = sum_of_four(b * b);
       are_rotations = are_moderate();
@@ -218,7 +218,7 @@ struct BoxPairInLanes {
     between = FrameInLanes<T>::scaled(a).into(way);
   }
 
-  /// Whether the quaternions are some, and the half extents finite.
+  /// Whether the quaternions are some, and the half extents and the way between the boxes finite.
   bool is_usual() const noexcept { return are_rotations && all_three(are_finite(half1, half2, between)); }
 
   /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether

@@ -19,6 +19,7 @@
 #endif
 #endif
 
+#include <algorithm>
 #include <cfenv>
 #include <cstdint>
 

@@ -16,7 +16,7 @@ namespace detail {
 /// What `Fast` answers, edge i in lane i; where an argument is not finite, what `shared` does.
 template <class T, class Shared>
 inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<T>& triangle, const Vec3<T>& point,
-                                                 const Shared& shared) noexcept {
+                                                                 const Shared& shared) noexcept {
   using L = Lanes<T>;
   const auto [v0, v1, v2] = corner_lanes(triangle);
   const L p = lanes(point), all = v0 + v1 + v2 + p, zero = L::all(T(0)), one = L::all(T(1));
@@ -56,7 +56,9 @@ ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, co
                         inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) return detail::closest_point_triangle_perimeter_in_lanes(triangle, point, detail::apart(shared));
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::closest_point_triangle_perimeter_in_lanes(triangle, point, detail::out_of_line(shared));
+    }
 #endif
     return shared(triangle, point);
   }

@@ -117,10 +117,12 @@ FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>
 
 /// Whether a triangle is so thin that sums of products of its edges do not do, from the squares of n = edge1 x edge2 and of
 /// these edges.
+/// Thin: (edge1^2 + edge2^2)^2 > thinness n^2; moving_point_triangle.hpp derives what the normal of another is good for.
+inline constexpr int thinness = 100;
 template <MachineNumber T>
 bool is_thin(T n2, T edge1_squared, T edge2_squared) noexcept {
   const T e2 = edge1_squared + edge2_squared;
-  return T(100) * n2 < e2 * e2;
+  return T(thinness) * n2 < e2 * e2;
 }
 
 /// edge1 x edge2, the normal of the triangle with these edges. Of a thin one rounding leaves the product a part along

@@ -108,9 +108,10 @@ std::array<T, 4> moderate(const Quaternion<T>& q) noexcept {
 
 namespace detail {
 
-/// Whether `moderate` may leave a quaternion of that squared length as it is; not where that is NaN.
+/// Whether `moderate` may leave a quaternion of that squared length as it is: false for NaN.
 template <class T>
 bool is_moderate(T norm2) noexcept { return norm2 >= T(0.00390625) && norm2 <= T(1024); }
+/// `moderate`, in lanes.
 template <class T>
 Lanes<T> of_moderate_length(const Quaternion<T>& q) noexcept {
   const auto [x, y, z, w] = moderate(q);

@@ -14,10 +14,10 @@
 #define COLLIDE_LANES 1
 #if defined(__GNUC__)  // for lambdas: as functions they would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
-#define COLLIDE_APART __attribute__((noinline, cold))  // for what is rare: in line it would take registers all the time
+#define COLLIDE_OUT_OF_LINE __attribute__((noinline, cold))  // for what is rare: in line it would take registers all the time
 #else
 #define COLLIDE_INLINE
-#define COLLIDE_APART
+#define COLLIDE_OUT_OF_LINE
 #endif
 #endif
 
@@ -27,8 +27,8 @@ namespace collide::detail {
 
 /// `text`, called out of line.
 template <class Text>
-auto apart(Text text) noexcept {
-  return [text](const auto&... arguments) COLLIDE_APART { return text(arguments...); };
+auto out_of_line(Text text) noexcept {
+  return [text](const auto&... arguments) COLLIDE_OUT_OF_LINE { return text(arguments...); };
 }
 
 /// One register of a machine, or two where four numbers do not fit into one.

@@ -52,7 +52,9 @@ Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, cons
       return Tier::lift([](auto by, const auto&... a) { return moving_point_plane<decltype(by)>(a...); }, inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) return detail::moving_point_plane_in_lanes(point, velocity, plane, detail::apart(shared));
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_point_plane_in_lanes(point, velocity, plane, detail::out_of_line(shared));
+    }
 #endif
     if constexpr (looks_first<Tier, T>) {
       if (detail::surely_misses(detail::in_double(point), 0.0, detail::in_double(velocity),

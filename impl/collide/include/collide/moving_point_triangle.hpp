@@ -103,7 +103,7 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 
 /// What moving_point_triangle_in_lanes answers where the sides are known and the normal is not: of a thin triangle.
 template <class T, class Shared>
-COLLIDE_APART Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
+COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
                                                   const Shared& shared) noexcept {
   using limits = std::numeric_limits<T>;
   const Vec3<T> n = normal_of<Plain>(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
@@ -138,7 +138,7 @@ COLLIDE_APART Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Ve
 /// whatever underflows.
 template <class T, class Shared>
 inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
-                                 const Shared& shared) noexcept {
+                                                const Shared& shared) noexcept {
   using L = Lanes<T>;
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
@@ -164,7 +164,7 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   const P n2 = nq_x * nq_x + nq_y * nq_y + nq_z * nq_z;
   const L normal = firsts(nq_x, nq_y, nq_z) / every(sqrt(n2));
   if (!(bound2 < (outside * outside).first())) return shared(point, velocity, triangle);
-  if (!((hit & e4).first() < T(100) * n2.first())) return impact_with_thin_triangle(point, velocity, triangle, shared);
+  if (!((hit & e4).first() < T(thinness) * n2.first())) return impact_with_thin_triangle(point, velocity, triangle, shared);
   return impact(hit, time, location, normal);
 }
 
@@ -208,7 +208,9 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
       return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); }, inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::apart(shared));
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::out_of_line(shared));
+    }
     if constexpr (looks_first<Tier, T>) {
       if (detail::surely_passes(point, velocity, triangle)) return Tier::sure(Impact<T>::miss());
     }

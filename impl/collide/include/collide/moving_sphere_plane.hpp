@@ -55,7 +55,9 @@ Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, 
       return Tier::lift([](auto by, const auto&... a) { return moving_sphere_plane<decltype(by)>(a...); }, inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, detail::apart(shared));
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, detail::out_of_line(shared));
+    }
 #endif
     if constexpr (looks_first<Tier, T>) {
       if (detail::surely_misses(detail::in_double(sphere.center), double(sphere.radius), detail::in_double(velocity),

@@ -336,7 +336,7 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   }
   const bool thin = is_thin(second_pair(sums).first(), edge2.first(), edge2.template broadcast<2>().first());
   if (thin) {
-    n = lanes(apart([](const Triangle<T>& x) { return normal_of<Plain>(x.v1 - x.v0, x.v2 - x.v0); })(triangle));
+    n = lanes(out_of_line([](const Triangle<T>& x) { return normal_of<Plain>(x.v1 - x.v0, x.v2 - x.v0); })(triangle));
     sums = sums_with(n);
   }
   const auto [receding, height, n2, speed2] = four(sums);
@@ -422,7 +422,7 @@ TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>&
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::apart(shared));
+      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(shared));
     }
 #endif
     return shared(sphere, velocity, triangle);

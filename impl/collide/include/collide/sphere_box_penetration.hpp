@@ -23,10 +23,11 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   const L center = lanes(sphere.center), middle = lanes(box.center), half = lanes(box.half);
   L q = lanes(box.orientation), norm_squared = sum_of_four(q * q);
   if (!is_moderate(norm_squared.first())) {
-    q = apart(of_moderate_length<T>)(box.orientation), norm_squared = sum_of_four(q * q);
+    q = out_of_line(of_moderate_length<T>)(box.orientation), norm_squared = sum_of_four(q * q);
     if (!is_moderate(norm_squared.first())) return shared(sphere, box);
   }
-  const P radius = P::all(sphere.radius), zero = P::all(T(0)), one = P::first_is(T(1)), no_radius = radius * zero;  // or NaN
+  const P radius = P::all(sphere.radius), zero = P::all(T(0)), one = P::first_is(T(1));
+  const P no_radius = radius * zero;  // or NaN
   // The rotation times |q|^2, which is divided out beside the rotating.
   const auto frame = FrameInLanes<T>::scaled(q);
   const L inverse = every(one / first_pair(norm_squared));
@@ -72,7 +73,9 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
       return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); }, inputs...);
     };
 #if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) return detail::sphere_box_penetration_in_lanes(sphere, box, detail::apart(shared));
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::sphere_box_penetration_in_lanes(sphere, box, detail::out_of_line(shared));
+    }
 #endif
     return shared(sphere, box);
   }
