@@ -410,6 +410,12 @@ Case read_case(const std::filesystem::path& file) {
   return c;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+}
+
 void write_file(const std::filesystem::path& file, std::string_view text) {
   std::filesystem::path temporary = file;
   temporary += fmt::format(".{}.part", ::getpid());

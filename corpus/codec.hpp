@@ -35,6 +35,8 @@ nlohmann::json parse_json(std::string_view text, const std::string& where);
 std::string read_file(const std::filesystem::path& file);
 /// Reads one case file. Throws BadInput: unreadable, not JSON, not a case.
 Case read_case(const std::filesystem::path& file);
+/// With those above it, where they are missing. Throws BadInput where it cannot be made.
+void make_folder(const std::filesystem::path& folder);
 /// Writes to a temporary name beside `file` and renames. Throws BadInput when it cannot be written.
 void write_file(const std::filesystem::path& file, std::string_view text);
 

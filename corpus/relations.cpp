@@ -8,6 +8,8 @@
 #include <map>
 
 #include "corpus/draft.hpp"
+#include "oracles/confirmed.hpp"
+#include "oracles/requirements.hpp"
 
 namespace nearmiss {
 
@@ -91,14 +93,36 @@ std::optional<Partners> counterpart_if_valid(Case other, std::function<Answer(co
 
 // Scaling by powers of two.
 
-/// Room for every product of a few of its numbers, and of their differences.
+/// The largest difference of two places in one coordinate.
+double apart(const double* a, const double* b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+/// Whether any two places are the same or `least` apart.
+bool places_are_apart(const Case& c, double least) {
+  std::vector<const double*> places;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.query->inputs[i].role == Role::position && vector_at(c.query->inputs, i)) places.push_back(&c.values[i]);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double d = apart(places[i], places[j]);
+      if (d != 0 && d < least) return false;
+    }
+  }
+  return true;
+}
+
+/// Room for every product of eight of its numbers, and of the distances of its places: in float places within 2^6 may be
+/// 2^-29 apart, and the product of eight such distances would underflow.
 bool far_from_overflow_and_underflow(const Case& c) {
-  const int orders = c.scalar == Scalar::float32 ? 6 : 80;
+  const bool is_float = c.scalar == Scalar::float32;
+  const int orders = is_float ? 6 : 80, orders_apart = is_float ? 13 : 110;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const double x = std::abs(c.values[i]);
     if (x != 0 && (x < std::ldexp(1.0, -orders) || x > std::ldexp(1.0, orders))) return false;
   }
-  return true;
+  return places_are_apart(c, std::ldexp(1.0, -orders_apart));
 }
 
 int length_order(Role role) {
@@ -756,7 +780,7 @@ Case recast(const Case& c, std::string_view query, const std::map<std::string, s
 Partners same_answer(const Case& c, Case other, std::initializer_list<std::string_view> but = {}) {
   const Query &from = *c.query, &to = *other.query;
   const std::vector<std::string_view> not_these(but.begin(), but.end());
-  return counterpart(std::move(other), [&from, &to, not_these](const Answer& own) {
+  Partners partners = counterpart(std::move(other), [&from, &to, not_these](const Answer& own) {
     Answer a = own;
     for (std::size_t i = 0; i < to.outputs.size(); ++i) {
       const std::size_t at = index_of(from.outputs, to.outputs[i].name);
@@ -771,6 +795,9 @@ Partners same_answer(const Case& c, Case other, std::initializer_list<std::strin
     }
     return a;
   });
+  // What has fewer numbers has fewer moves that make an answer right.
+  partners.image_keeps_ulps = to.inputs.size() >= from.inputs.size();
+  return partners;
 }
 
 std::optional<Partners> prepared(const Case& c, std::uint64_t) {
@@ -998,7 +1025,9 @@ constexpr Relation table[] = {
     {"other-side", "a point that hits one side of a shape does not hit the other", false, other_side},
 };
 
-bool proves_wrong(const Finding& f) { return f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke; }
+bool proves_wrong(const Finding& f) {
+  return f.is_proved() || f.verdict == Verdict::broke;
+}
 
 constexpr double ulps_of_slack = 2;  ///< see slack()
 
@@ -1014,7 +1043,7 @@ std::string said_of(const RelationFinding& r, const Subject& subject, const Part
     if (proves_wrong(r.findings[i])) {
       return fmt::format("answer {}: {}, {}", i + 1, name_of(r.findings[i].disagreement), r.findings[i].clause);
     }
-    const collide::Contract& contract = subject.offering(r.cases[i].query->name).contract;
+    const collide::Contract contract = subject.standard_for(r.cases[i].query->name).contract;
     exact = exact && contract.exact_decisions && r.findings[i].verdict != Verdict::out_of_domain;
     near = near && contract.forward <= ulps_of_slack;
   }
@@ -1038,7 +1067,7 @@ constexpr collide::Contract no_promise{};
 /// One of the decisions is wrong: the judge says which, whatever was promised.
 bool some_decision_is_wrong(const RelationFinding& r) {
   for (std::size_t i = 0; i < r.cases.size(); ++i) {
-    if (judge(r.cases[i], r.answers[i], no_promise, Detail::verdict).truth_yes != r.answers[i].yes) return true;
+    if (confirmed(r.cases[i], r.answers[i], no_promise, Detail::verdict).truth_yes != r.answers[i].yes) return true;
   }
   return false;
 }
@@ -1047,14 +1076,15 @@ bool some_decision_is_wrong(const RelationFinding& r) {
 std::string said_of_the_oracle(const RelationFinding& r, const Subject& subject, const Partners& partners) {
   if (!partners.image) return {};
   if (r.findings[0].verdict == Verdict::out_of_domain || r.findings[1].verdict == Verdict::out_of_domain) return {};
-  if (proves_wrong(r.findings[0]) && r.findings[0].verdict == Verdict::broke) return {};
+  if (r.findings[0].verdict == Verdict::broke) return {};
   if (r.findings[1].verdict == Verdict::broke) return {};
   if (r.findings[0].truth_yes != r.findings[1].truth_yes) return "the exact decisions differ";
-  const collide::Contract& contract = subject.offering(r.cases[1].query->name).contract;
-  const collide::Contract& own = subject.offering(r.cases[0].query->name).contract;
+  const collide::Contract contract = subject.standard_for(r.cases[1].query->name).contract;
+  const collide::Contract own = subject.standard_for(r.cases[0].query->name).contract;
   if (!partners.image_keeps_ulps || contract.backward < own.backward || contract.forward < own.forward) return {};
-  const Finding image = judge(r.cases[1], partners.image(r.answers[0]), contract, Detail::verdict);
-  if (proves_wrong(image) && !proves_wrong(r.findings[0])) {
+  if (r.findings[0].verdict != Verdict::agrees) return {};  // not proved to be wrong is not yet right
+  const Finding image = confirmed(r.cases[1], partners.image(r.answers[0]), contract, Detail::verdict);
+  if (proves_wrong(image)) {
     return fmt::format("an answer is right, but its image is wrong: {}, {}", name_of(image.disagreement), image.clause);
   }
   return {};
@@ -1098,6 +1128,12 @@ bool offers_all(const Subject& subject, const Partners& partners) {
                      [&](const Case& c) { return !(subject.offering(c.query->name).answer == nullptr); });
 }
 
+bool may_be_asked_all(const Subject& subject, const Partners& partners) {
+  return std::all_of(partners.cases.begin(), partners.cases.end(), [&](const Case& c) {
+    return unmet_by(c, subject.offering(c.query->name).required).empty();
+  });
+}
+
 RelationFinding relate(const Relation& relation, const Partners& partners, const Case& question,
                        std::vector<Answer> answers, const Subject& subject, bool bit_for_bit) {
   RelationFinding r;
@@ -1110,8 +1146,8 @@ RelationFinding relate(const Relation& relation, const Partners& partners, const
                                       [](const Answer& a) { return a.status == Answer::Status::broke; });
   if (r.agreement == Agreement::same && !some_broke) return r;
   for (std::size_t i = 0; i < r.cases.size(); ++i) {
-    const collide::Contract& contract = subject.offering(r.cases[i].query->name).contract;
-    r.findings.push_back(judge(r.cases[i], r.answers[i], contract, Detail::verdict));
+    const Standard standard = subject.standard_for(r.cases[i].query->name);
+    r.findings.push_back(confirmed(r.cases[i], r.answers[i], standard, Detail::verdict));
   }
   r.broken = said_of(r, subject, partners, bit_for_bit, r.breach);
   r.oracle = said_of_the_oracle(r, subject, partners);
@@ -1128,7 +1164,9 @@ std::optional<RelationFinding> examine(const Relation& relation, const Case& que
                                        const Subject& subject, const Ask& ask, bool bit_for_bit) {
   const auto partners = relation.of(question, seed);
   if (!partners || !offers_all(subject, *partners)) return std::nullopt;
-  if (subject.offering(question.query->name).answer == nullptr) return std::nullopt;
+  const Offering& own = subject.offering(question.query->name);
+  if (own.answer == nullptr || !unmet_by(question, own.required).empty()) return std::nullopt;
+  if (!may_be_asked_all(subject, *partners)) return std::nullopt;
   std::vector<Answer> answers{ask(question)};
   for (const Case& c : partners->cases) answers.push_back(ask(c));
   return relate(relation, *partners, question, std::move(answers), subject, bit_for_bit);

@@ -83,10 +83,13 @@ bool claims_same_bits(const Subject& subject);
 
 using Ask = std::function<Answer(const Case&)>;
 
-/// Asks the subject about the case and its partners. Empty: no partners, or one of them is not offered.
+/// Asks the subject about the case and its partners. Empty: no partners, one of them is not offered, or one of the cases is
+/// outside of what the subject requires.
 std::optional<RelationFinding> examine(const Relation& relation, const Case& question, std::uint64_t seed,
                                        const Subject& subject, const Ask& ask, bool bit_for_bit = false);
 /// Whether the subject offers the query of each of the partners.
 bool offers_all(const Subject& subject, const Partners& partners);
+/// Whether each of the partners is inside of what the subject requires.
+bool may_be_asked_all(const Subject& subject, const Partners& partners);
 
 }  // namespace nearmiss

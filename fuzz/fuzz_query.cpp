@@ -19,12 +19,14 @@
 #include <vector>
 
 #include "corpus/codec.hpp"
+#include "corpus/fit.hpp"
 #include "corpus/generator.hpp"
 #include "fuzz/fuzzed_query.hpp"
 #include "impl/subject/added.hpp"
 #include "impl/subject/subject.hpp"
-#include "oracles/judge.hpp"
+#include "oracles/confirmed.hpp"
 #include "oracles/plugin.hpp"
+#include "oracles/requirements.hpp"
 
 namespace nearmiss {
 namespace {
@@ -84,8 +86,8 @@ std::vector<const Subject*> asked_subjects() {
   return asked;
 }
 
-Answer ask(const Offering& offering, const Case& c) try {
-  return offering.answer(c.values);
+Answer ask(const Subject& subject, const Case& c) try {
+  return ask_here(subject, c);
 } catch (const std::exception& e) {
   return Answer::without(Answer::Status::broke, e.what());
 }
@@ -134,13 +136,27 @@ void report(const Case& c, const Subject& subject, const Finding& f) {
   std::abort();
 }
 
+/// The case is an artifact of this target then, and whoever judges that meets the error again.
+[[noreturn]] void end_with(const InternalError& error, const Subject& subject) {
+  const std::string note = fmt::format("internal error: {}: {}", subject.name, error.what());
+  std::fprintf(stderr, "%s\n%s", note.c_str(), case_file(error.question(), note).c_str());
+  std::abort();
+}
+
+Finding judged(const Case& c, const Subject& subject) try {
+  return confirmed(c, ask(subject, c), subject.standard_for(query().name), Detail::verdict);
+} catch (const InternalError& error) {
+  end_with(error, subject);
+}
+
 void examine(const Case& c) {
   static const std::vector<const Subject*> asked = asked_subjects();
   for (const Subject* s : asked) {
     if (s->scalar != c.scalar) continue;
-    const Offering& offering = s->offering(query().name);
-    const Finding f = judge(c, ask(offering, c), offering.contract, Detail::verdict);
-    if (f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke) report(c, *s, f);
+    Case inside = c;
+    if (!fit(inside, s->offering(query().name).required)) continue;
+    const Finding f = judged(inside, *s);
+    if (f.is_proved() || f.verdict == Verdict::broke) report(inside, *s, f);
   }
 }
 

@@ -7,7 +7,9 @@
 ///   static auto answer(const collide::inputs::QUERY<Number>&);   // one for each query that it answers
 ///   template <class Q> static collide::Contract contract();      // optional: its promise for inputs Q
 ///   template <class Q> static std::string equivalence();         // optional: "" or by which equivalence
+///   template <class Q> static std::string left_out();            // optional: "" or what of an answer it does not give, and why
 ///   template <class Q> static std::string why_not();             // optional: why a query is not offered
+///   template <class Q> static nearmiss::Preconditions needs();   // optional: what it requires of inputs Q
 #pragma once
 
 #include <concepts>
@@ -27,9 +29,14 @@ Offering offering_of(std::string_view query) {
     o.offer = Offer::answers;
     o.answer = [](std::span<const double> values) { return erase(Adapter::answer(inputs_from<Q>(values.data()))); };
     if constexpr (requires { Adapter::template contract<Q>(); }) o.contract = Adapter::template contract<Q>();
+    if constexpr (requires { Adapter::template needs<Q>(); }) o.required = Adapter::template needs<Q>();
     if constexpr (requires { Adapter::template equivalence<Q>(); }) {
       o.how = Adapter::template equivalence<Q>();
       if (!o.how.empty()) o.offer = Offer::by_equivalence;
+    }
+    if constexpr (requires { Adapter::template left_out<Q>(); }) {
+      const std::string left_out = Adapter::template left_out<Q>();
+      if (!left_out.empty()) o.how += (o.how.empty() ? "" : "; ") + ("without " + left_out);
     }
   } else {
     o.how = "the adapter has no function for it";

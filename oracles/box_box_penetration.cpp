@@ -1,13 +1,8 @@
 /// Truth: shadows on the fifteen axes in the world, each divided by the axis's length; the least of them,
 /// with every vertex or pair of edges that supports the boxes along that axis.
-///
-/// An enclosure of a cross product that holds zero may have any direction u at a right angle to axis a of
-/// box 1. Seen along a, both boxes are polygons but for h |b . u| with b, h the other axis and its half
-/// extent, and the overlap of two polygons along any direction is at least the least along the normals of
-/// their edges: the two other axes of box 1, and a's cross products with the two other axes of box 2. So
-/// the overlap along u is at least the least of these four minus h |a x b|, where that is not negative.
 #include <collide/box_box_penetration.hpp>
 
+#include "oracles/tuples.hpp"
 #include "oracles/two_boxes.hpp"
 
 namespace nearmiss::oracle {
@@ -38,26 +33,18 @@ void for_each_sign(const N& x, F&& f) {
   if (may_be_at_most_zero(x)) f(-1);
 }
 
-template <class N>
-struct Axis {
-  Vector<N> direction;  // of any length
-  N gap{0}, length{1};  // times the length
-  bool may_exist = true, must_exist = true;
-  N depth{0};           // minus the gap, of the unit axis
-};
-
 template <class N, class Out>
 class Penetration {
  public:
   Penetration(const TwoBoxes<N>& boxes, Out& out) : boxes_(boxes), out_(out) {
-    for (int k = 0; k < axis_count; ++k) measure(k);
-    if (is_enclosure<N>) bound_depths();
+    for (int k = 0; k < axis_count; ++k) axis_[k] = PairAxis<N>(boxes, k);
+    if constexpr (is_enclosure<N>) bound_depths();
   }
 
   void run() {
     bool surely_apart = false;
     for (int k = 0; k < axis_count; ++k) {
-      const Axis<N>& a = axis_[k];
+      const PairAxis<N>& a = axis_[k];
       surely_apart = surely_apart || !may_be_at_most_zero(a.gap);
       if (a.may_exist && may_be_positive(a.gap) && may_be_negative(a.depth)) {
         out_.no({assume_at_most_zero(a.depth), k, {}, {}}, 2);
@@ -65,7 +52,7 @@ class Penetration {
     }
     if (surely_apart) return;
     double cap = std::numeric_limits<double>::infinity();
-    for (const Axis<N>& a : axis_) {
+    for (const PairAxis<N>& a : axis_) {
       if (a.must_exist) cap = std::min(cap, bounds(a.depth).high);
     }
     if (cap < 0) return;
@@ -86,42 +73,23 @@ class Penetration {
   }
 
  private:
-  void measure(int k) {
-    Axis<N>& a = axis_[k];
-    a.direction = boxes_.axis(k);
-    a.gap = boxes_.gap(k, a.direction);
-    if (k >= 6) {
-      const N length2 = norm2(a.direction);
-      a.may_exist = may_be_positive(length2);
-      a.must_exist = !may_be_zero(length2);
-      a.length = assume_within(root(length2), 0.0, 1.0);
-    }
-    if (a.must_exist) a.depth = -a.gap / a.length;
-  }
-
   /// Cuts off what no depth reaches; what is not known of edges that may be parallel is known here.
   void bound_depths() {
-    if constexpr (is_enclosure<N>) {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      const double apart = root(norm2(boxes_.between)).sup();
-      N most(0);
-      for (int i = 0; i < 3; ++i) most = most + boxes_.half1[i] + boxes_.half2[i];
-      std::array<double, axis_count> low;
-      for (int k = 0; k < axis_count; ++k) low[k] = axis_[k].must_exist ? axis_[k].depth.inf() : -infinity;
-      for (int k = 0; k < axis_count; ++k) {
-        double least = std::max(low[k], -apart), across = infinity;
-        if (k >= 6) {
-          const int i = (k - 6) / 3, j = (k - 6) % 3;
-          for (const int other : {(i + 1) % 3, (i + 2) % 3, 6 + 3 * i + (j + 1) % 3, 6 + 3 * i + (j + 2) % 3}) {
-            across = std::min(across, low[other]);
-          }
-          across = (N(across) - boxes_.half2[j] * axis_[k].length).inf();
-          if (across >= 0) least = std::max(least, across);
-        }
-        const double high = axis_[k].must_exist ? std::min(axis_[k].depth.sup(), most.sup()) : most.sup();
-        axis_[k].depth = N(std::min(least, high), high);
+    const double apart = root(norm2(boxes_.between)).sup();
+    N most(0);
+    for (int i = 0; i < 3; ++i) most = most + boxes_.half1[i] + boxes_.half2[i];
+    std::array<N, axis_count> depth;
+    for (int k = 0; k < axis_count; ++k) {
+      double least = std::max(least_depth(axis_[k]), -apart);
+      if (k >= 6) {
+        const double across = least_depth_across(boxes_, axis_, k);
+        if (across >= 0) least = std::max(least, across);
+        else if (may_be_positive(axis_[k].gap)) least = std::max(least, -most_gap_across(boxes_, axis_, k));
       }
+      const double high = axis_[k].must_exist ? std::min(axis_[k].depth.sup(), most.sup()) : most.sup();
+      depth[k] = N(std::min(least, high), high);
     }
+    for (int k = 0; k < axis_count; ++k) axis_[k].depth = depth[k];
   }
 
   bool may_be_least(int k) {
@@ -132,39 +100,67 @@ class Penetration {
       }
     }
     if (!is_enclosure<N>) return may_be_at_most(axis_[k].depth, axis_[least_].depth);
-    return std::all_of(axis_.begin(), axis_.end(), [&](const Axis<N>& other) {
+    return std::all_of(axis_.begin(), axis_.end(), [&](const PairAxis<N>& other) {
       return !other.must_exist || may_be_at_most(axis_[k].depth, other.depth);
     });
   }
 
   Vector<N> middle_of(const Vector<N>& a, const Vector<N>& b) const { return times(plus(a, b), N(N(1) / N(2))); }
 
-  /// Calls f(point) for each vertex that may lie furthest along `direction`.
-  template <class F>
-  static void for_each_vertex(const Vector<N>& center, const Vector<N>& half, const std::array<Vector<N>, 3>& axes,
-                              const std::array<N, 3>& along, F&& f) {
-    for (int corner = 0; corner < 8; ++corner) {
-      Vector<N> point = center;
-      bool may = true;
+  /// Where a box may reach furthest along a direction, of which `along` are the components in its frame: at a vertex or,
+  /// where some of its axes are at a right angle to the direction, on the hull of several.
+  struct Furthest {
+    const Vector<N>& center;
+    const std::array<Vector<N>, 3>& axes;
+    const Vector<N>& half;
+    Vector<N> along;
+
+    bool may_be_level(int l) const { return may_be_zero(along[l]) && may_be_positive(half[l]); }
+    N end(int l) const { return may_be_negative(along[l]) ? N(-half[l]) : half[l]; }
+    Vector<N> at(const std::array<N, 3>& place) const { return plus(center, out_of(axes, place)); }
+  };
+
+  /// Half way between the face and any of the points; `shift` is half the depth along the normal, away from the face.
+  void face(int k, const Vector<N>& normal, const N& depth, const Furthest& furthest, const Vector<N>& shift) {
+    constexpr std::size_t contact = 5;
+    const auto answer = [&](const Vector<N>& point) -> collide::BoxPenetration<N> {
+      return {depth, k, answer_vector(normal), answer_vector(point)};
+    };
+    if constexpr (is_enclosure<N>) {
+      Vector<N> place;
       for (int l = 0; l < 3; ++l) {
-        const int sign = (corner >> l & 1) != 0 ? 1 : -1;
-        may = may && may_be_at_least_zero(N(N(sign) * along[l]));
-        point = plus(point, times(axes[l], N(N(sign) * half[l])));
+        place[l] = may_be_zero(furthest.along[l]) ? join(furthest.half[l], N(-furthest.half[l])) : furthest.end(l);
       }
-      if (may) f(point);
+      const Vector<N> middle = plus(furthest.center, shift);
+      std::vector<Form> forms;
+      for (int l = 0; l < 3; ++l) forms.push_back({furthest.axes[l], middle, place[l]});
+      yes_to_all_on(forms, contact, out_, answer(plus(middle, out_of(furthest.axes, place))));
+    } else {
+      yes_to_any_of(hull(furthest, shift), contact, out_, answer);
     }
+  }
+  /// The vertices of that hull, one after the other around it.
+  static std::vector<Vector<N>> hull(const Furthest& f, const Vector<N>& shift) {
+    std::vector<std::array<N, 3>> places{{f.end(0), f.end(1), f.end(2)}};
+    for (int l = 0; l < 3; ++l) {
+      if (!f.may_be_level(l)) continue;
+      for (std::size_t i = places.size(); i-- > 0;) {
+        places.push_back(places[i]);
+        places.back()[l] = -f.half[l];
+      }
+    }
+    std::vector<Vector<N>> corners;
+    for (const auto& place : places) corners.push_back(plus(f.at(place), shift));
+    return corners;
   }
 
   void face_of_1(int k, const Vector<N>& normal, const N& depth) {
-    const Vector<N> inward = negated(normal);
-    for_each_vertex(boxes_.center2, boxes_.half2, boxes_.axes2, into(boxes_.axes2, inward), [&](const Vector<N>& v) {
-      out_.yes({depth, k, answer_vector(normal), answer_vector(plus(v, times(normal, N(depth / N(2)))))});
-    });
+    face(k, normal, depth, {boxes_.center2, boxes_.axes2, boxes_.half2, into(boxes_.axes2, negated(normal))},
+         times(normal, N(depth / N(2))));
   }
   void face_of_2(int k, const Vector<N>& normal, const N& depth) {
-    for_each_vertex(boxes_.center1, boxes_.half1, boxes_.axes1, into(boxes_.axes1, normal), [&](const Vector<N>& v) {
-      out_.yes({depth, k, answer_vector(normal), answer_vector(minus(v, times(normal, N(depth / N(2)))))});
-    });
+    face(k, normal, depth, {boxes_.center1, boxes_.axes1, boxes_.half1, into(boxes_.axes1, normal)},
+         times(normal, N(-depth / N(2))));
   }
 
   /// Every pair of edges that supports the boxes along the normal.
@@ -239,13 +235,13 @@ class Penetration {
         contact[c] = contact[c] + around * N(-0.5, 0.5);
       }
       out_.yes({depth, k, {}, answer_vector(contact)},
-               Normals<N>::cone({{boxes_.axes1[i], N(0), N(0)}, {boxes_.axes2[j], N(0), N(0)}}));
+               Normals<N>::cone({{boxes_.axes1[i], 0, 0}, {boxes_.axes2[j], 0, 0}}));
     }
   }
 
   const TwoBoxes<N>& boxes_;
   Out& out_;
-  std::array<Axis<N>, axis_count> axis_;
+  std::array<PairAxis<N>, axis_count> axis_;
   int least_ = -1;
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include <collide/checked.hpp>
 
 #include "oracles/query.hpp"
@@ -42,12 +45,25 @@ std::optional<Invalid> broken_inputs(std::span<const double> values) {
 template <class Inputs>
 Query make_query(std::string_view name, Oracle oracle) {
   using A = decltype(std::declval<Inputs>().template ask<collide::Fast>());
-  return {name, A::kind, fields_of<Inputs>(), fields_of<A>(), broken_inputs<Inputs>, oracle};
+  Layout layout = Layout::of<A>();
+  if (layout.parts.size() > Enclosure::most_members) {
+    throw std::logic_error(fmt::format("{}: an answer of {} members", name, layout.parts.size()));
+  }
+  return {name, A::kind, fields_of<Inputs>(), fields_of<A>(), std::move(layout), broken_inputs<Inputs>, oracle};
 }
 
 }  // namespace
 
 std::string Invalid::text() const { return fmt::format("{} is {}: it must be {}", field, value, rule); }
+
+std::string Query::member_name(std::size_t part) const {
+  const auto [begin, end, role] = layout.parts[part];
+  const std::string &first = outputs[begin].name, &last = outputs[end - 1].name;
+  if (end - begin == 1) return first;
+  const auto [differs, other] = std::mismatch(first.begin(), first.end(), last.begin(), last.end());
+  const std::size_t dot = first.find_last_of('.', std::size_t(differs - first.begin()));
+  return first.substr(0, dot);
+}
 
 std::string_view name_of(Kind kind) {
   switch (kind) {

@@ -1,10 +1,31 @@
 /// Truth: both points by Cramer's rule for the two right angles, the determinant by Lagrange's identity.
 #include <collide/closest_points_lines.hpp>
 
-#include "oracles/outcomes.hpp"
 #include "oracles/surface.hpp"
+#include "oracles/tuples.hpp"
 
 namespace nearmiss::oracle {
+
+/// What every point of the line satisfies: at a right angle to its direction the point is where the line is.
+std::vector<Form> forms_of(const collide::Line<Interval>& line) {
+  std::vector<Form> forms;
+  for (int i = 0; i < 3; ++i) {
+    Vector<Interval> axis{Interval(0), Interval(0), Interval(0)};
+    axis[i] = Interval(1);
+    forms.push_back({outer(vector(line.direction), axis), vector(line.point), Interval(0)});
+  }
+  return forms;
+}
+
+/// Of lines that may be parallel no more is known than that each point lies on its line.
+template <class Out>
+void any_points(const collide::inputs::closest_points_lines<Interval>& q, Out& out) {
+  constexpr std::size_t point1 = 0, point2 = 3;
+  const Bounds on1 = ulps_from(forms_of(q.line1), point1, out), on2 = ulps_from(forms_of(q.line2), point2, out);
+  const Interval any(-HUGE_VAL, HUGE_VAL);
+  const collide::Vec3<Interval> anywhere{any, any, any};
+  out.yes({anywhere, anywhere}, FromSet{{{point1, on1}, {point2, on2}}, {std::max(on1.low, on2.low), HUGE_VAL}});
+}
 
 template <class N, class Out>
 void closest_points_lines(const collide::inputs::closest_points_lines<N>& q, Out& out) {
@@ -13,7 +34,9 @@ void closest_points_lines(const collide::inputs::closest_points_lines<N>& q, Out
   const Vector<N> between = minus(p2, p1);
   const N length1 = norm2(d1), length2 = norm2(d2), determinant = norm2(outer(d1, d2));
   if (may_be_zero(determinant)) {
-    if (!surely_zero(determinant) || may_be_zero(length2)) return out.everything();
+    if constexpr (is_enclosure<N>) {
+      if (!surely_zero(determinant) || may_be_zero(length2)) return any_points(q, out);
+    }
     // (p1 - p2) . d2 / |d2|^2 along line 2
     return out.yes({answer_vector(p1), answer_vector(minus(p2, times(d2, N(inner(between, d2) / length2))))});
   }

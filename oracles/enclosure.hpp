@@ -17,6 +17,7 @@ struct Bounds {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
+  bool operator==(const Bounds&) const = default;
   bool empty() const { return low > high; }
   void include(const Bounds& b) {
     if (b.low < low) low = b.low;
@@ -40,9 +41,16 @@ struct Enclosure {
   bool may_match = false;
   /// Over the exact answers with the given yes or no. Empty where there is none.
   std::array<Bounds, Answer::capacity> error{};
-  /// Of the exact answer nearest to the given one: numbers further than one ulp away.
-  std::uint64_t mismatched = 0;
-  /// Of the same: the largest proved distance, in ulps of the given number; and to which number.
+  /// One member of the answer, held against the exact answers with the given yes or no by itself.
+  struct Member {
+    bool may_match = false;  ///< it may be within one ulp of that of an exact answer
+    double ulps = 0;         ///< the proved distance from the nearest, in ulps
+    double absolute = 0;     ///< the same distance, not in ulps
+    int number = -1;         ///< which number of the answer is so far off; -1: there is no such exact answer
+  };
+  static constexpr std::size_t most_members = 18;
+  std::array<Member, most_members> members{};  ///< in the order of the answer's layout
+  /// Of the exact answer nearest to the given one: the largest proved distance, in ulps; and to which number.
   double ulps = 0;
   double absolute = 0;  ///< the same distance, not in ulps
   int worst = -1;
@@ -63,9 +71,12 @@ struct Alternative {
   struct Face {
     std::array<Bounds, 3> direction;
     Bounds range;
+    bool operator==(const Face&) const = default;
   };
   bool many_normals = false;  ///< the normal is any unit vector that faces as listed
   std::vector<Face> facing;
+
+  bool operator==(const Alternative&) const = default;
 };
 
 /// Who answers: intervals of doubles first, exact rational and algebraic numbers where they cannot tell.
@@ -84,6 +95,8 @@ struct Oracle {
   /// the query names no surface.
   bool (*may_be_on_surface)(std::span<const double> values, Widening widening, const Answer& about,
                             std::size_t number, double ulps, Scalar scalar);
+  /// The exact decision where each number is `values[i] + by[i] * 2^-exponent`.
+  bool (*exact_decision)(std::span<const double> values, std::span<const double> by, int exponent);
 };
 
 }  // namespace nearmiss

@@ -10,6 +10,7 @@
 #include <cfloat>
 #include <limits>
 
+#include "impl/subject/floating_point.hpp"
 #include "oracles/arithmetic.hpp"
 #include "oracles/outcomes.hpp"
 
@@ -66,6 +67,7 @@ bool invalid_is_noticed() {
 }  // namespace
 
 std::optional<std::string> broken_environment() {
+  const FloatingPointScope standard_modes;
   if (contracts()) return "floating point: products and sums are contracted; compile with -ffp-contract=off";
   if (rounds_subnormals_away()) return "floating point: subnormal numbers are flushed to zero";
   if (!intervals_hold()) return "floating point: directed rounding does not work, so intervals are no bounds";

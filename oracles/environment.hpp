@@ -7,7 +7,7 @@
 namespace nearmiss {
 
 /// What is wrong with the arithmetic of this build on this machine, in one line; empty when nothing
-/// is. Asked once at the start of every program. Works with any rounding mode on entry and leaves it.
+/// is. Asked once at the start of every program. Works in any modes (impl/subject/floating_point.hpp) and leaves them.
 std::optional<std::string> broken_environment();
 
 }  // namespace nearmiss

@@ -20,6 +20,11 @@ struct Window {
     from = std::max(from, w.from);
     to = std::min(to, w.to);
   }
+  /// Encloses both.
+  void include(const Window& w) {
+    if (w.empty()) return;
+    *this = empty() ? w : Window{std::min(from, w.from), std::max(to, w.to)};
+  }
 };
 
 /// Encloses the times t >= 0 at which a + b t <= 0 for some a and b of the enclosures: since t is not
@@ -42,6 +47,24 @@ Window times_on_side(const N& start, const N& step, const N& half, int side) {
   Window w = times_not_positive(N(start - half), step);
   w.clip(times_not_positive(N(-start - half), N(-step)));
   return w;
+}
+
+/// Encloses the times at which a point at w that moves by u is as near to the origin as the root of `reach2`; `moment2` is
+/// |w x u|^2. For enclosures.
+inline Window times_within(const Vector<Interval>& w, const Vector<Interval>& u, const Interval& reach2,
+                           const Interval& moment2) {
+  const Interval closing = -inner(w, u), speed2 = norm2(u), chord2 = speed2 * reach2 - moment2;
+  const Interval outside = norm2(w) - reach2;
+  constexpr Window never{1, 0};
+  if (!may_be_at_least_zero(chord2)) return never;
+  const Interval half = root(chord2);
+  Window times;
+  if (!may_be_at_most_zero(outside)) {
+    if (!may_be_positive(closing)) return never;
+    times.from = (outside / Interval((assume_at_least_zero(closing) + half).sup())).inf();
+  }
+  if (!may_be_zero(speed2)) times.to = ((closing + half) / speed2).sup();
+  return times;
 }
 
 /// The quotient, known to lie in the window, so that it is bounded even where the divisor may be zero; empty where it

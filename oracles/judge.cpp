@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cfenv>
 #include <cmath>
+#include <tuple>
+
+#include "impl/subject/floating_point.hpp"
+#include "oracles/requirements.hpp"
 
 namespace nearmiss {
 
@@ -37,23 +41,7 @@ Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   return largest;
 }
 
-/// Rounds to nearest for its lifetime, whatever the caller's mode.
-class RoundToNearest {
- public:
-  RoundToNearest() : before_(std::fegetround()) {
-    if (before_ != FE_TONEAREST) std::fesetround(FE_TONEAREST);
-  }
-  ~RoundToNearest() {
-    if (before_ != FE_TONEAREST) std::fesetround(before_);
-  }
-  RoundToNearest(const RoundToNearest&) = delete;
-  RoundToNearest& operator=(const RoundToNearest&) = delete;
-
- private:
-  int before_;
-};
-
-/// The oracle and the question, so that each step below is one line.
+/// The oracle and the question, so that each step below is one line. Remembers what each rung shows.
 class Examination {
  public:
   Examination(const Case& question, const Answer& answer)
@@ -78,11 +66,18 @@ class Examination {
   }
   /// The highest rung at which no exact answer matches; empty when the lowest cannot exclude it.
   std::optional<Backward> backward() const {
-    return highest_rung([](const Enclosure& e) { return !e.may_match; });
+    return highest_rung([](const Rung& r) { return !r.may_match; });
+  }
+  /// The same for the given decision, and for one member beside it.
+  std::optional<Backward> backward_of_decision() const {
+    return highest_rung([&](const Rung& r) { return answer_.yes ? !r.may_be_yes : !r.may_be_no; });
+  }
+  std::optional<Backward> backward_of_member(std::size_t member) const {
+    return highest_rung([&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; });
   }
   /// The highest rung up to which the decision is the same for every input.
   std::optional<Backward> margin() const {
-    return highest_rung([](const Enclosure& e) { return e.decided(); });
+    return highest_rung([](const Rung& r) { return r.may_be_yes != r.may_be_no; });
   }
   bool in_domain(const collide::Contract& contract) const {
     for (std::size_t role = 0; role < largest_.size(); ++role) {
@@ -116,13 +111,28 @@ class Examination {
   const std::vector<double>& last_widening() const { return widening_; }
 
  private:
+  /// What the enclosure of one rung allows.
+  struct Rung {
+    bool known = false, may_be_yes = false, may_be_no = false, may_match = false;
+    std::uint32_t may_match_member = 0;  ///< bit i: member i of the layout
+  };
+  static_assert(Enclosure::most_members <= 32);
+
+  const Rung& at(int k) const {
+    Rung& r = remembered_[std::size_t(k)];
+    if (r.known) return r;
+    const Enclosure e = within(rung(k));
+    r = {true, e.may_be_yes, e.may_be_no, e.may_match, 0};
+    for (std::size_t i = 0; i < e.members.size(); ++i) r.may_match_member |= std::uint32_t{e.members[i].may_match} << i;
+    return r;
+  }
   /// Widening an input never shrinks its enclosure, so the rungs that pass come first.
   template <class Passes>
   std::optional<Backward> highest_rung(Passes passes) const {
     int low = -1, high = rungs;  // passes at low, fails at high
     while (high - low > 1) {
       const int middle = low < 0 ? 0 : high == rungs && low < 8 ? std::min(2 * low + 1, rungs - 1) : (low + high) / 2;
-      (passes(within(rung(middle))) ? low : high) = middle;
+      (passes(at(middle)) ? low : high) = middle;
     }
     if (low < 0) return std::nullopt;
     return Backward{rung(low)};
@@ -132,13 +142,12 @@ class Examination {
   const Answer& answer_;
   Magnitudes largest_;
   mutable std::vector<double> widening_;
+  mutable std::array<Rung, rungs> remembered_{};
 };
 
-Disagreement disagreement_of(const Query& query, const Answer& answer, bool decision_differs, int worst) {
-  if (decision_differs) return answer.yes ? Disagreement::false_hit : Disagreement::false_miss;
-  if (worst < 0) return Disagreement::none;
-  switch (query.outputs[std::size_t(worst)].role) {
-    case Role::time: return Disagreement::wrong_time;
+Disagreement wrong(const Query& query, Role role, double given) {
+  switch (role) {
+    case Role::time: return given < 0 ? Disagreement::negative_time : Disagreement::wrong_time;
     case Role::depth: return Disagreement::wrong_depth;
     case Role::normal: return Disagreement::wrong_normal;
     case Role::position: return Disagreement::wrong_place;
@@ -147,27 +156,6 @@ Disagreement disagreement_of(const Query& query, const Answer& answer, bool deci
     case Role::weight: return query.kind == Kind::direction ? Disagreement::wrong_direction : Disagreement::wrong_weight;
     default: return Disagreement::wrong_direction;
   }
-}
-
-/// The first given number that is NaN, if any; a miss has an infinite time by definition.
-int not_a_number(const Query& query, const Answer& answer) {
-  const bool miss = query.kind == Kind::impact && !answer.yes;
-  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    if (miss && query.outputs[i].role == Role::time) {  // what follows the time belongs to a hit
-      return std::isnan(answer.values[i]) || answer.values[i] < 0 ? int(i) : -1;
-    }
-    if (answer.gives(i) && std::isnan(answer.values[i])) return int(i);
-  }
-  return -1;
-}
-
-/// The first given number that is infinite, which is right only for a number beyond the largest finite one.
-int infinite(const Query& query, const Answer& answer) {
-  if (query.kind == Kind::impact && !answer.yes) return -1;
-  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    if (answer.gives(i) && std::isinf(answer.values[i])) return int(i);
-  }
-  return -1;
 }
 
 /// |normal| - 1 in units of epsilon; 0 where the answer has no normal.
@@ -179,39 +167,233 @@ double length_error(const Query& query, const Answer& answer, Scalar scalar) {
     length2 += static_cast<long double>(answer.values[i]) * answer.values[i];
     any = true;
   }
-  if (!any || !answer.yes) return 0;
+  if (!any || !answer.yes || !std::isfinite(length2)) return 0;
   return double((std::sqrt(length2) - 1) / unit_roundoff(scalar));
 }
 
-/// The answer with its normals divided by their length: normals are compared as directions, and their
-/// length on its own. Normals that are nowhere near unit stay as they are.
-Answer with_unit_normals(const Query& query, Answer answer, double error, Scalar scalar) {
-  if (!(std::abs(error) * unit_roundoff(scalar) < 0.5)) return answer;
-  const long double length = 1 + static_cast<long double>(error) * unit_roundoff(scalar);
-  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    if (query.outputs[i].role == Role::normal) answer.values[i] = double(answer.values[i] / length);
+/// Builds a finding, member by member.
+class Judgement {
+ public:
+  Judgement(const Case& question, const Answer& answer, const Standard& standard, Detail detail)
+      : question_(question),
+        query_(*question.query),
+        answer_(answer),
+        contract_(standard.contract),
+        promised_(standard.promised),
+        detail_(detail),
+        x_(question, answer) {}
+
+  Finding finding() {
+    if (answer_.status != Answer::Status::answered) {
+      f_.verdict = answer_.status == Answer::Status::broke ? Verdict::broke : Verdict::cannot_answer;
+      f_.clause = answer_.reason();
+      return std::move(f_);
+    }
+    f_.unit_error = length_error(query_, answer_, question_.scalar);
+    if (!x_.in_domain(contract_)) {
+      f_.verdict = Verdict::out_of_domain;
+      return std::move(f_);
+    }
+    decide();
+    judge_whole();
+    judge_decision();
+    judge_members();
+    judge_length();
+    conclude();
+    return std::move(f_);
   }
-  return answer;
-}
 
-void take_forward(const Enclosure& e, Finding& f) {
-  f.forward_ulps = e.ulps;
-  f.worst = e.worst;
-  f.forward_absolute = e.absolute;
-}
+ private:
+  using Part = Layout::Part;
+  /// The decision: intervals first, exact numbers where they cannot tell.
+  void decide() {
+    constexpr double vague_ulps = 0.1;
+    here_ = x_.within(0);
+    const bool vague = !(here_.ulps_at_most_of_any - here_.ulps <= vague_ulps);
+    if (!here_.decided() || detail_ == Detail::full || (detail_ == Detail::forward && vague)) {
+      if (!here_.decided()) f_.decided_by = Stage::exact;
+      here_ = x_.exactly();
+    }
+    f_.truth_yes = here_.may_be_yes;
+    decision_differs_ = f_.truth_yes != answer_.yes;
+  }
+  void judge_whole() {
+    if (!decision_differs_) {
+      f_.forward_ulps = here_.ulps;
+      f_.worst = here_.worst;
+      f_.forward_absolute = here_.absolute;
+    }
+    // The exact stage excludes a match at the input itself where the lowest rung cannot.
+    if (!here_.may_match) f_.backward = x_.backward().value_or(Backward{0});
+  }
+  void judge_decision() {
+    if (!decision_differs_) return;
+    MemberFinding m;
+    m.disagreement = answer_.yes ? Disagreement::false_hit : Disagreement::false_miss;
+    m.backward = x_.backward_of_decision().value_or(Backward{0});
+    if (m.backward->above >= contract_.backward) {
+      m.clause = backward_clause();
+    } else if (contract_.exact_decisions) {
+      m.clause = "exact decisions";
+    }
+    f_.members.push_back(std::move(m));
+  }
+  /// Beside a decision that breaks the contract itself the numbers mean nothing.
+  void judge_members() {
+    const bool broken_decision = !f_.members.empty() && f_.members.front().breaks();
+    for (std::size_t i = 0; i < query_.layout.parts.size(); ++i) {
+      const Part& part = query_.layout.parts[i];
+      if (is_unasked_time_of_miss(part)) {
+        judge_miss(i, part);
+      } else if (const int bad = not_finite(part); bad >= 0) {
+        add_not_finite(i, bad);
+      } else if (!broken_decision) {
+        judge_member(i, part);
+      }
+    }
+  }
+  bool is_unasked_time_of_miss(const Part& part) const {
+    return query_.kind == Kind::impact && !answer_.yes && part.role == Role::time;
+  }
+  /// A miss has an infinite time; a negative one or NaN is no time at all.
+  void judge_miss(std::size_t member, const Part& part) {
+    const double time = answer_.values[part.begin];
+    if (std::isnan(time)) {
+      add_not_finite(member, int(part.begin));
+    } else if (time < 0) {
+      MemberFinding m = member_finding(member, Disagreement::negative_time, int(part.begin));
+      m.clause = fmt::format("{} is {}", query_.outputs[part.begin].name, time);
+      f_.members.push_back(std::move(m));
+    }
+  }
+  static MemberFinding member_finding(std::size_t member, Disagreement d, int worst) {
+    MemberFinding m;
+    m.member = int(member);
+    m.disagreement = d;
+    m.worst = worst;
+    return m;
+  }
+  /// What belongs to a hit alone means nothing in a miss.
+  bool is_given(std::size_t i) const { return answer_.gives(i) && (answer_.yes || query_.kind != Kind::impact); }
+  /// The first number that is NaN, or infinite where it is not shown to be right.
+  int not_finite(const Part& part) {
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      if (!is_given(i)) continue;
+      if (std::isnan(answer_.values[i])) return int(i);
+      if (std::isinf(answer_.values[i]) && !may_be_infinite(i)) return int(i);
+    }
+    return -1;
+  }
+  /// An infinite number is none where an exact one is at most half the largest finite number. Nearer to that it is held
+  /// to its distance like any other number, and so it is beside a wrong decision, where there is no exact one.
+  bool may_be_infinite(std::size_t i) const {
+    const Enclosure exact = x_.exactly();
+    return exact.may_be_yes != answer_.yes || exact.error[i].nearest_to_zero() <= largest_finite(question_.scalar) / 2;
+  }
+  void add_not_finite(std::size_t member, int bad) {
+    MemberFinding m = member_finding(member, Disagreement::not_finite, bad);
+    m.clause = fmt::format("{} is {}", query_.outputs[std::size_t(bad)].name, answer_.values[std::size_t(bad)]);
+    f_.members.push_back(std::move(m));
+  }
+  /// A member counts beside a wrong decision where it is wrong for every input that has the given decision as well.
+  void judge_member(std::size_t member, const Part& part) {
+    if (!answer_.gives(part.begin) || here_.members[member].may_match) return;
+    std::optional<Backward> backward = x_.backward_of_member(member);
+    if (decision_differs_ && !(backward && backward->above > f_.members.front().backward->above)) return;
+    const Enclosure::Member& seen = here_.members[member];
+    const int worst = seen.number < 0 ? int(part.begin) : seen.number;
+    MemberFinding m = member_finding(member, wrong(query_, part.role, answer_.values[std::size_t(worst)]), worst);
+    m.backward = backward.value_or(Backward{0});
+    if (!decision_differs_) m.forward_ulps = seen.ulps, m.forward_absolute = seen.absolute;
+    if (m.backward->above >= contract_.backward) {
+      m.clause = backward_clause();
+      name_place(m, contract_.backward, 1);
+    } else if (m.forward_ulps > contract_.forward) {
+      m.clause = fmt::format("forward error at most {} ulp", contract_.forward);
+      name_place(m, 0, contract_.forward);
+    }
+    f_.members.push_back(std::move(m));
+  }
+  std::string backward_clause() const { return fmt::format("backward error at most {} epsilon", contract_.backward); }
+  /// A wrong place that breaks the contract may break more: is it on the surface of anything that the contract allows?
+  void name_place(MemberFinding& m, double k, double ulps) const {
+    if (m.disagreement == Disagreement::wrong_place && x_.off_surface(m.worst, k, ulps)) {
+      m.disagreement = Disagreement::off_surface;
+    }
+  }
+  void judge_length() {
+    if (!(std::abs(f_.unit_error) > contract_.unit)) return;
+    for (std::size_t i = 0; i < query_.layout.parts.size(); ++i) {
+      if (query_.layout.parts[i].role != Role::normal) continue;
+      MemberFinding m = member_finding(i, Disagreement::not_unit, int(query_.layout.parts[i].begin));
+      m.clause = fmt::format("normals of length 1 within {} epsilon", contract_.unit);
+      f_.members.push_back(std::move(m));
+    }
+  }
 
-Finding violation(Finding f, Disagreement d, std::string clause) {
-  f.verdict = Verdict::violates_contract;
-  if (f.disagreement == Disagreement::none || d == Disagreement::not_unit) f.disagreement = d;
-  f.clause = std::move(clause);
-  return f;
-}
+  /// How many times as much as was promised: what the headline goes by. A number that is not finite comes first.
+  double excess(const MemberFinding& m) const {
+    const auto times = [](double amount, double promised) {
+      return std::isfinite(promised) ? amount / std::max(promised, 1.0) : 0.0;
+    };
+    if (m.disagreement == Disagreement::not_finite) return HUGE_VAL;
+    if (m.disagreement == Disagreement::not_unit) return times(std::abs(f_.unit_error), contract_.unit);
+    const double backward = m.backward ? m.backward->above : 0.0;
+    if (!m.breaks()) return backward;
+    return std::max({times(backward, contract_.backward), times(m.forward_ulps, contract_.forward),
+                     contract_.exact_decisions && m.member == MemberFinding::decision ? 1.0 : 0.0});
+  }
+  /// What breaks the contract before what differs; then what does so most.
+  void choose_headline() {
+    const auto rank = [&](int i) {
+      const MemberFinding& m = f_.members[std::size_t(i)];
+      return std::tuple(m.breaks(), excess(m), m.forward_ulps);
+    };
+    for (int i = 0; i < int(f_.members.size()); ++i) {
+      if (f_.headline < 0 || rank(i) > rank(f_.headline)) f_.headline = i;
+    }
+  }
+  void conclude() {
+    choose_headline();
+    const MemberFinding* head = f_.headline_member();
+    if (head != nullptr && head->breaks()) return violated(head->disagreement, head->clause);
+    // No member by itself: all of them together may.
+    if (f_.backward && f_.backward->above >= contract_.backward) return combination(backward_clause());
+    if (!decision_differs_ && f_.forward_ulps > contract_.forward) {
+      return combination(fmt::format("forward error at most {} ulp", contract_.forward));
+    }
+    if (here_.may_match && head == nullptr) return;  // agrees
+    f_.verdict = Verdict::not_proved;
+    f_.disagreement = head != nullptr ? head->disagreement : Disagreement::wrong_combination;
+  }
+  void combination(std::string clause) {
+    f_.headline = -1;
+    violated(Disagreement::wrong_combination, std::move(clause));
+  }
+  void violated(Disagreement d, std::string clause) {
+    f_.verdict = promised_ ? Verdict::violates_contract : Verdict::exceeds_measure;
+    f_.disagreement = d;
+    f_.clause = std::move(clause);
+  }
+
+  const Case& question_;
+  const Query& query_;
+  const Answer& answer_;
+  const collide::Contract& contract_;
+  const bool promised_;
+  const Detail detail_;
+  const Examination x_;
+  Enclosure here_;
+  bool decision_differs_ = false;
+  Finding f_;
+};
 
 }  // namespace
 
 double rung(int k) { return k == 0 ? 0.0 : std::ldexp(1.0, k - 1); }
 
 std::vector<double> widening(const Query& query, std::span<const double> values, Scalar scalar, double k) {
+  const FloatingPointScope standard_modes;
   const Case question{&query, scalar, {values.begin(), values.end()}, {}, 0, 0, {}};
   const Answer none{};
   const Examination x(question, none);
@@ -219,84 +401,56 @@ std::vector<double> widening(const Query& query, std::span<const double> values,
   return x.last_widening();
 }
 
-Finding judge(const Case& question, const Answer& answer, const collide::Contract& contract, Detail detail) {
-  const RoundToNearest to_nearest;
-  const Query& query = *question.query;
+bool Finding::has(Disagreement d) const {
+  if (disagreement == d) return true;
+  return std::any_of(members.begin(), members.end(),
+                     [&](const MemberFinding& m) { return m.disagreement == d && (m.breaks() || !is_proved()); });
+}
+
+namespace {
+
+Finding not_asked(Preconditions unmet) {
   Finding f;
-  if (answer.status != Answer::Status::answered) {
-    f.verdict = answer.status == Answer::Status::broke ? Verdict::broke : Verdict::cannot_answer;
-    f.clause = answer.reason();
-    return f;
-  }
-  f.unit_error = length_error(query, answer, question.scalar);
-  const Answer compared = with_unit_normals(query, answer, f.unit_error, question.scalar);
-  const Examination x(question, compared);
-  if (!x.in_domain(contract)) {
-    f.verdict = Verdict::out_of_domain;
-    return f;
-  }
-  const auto not_finite = [&](int bad) {
-    f.worst = bad;
-    return violation(f, Disagreement::not_finite,
-                     fmt::format("{} is {}", query.outputs[std::size_t(bad)].name, answer.values[std::size_t(bad)]));
-  };
-  if (const int bad = not_a_number(query, answer); bad >= 0) {
-    f.truth_yes = x.exactly().may_be_yes;
-    return not_finite(bad);
-  }
-
-  // The decision: interval first, exact where it cannot tell.
-  Enclosure here = x.within(0);
-  const bool vague = !(here.ulps_at_most_of_any - here.ulps <= 0.1);
-  if (!here.decided() || detail == Detail::full || (detail == Detail::forward && vague)) {
-    if (!here.decided()) f.decided_by = Stage::exact;
-    here = x.exactly();
-  }
-  f.truth_yes = here.may_be_yes;
-  const bool decision_differs = f.truth_yes != answer.yes;
-  // An infinite number is held to the same bound as any other: on a knife's edge it may be right next door.
-  const auto right_next_door = [&] { return std::isfinite(contract.backward) && x.within(contract.backward).may_match; };
-  if (const int bad = infinite(query, answer); bad >= 0 && !x.exactly().may_match && !right_next_door()) {
-    return not_finite(bad);
-  }
-  if (!decision_differs) take_forward(here, f);
-  if (here.may_match) {
-    f.verdict = Verdict::agrees;
-  } else {
-    f.verdict = Verdict::within_contract;
-    f.disagreement = disagreement_of(query, answer, decision_differs, here.worst);
-    f.backward = x.backward();
-    if (!f.backward) f.backward = Backward{0};  // the exact stage excludes a match at the input itself
-  }
-
-  // A wrong place that breaks the contract may break more: is it on the surface of anything that the contract allows?
-  const auto name_place = [&](double k, double ulps) {
-    if (f.disagreement == Disagreement::wrong_place && x.off_surface(f.worst, k, ulps)) {
-      f.disagreement = Disagreement::off_surface;
-    }
-  };
-  if (f.backward && f.backward->above >= contract.backward) {
-    name_place(contract.backward, 1);
-    return violation(f, f.disagreement,
-                     fmt::format("backward error at most {} epsilon", contract.backward));
-  }
-  if (contract.exact_decisions && decision_differs) return violation(f, f.disagreement, "exact decisions");
-  if (!decision_differs && f.forward_ulps > contract.forward) {
-    name_place(0, contract.forward);
-    return violation(f, f.disagreement, fmt::format("forward error at most {} ulp", contract.forward));
-  }
-  if (std::abs(f.unit_error) > contract.unit) {
-    return violation(f, Disagreement::not_unit, fmt::format("normals of length 1 within {} epsilon", contract.unit));
-  }
+  f.verdict = Verdict::not_asked;
+  f.clause = requires_text(unmet);
   return f;
 }
 
+}  // namespace
+
+Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail) {
+  if (const Preconditions unmet = unmet_by(question, standard.required); !unmet.empty()) return not_asked(unmet);
+  const FloatingPointScope standard_modes;
+  return Judgement(question, answer, standard, detail).finding();
+}
+
+namespace {
+
+std::vector<Alternative> each_once(std::vector<Alternative> all) {
+  std::vector<Alternative> once;
+  for (Alternative& a : all) {
+    if (std::find(once.begin(), once.end(), a) == once.end()) once.push_back(std::move(a));
+  }
+  return once;
+}
+
+}  // namespace
+
+bool exact_decision(const Case& question) {
+  const FloatingPointScope standard_modes;
+  const Answer none{};
+  const Examination x(question, none);
+  const Enclosure here = x.within(0);
+  return (here.decided() ? here : x.exactly()).may_be_yes;
+}
+
 Truth truth_of(const Case& question) {
-  const RoundToNearest to_nearest;
+  const FloatingPointScope standard_modes;
   const Answer none{};
   const Examination x(question, none);
   Truth t;
   const Enclosure exact = x.exactly(&t.alternatives);
+  t.alternatives = each_once(std::move(t.alternatives));
   t.yes = exact.may_be_yes;
   t.decided_by = x.within(0).decided() ? Stage::interval : Stage::exact;
   if (const auto margin = x.margin()) t.margin_at_least = margin->above;
@@ -306,11 +460,13 @@ Truth truth_of(const Case& question) {
 std::string_view name_of(Verdict v) {
   switch (v) {
     case Verdict::agrees: return "agrees";
-    case Verdict::within_contract: return "within contract";
+    case Verdict::not_proved: return "not proved to differ by more";
     case Verdict::violates_contract: return "violates contract";
+    case Verdict::exceeds_measure: return "differs by more than the measure";
     case Verdict::out_of_domain: return "out of domain";
     case Verdict::cannot_answer: return "cannot answer";
     case Verdict::broke: return "broke";
+    case Verdict::not_asked: return "not asked";
   }
   return "?";
 }
@@ -321,6 +477,7 @@ std::string_view name_of(Disagreement d) {
     case Disagreement::false_hit: return "false hit";
     case Disagreement::false_miss: return "false miss";
     case Disagreement::wrong_time: return "wrong time";
+    case Disagreement::negative_time: return "negative time";
     case Disagreement::wrong_place: return "wrong place";
     case Disagreement::wrong_normal: return "wrong normal";
     case Disagreement::wrong_depth: return "wrong depth";
@@ -328,6 +485,7 @@ std::string_view name_of(Disagreement d) {
     case Disagreement::wrong_weight: return "wrong weight";
     case Disagreement::wrong_flag: return "wrong flag";
     case Disagreement::wrong_index: return "wrong index";
+    case Disagreement::wrong_combination: return "wrong combination";
     case Disagreement::off_surface: return "off the surface";
     case Disagreement::not_finite: return "not finite";
     case Disagreement::not_unit: return "not unit";

@@ -38,10 +38,10 @@ void moving_point_sphere(const collide::inputs::moving_point_sphere<N>& q, Out& 
 
   // speed2 t^2 - 2 closing t + outside = 0
   const N discriminant = speed2 * square(radius) - norm2(outer(m, v));
-  const auto at = [&](const N& time, const Vector<N>& along) {
-    // On the surface by definition, so the normal needs no root of its own; radius 0 has any normal.
+  const auto at = [&](const N& time, const Vector<N>& along, const Normals<N>& of_a_point) {
+    // On the surface by definition, so the normal needs no root of its own; radius 0 has many normals.
     if (may_be_zero(radius)) {
-      out.yes(Impact{time, answer_vector(plus(p, along)), {}}, Normals<N>::any());
+      out.yes(Impact{time, answer_vector(plus(p, along)), {}}, of_a_point);
     } else {
       const Vector<N> normal = times(plus(m, along), N(N(1) / radius));
       out.yes(Impact{time, answer_vector(plus(p, along)), answer_vector(normal)});
@@ -50,7 +50,7 @@ void moving_point_sphere(const collide::inputs::moving_point_sphere<N>& q, Out& 
   if (starts_in && !q.solid) {
     const N half = root(discriminant);
     const N time = assume_at_least_zero(N((closing + half) / speed2));
-    at(time, times(v, time));
+    at(time, times(v, time), Normals<N>::any());
   }
   if (!may_be_positive(outside)) return;
   if (may_be_at_most_zero(closing) || may_be_negative(discriminant)) out.no();
@@ -59,7 +59,7 @@ void moving_point_sphere(const collide::inputs::moving_point_sphere<N>& q, Out& 
   const N far = assume_at_least_zero(closing) + half;
   if (may_be_zero(far)) return out.everything();
   const N time = meet(N(assume_at_least_zero(outside) / far), assume_at_least_zero(N((closing - half) / speed2)));
-  at(time, times(v, time));
+  at(time, times(v, time), Normals<N>::any().against(v));
 }
 
 /// A start in the solid ball is a contact where it is.

@@ -1,13 +1,15 @@
 /// Truth: in the box's frame, one quadratic for each of the 26 regions around the box; its earlier
 /// root counts where the center is then in that region. The distance from a convex set is convex along
-/// a line, so the least of these roots is the first contact; others end a graze of constant distance.
+/// a line, so the least of these roots is the first contact; others end a graze of constant distance. A ball
+/// without size is a point that enters.
 #include <collide/moving_sphere_box.hpp>
 
 #include <cmath>
 #include <optional>
 
 #include "oracles/first_contact.hpp"
-#include "oracles/point_and_box.hpp"
+#include "oracles/point_enters_box.hpp"
+#include "oracles/ray_and_box.hpp"
 #include "oracles/residual.hpp"
 #include "oracles/surface.hpp"
 
@@ -117,7 +119,7 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
     return roots.push_back({impact, {}});
   }
   if (may_be_zero(m.radius)) {
-    return roots.push_back({impact, normal_cone(m.axes, sides)});
+    return roots.push_back({impact, normal_cone(m.axes, sides).against(m.velocity)});
   }
   for (N& component : normal) component = assume_within(N(component / m.radius), -1.0, 1.0);
   impact.normal = answer_vector(out_of(m.axes, normal));
@@ -137,28 +139,23 @@ void report_first(const std::vector<Contact<N>>& roots, Out& out) {
 }
 
 
-/// A point on the surface (distance 0): may the motion not leave along some normal of that region?
-template <class N>
-bool may_stay(const Motion<N>& m, const Sides& sides) {
-  bool stay = may_be_positive(m.radius);
-  for (int i = 0; i < 3; ++i) {
-    const N outward = sides[i] > 0 ? m.step[i] : N(-m.step[i]);
-    stay = stay || (sides[i] != 0 && may_be_at_most_zero(outward));
-  }
-  return stay;
-}
+/// What a start may be.
+struct Start {
+  bool may_be_apart = false, may_be_contact = false;
+};
 
 /// A start outside the box or on its surface, in that region: a contact at time 0 if the sphere
-/// overlaps, or touches and does not leave. Tells whether the sphere may start apart.
+/// overlaps, or touches and does not leave.
 template <class N, class Out>
-bool start_in_region(const Motion<N>& m, const Sides& sides, Out& out) {
+Start start_in_region(const Motion<N>& m, const Sides& sides, Out& out) {
   const FromFeature<N> from = from_feature(m.start, m.half, sides);
   const N outside = from.distance2 - square(m.radius);
-  if (!may_be_at_most_zero(outside)) return true;
+  const Start start{may_be_positive(outside), may_be_at_most_zero(outside)};
+  if (!start.may_be_contact) return start;
   collide::Impact<N> impact{N(0), answer_vector(m.to_world(from.nearest)), {}};
   if (may_be_zero(from.distance2)) {
-    if (may_stay(m, sides)) out.yes(impact, normal_cone(m.axes, sides));
-    return may_be_positive(outside);
+    out.yes(impact, normal_cone(m.axes, sides));
+    return start;
   }
   const N leaving = inner(from.away, m.step);
   if (may_be_zero(outside) && may_be_positive(leaving)) out.no();
@@ -168,28 +165,60 @@ bool start_in_region(const Motion<N>& m, const Sides& sides, Out& out) {
     impact.normal = answer_vector(out_of(m.axes, unit));
     out.yes(impact);
   }
-  return may_be_positive(outside);
+  return start;
 }
 
-/// Contacts at time 0. Tells whether the sphere may start apart.
+bool starts_on_surface(const Motion<Exact>& m) {
+  bool on_some_face = false;
+  for (int i = 0; i < 3; ++i) {
+    if (!may_be_on_side(m.start[i], m.half[i], 0)) return false;
+    on_some_face = on_some_face || may_be_on_side(m.start[i], m.half[i], 1) || may_be_on_side(m.start[i], m.half[i], -1);
+  }
+  return on_some_face;
+}
+
+/// The center on the surface: the normals against the motion are right or, where it leads away from every face, all.
+template <class Out>
+void start_on_surface(const Motion<Exact>& m, Out& out) {
+  const collide::Impact<Exact> impact{Exact(0), answer_vector(m.to_world(m.start)), {}};
+  bool leads_away = true;
+  for_each_cone_at(m.start, m.half, [&](const Sides& sides) { leads_away = leads_away && !may_be_met(m.step, sides); });
+  for_each_cone_at(m.start, m.half, [&](const Sides& sides) {
+    const Normals<Exact> outward = normal_cone(m.axes, sides);
+    if (leads_away) out.yes(impact, outward);
+    else if (may_be_met(m.step, sides)) out.yes(impact, outward.against(m.velocity));
+  });
+}
+
+/// Contacts at time 0 of a ball with a size.
 template <class N, class Out>
-bool start(const Motion<N>& m, Out& out) {
-  bool may_start_apart = false, may_start_in = true;
+Start start(const Motion<N>& m, Out& out) {
+  if constexpr (!is_enclosure<N>) {
+    if (starts_on_surface(m)) return start_on_surface(m, out), Start{false, true};
+  }
+  Start start;
+  bool may_start_in = true;
   for_each_possible_region(m.start, m.half, [&](const Sides& sides) {
-    if (start_in_region(m, sides, out)) may_start_apart = true;
+    const Start in_region = start_in_region(m, sides, out);
+    start.may_be_apart = start.may_be_apart || in_region.may_be_apart;
+    start.may_be_contact = start.may_be_contact || in_region.may_be_contact;
   });
   for (int i = 0; i < 3; ++i) may_start_in = may_start_in && may_be_on_side(m.start[i], m.half[i], 0);
-  if (!may_start_in) return may_start_apart;
-  // A point inside never comes from outside; one on the surface may leave it.
-  if (may_be_zero(m.radius) && (is_enclosure<N> || !out.result().may_be_yes)) out.no();
-  if (!may_be_positive(m.radius)) return may_start_apart;
+  if (!may_start_in) return start;
+  start.may_be_contact = true;
   for_each_nearest_face(m.start, m.half, [&](const Face& face, const N&) {
     Vector<N> nearest = m.start;
     nearest[face.axis] = face.side > 0 ? m.half[face.axis] : N(-m.half[face.axis]);
     const Vector<N>& axis = m.axes[face.axis];
     out.yes({N(0), answer_vector(m.to_world(nearest)), answer_vector(face.side > 0 ? axis : negated(axis))});
   });
-  return may_start_apart;
+  return start;
+}
+
+/// A center that comes from outside into the box, however thin that and small the sphere.
+template <class N>
+bool surely_enters(const Motion<N>& m) {
+  return !may_miss(RayAndBox<N>{m.start, m.step, negated(m.half), m.half});
 }
 
 /// Does the sphere surely overlap the box at that time?
@@ -231,12 +260,15 @@ double time_of_least_distance(const Motion<N>& m, Window w) {
 
 template <class N, class Out>
 void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out) {
+  if (may_be_zero(q.sphere.radius)) report_entry<N>({vector(q.sphere.center), vector(q.velocity), q.box}, out);
+  if (!may_be_positive(q.sphere.radius)) return;
   const auto axes = rotation_axes<N>(q.box.orientation);
   const Vector<N> origin = vector(q.box.center);
   const Motion<N> m{axes, origin, into(axes, minus(vector(q.sphere.center), origin)),
                     into(axes, vector(q.velocity)), vector(q.box.half), q.sphere.radius,
                     minus(vector(q.sphere.center), origin), vector(q.velocity)};
-  if (!start(m, out)) return;
+  const Start at_start = start(m, out);
+  if (!at_start.may_be_apart) return;
 
   Window near;  // the sphere's shadow on each axis reaches the box's
   Window on_side[3][3];
@@ -254,8 +286,11 @@ void moving_sphere_box(const collide::inputs::moving_sphere_box<N>& q, Out& out)
     if (!w.empty()) first_root(m, sides, w, roots);
   });
   report_first(roots, out);
-  const bool none = !out.result().may_be_yes;
-  if (none || (is_enclosure<N> && !surely_overlaps(m, time_of_least_distance(m, near)))) out.no();
+  if (!out.result().may_be_yes) return out.no();
+  if constexpr (is_enclosure<N>) {
+    const bool surely = surely_overlaps(m, time_of_least_distance(m, near)) || (!at_start.may_be_contact && surely_enters(m));
+    if (!surely) out.no();
+  }
 }
 
 template <class N>

@@ -16,6 +16,7 @@ void moving_sphere_passes_sphere(const collide::inputs::moving_sphere_passes_sph
   const N clearance = norm2(outer(m, v)) - norm2(v) * reach2;  // <= 0: the line of motion comes near enough
   bool may_meet = may_be_at_most_zero(outside), may_miss = may_be_positive(outside);
   bool may_end_later = true, may_end_earlier = false;  // than the closest approach
+  bool may_come_near = true;
   if (!q.forever) {
     const N outside_at_limit = norm2(plus(m, times(v, limit))) - reach2;
     const N still_closing = closing - norm2(v) * limit;
@@ -23,8 +24,13 @@ void moving_sphere_passes_sphere(const collide::inputs::moving_sphere_passes_sph
     may_miss = may_miss && may_be_positive(outside_at_limit);
     may_end_later = may_be_negative(still_closing);
     may_end_earlier = may_be_at_least_zero(still_closing);
+    if constexpr (is_enclosure<N>) {  // on its way; tells most of slow motions
+      const N any_time = join(N(0), limit);
+      may_come_near = may_be_at_most_zero(N(norm2(plus(m, times(v, any_time))) - reach2));
+    }
   }
-  if (may_meet || (may_be_positive(closing) && may_end_later && may_be_at_most_zero(clearance))) out.yes({true});
+  const bool may_meet_between = may_be_positive(closing) && may_end_later && may_be_at_most_zero(clearance);
+  if (may_meet || (may_meet_between && may_come_near)) out.yes({true});
   if (may_miss && (may_be_at_most_zero(closing) || may_end_earlier || may_be_positive(clearance))) out.no();
 }
 

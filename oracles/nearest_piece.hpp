@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "oracles/outcomes.hpp"
@@ -49,7 +50,7 @@ struct Piece {
 };
 
 /// The edge from corner `i` to corner `j`: one of its ends, or the foot of the perpendicular. Distances by
-/// Lagrange's identity.
+/// Lagrange's identity; of an edge that may have no length, from the box of its ends.
 template <class N, std::size_t n>
 Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const Vector<N>& p) {
   const Vector<N>&a = corner[i], &b = corner[j];
@@ -69,7 +70,11 @@ Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const 
   const N x = assume_at_least_zero(past_a), y = assume_at_least_zero(before_b);
   Vector<N> foot;
   for (int k = 0; k < 3; ++k) foot[k] = join(a[k], b[k]);  // between the ends, whatever else
-  N distance2 = join(N(0), lesser(a2, b2)), gain_a = join(N(0), a2), gain_b = join(N(0), b2);
+  N distance2(0), gain_a(0), gain_b(0);
+  if constexpr (is_enclosure<N>) {
+    distance2 = meet(norm2(minus(p, foot)), join(N(0), lesser(a2, b2)));
+    gain_a = join(N(0), lesser(a2, length2)), gain_b = join(N(0), lesser(b2, length2));
+  }
   if (!may_be_zero(length2)) {
     const N share = assume_within(N(x / length2), 0.0, 1.0), rest = assume_within(N(y / length2), 0.0, 1.0);
     for (int k = 0; k < 3; ++k) {
@@ -90,12 +95,13 @@ struct FacePiece {
   bool surely_within = false;  ///< off all three edges: they are further away
 };
 
-/// A triangle that may have no area lies near each of its edges: within its height over that edge.
+/// The foot of the perpendicular in a triangle that may have no area: it lies in the box of the corners and near each edge,
+/// within the triangle's height over that edge and beside it, as the point does. Empty where that is impossible.
 template <class N>
-Place<N> thin_face(const std::array<Vector<N>, 3>& v, const N& normal2, const Vector<N>& p) {
+std::optional<Place<N>> thin_face(const std::array<Vector<N>, 3>& v, const N& normal2, const Vector<N>& p) {
   Place<N> place;
-  N most(0);
   for (int k = 0; k < 3; ++k) place.point[k] = join(join(v[0][k], v[1][k]), v[2][k]);
+  N most(0);
   for (int i = 0; i < 3; ++i) most = join(most, norm2(minus(p, v[i])));
   place.distance2 = most;
   for (int i = 0; i < 3; ++i) {
@@ -103,11 +109,14 @@ Place<N> thin_face(const std::array<Vector<N>, 3>& v, const N& normal2, const Ve
     const N length2 = norm2(along);
     if (may_be_zero(length2)) continue;
     const N height = root(N(normal2 / length2)), around = join(height, N(-height));
-    const N share = inner(from, along) / length2;
+    const N third = inner(minus(v[(i + 2) % 3], v[i]), along) / length2;
+    N share = inner(from, along) / length2;
+    if (!narrow(share, join(join(N(0), N(1)), third))) return std::nullopt;
     for (int k = 0; k < 3; ++k) place.point[k] = meet(N(v[i][k] + along[k] * share + around), place.point[k]);
     const N distance = assume_at_least_zero(N(root(N(norm2(outer(from, along)) / length2)) + around));
     place.distance2 = meet(square(distance), place.distance2);
   }
+  place.distance2 = meet(norm2(minus(p, place.point)), place.distance2);
   return place;
 }
 
@@ -130,11 +139,15 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
     piece.surely = piece.surely && !may_be_negative(side);
     face.surely_within = face.surely_within && !may_be_at_most_zero(side);
   }
+  Place<N> place;
+  if constexpr (is_enclosure<N>) {
+    const std::optional<Place<N>> thin = thin_face(v, normal2, p);
+    if (!thin) return piece.surely = face.surely_within = false, face;
+    place = *thin;
+  }
   for (int s : c) piece.seen_from |= 1u << s;
   if (line) piece.seen_from |= 1u << diagonal;
-  Place<N> place;
   const Vector<N> w = minus(p, v[0]);
-  if (is_enclosure<N>) place = thin_face(v, normal2, p);
   if (has_area) {
     const N height = inner(normal, w);
     const Vector<N> foot = minus(p, times(normal, N(height / normal2)));

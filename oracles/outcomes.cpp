@@ -43,15 +43,30 @@ class Wide {
   mpfr_t value_;
 };
 
-/// The unit in which a member's numbers are compared: one ulp of the largest of them, given or exact. A
-/// normal's is twice that, because the judge rounds it once more when it divides by its length.
+/// The unit in which a member's numbers are compared: one ulp of the largest of them, given or exact.
 double unit_of(const Answer& about, const Layout::Part& part, std::span<const Bounds> errors, Scalar scalar) {
   double largest = 0;
-  for (std::size_t i = part.begin; i < part.end && i < errors.size(); ++i) {
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    if (std::isinf(about.values[i])) return ulp(largest_finite(scalar), scalar);
     largest = std::max(largest, std::abs(about.values[i]));
     largest = std::max({largest, about.values[i] + errors[i].high, -(about.values[i] + errors[i].low)});
   }
-  return ulp(std::min(largest, largest_finite(scalar)), scalar) * (part.role == Role::normal ? 2 : 1);
+  return ulp(std::min(largest, largest_finite(scalar)), scalar);
+}
+
+bool gives_all(const Answer& about, const Layout::Part& part) {
+  bool all = true;
+  for (std::size_t i = part.begin; i < part.end; ++i) all = all && about.gives(i);
+  return all;
+}
+
+/// Every vector of length 1 differs from these three numbers by as much in one of them; 0 for a NaN.
+double apart_from_unit_vectors(const double* n) {
+  const long double length = std::sqrt(static_cast<long double>(n[0]) * n[0] + static_cast<long double>(n[1]) * n[1] +
+                                       static_cast<long double>(n[2]) * n[2]);
+  constexpr long double below_the_root_of_a_third = 0.577L;  // what rounds here is far less
+  const double apart = static_cast<double>(below_the_root_of_a_third * std::abs(length - 1));
+  return apart > 0 ? std::min(apart, std::numeric_limits<double>::max()) : 0;
 }
 
 }  // namespace
@@ -78,43 +93,150 @@ Bounds bounds(const Exact& x) {
   return value.around(value);
 }
 
+Tally::Tally(const Answer& about, Scalar scalar, const Layout& layout)
+    : about_(about), scalar_(scalar), layout_(layout) {
+  constexpr long double most_from_unit = 0.5L;  // a vector that is further off is compared as it is given
+  for (const Layout::Part& part : layout.parts) {
+    if (part.role != Role::normal || !about.yes || !about.gives(part.begin)) continue;
+    const double* n = &about.values[part.begin];
+    const long double length = std::sqrt(static_cast<long double>(n[0]) * n[0] + static_cast<long double>(n[1]) * n[1] +
+                                         static_cast<long double>(n[2]) * n[2]);
+    if (!(std::abs(length - 1) < most_from_unit)) continue;
+    unit_normal_.known = true;
+    for (int k = 0; k < 3; ++k) {
+      const long double x = n[k] / length;
+      unit_normal_.high[k] = double(x);
+      unit_normal_.low[k] = double(x - unit_normal_.high[k]);
+    }
+  }
+}
+
+FromSet Tally::without_units(FromSet set) const {
+  constexpr Bounds anything{0, HUGE_VAL};
+  if (!set.vectors.empty()) set.together = anything;
+  for (FromSet::Of& of : set.vectors) {
+    if (part_at(of.begin).role != Role::normal) of.ulps = anything;
+  }
+  return set;
+}
+
 void Tally::count_everything() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   result_.may_be_yes = result_.may_be_no = result_.may_match = true;
   result_.error.fill({-infinity, infinity});
-  result_.mismatched = 0;
+  for (Enclosure::Member& m : result_.members) m = {true, 0, 0, -1};
   result_.ulps = result_.absolute = 0;
   result_.ulps_at_most = result_.ulps_at_most_of_any = infinity;
 }
 
-void Tally::count(bool yes, std::span<const Bounds> errors, const std::optional<Bounds>& turn) {
+/// How far one member of the given answer is from that of an exact one, in ulps of it.
+struct Tally::Distance {
+  double least = 0, most = 0;
+  double absolute = 0;  ///< the least, not in ulps
+  int number = -1;      ///< which number is so far off
+
+  void include(const Bounds& off, double unit, std::size_t i) {
+    most = std::max(most, off.furthest_from_zero() / unit);
+    const double at_least = off.nearest_to_zero() / unit;
+    if (at_least > least || number < 0) least = at_least, absolute = off.nearest_to_zero(), number = int(i);
+  }
+};
+
+/// A normal is as near as it is given, or as its direction is: its length is judged on its own. One that has no direction is
+/// no normal, wherever the right ones may point.
+Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& errors) const {
+  const double unit = unit_of(about_, part, errors.of, scalar_);
+  Distance as_given, of_direction;
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    if (!about_.gives(i)) continue;
+    as_given.include(errors.of[i], unit, i);
+    if (part.role == Role::normal) of_direction.include(errors.of_direction[i - part.begin], unit, i);
+  }
+  if (part.role == Role::normal && !unit_normal_.known && gives_all(about_, part)) {
+    const double apart = apart_from_unit_vectors(&about_.values[part.begin]);
+    if (apart > as_given.absolute) as_given.least = apart / unit, as_given.absolute = apart;
+  }
+  const bool nearer = part.role == Role::normal && unit_normal_.known && of_direction.least < as_given.least;
+  return nearer ? of_direction : as_given;
+}
+
+const Layout::Part& Tally::part_at(std::size_t number) const {
+  return *std::find_if(layout_.parts.begin(), layout_.parts.end(), [&](const Layout::Part& p) { return number < p.end; });
+}
+
+void Tally::include_enclosure(const Errors& errors, FromSet& set) const {
+  for (FromSet::Of& of : set.vectors) {
+    const Layout::Part& part = part_at(of.begin);
+    if (part.role == Role::normal) continue;
+    const double least = distance_of(part, errors).least;
+    of.ulps = {std::max(of.ulps.low, least), std::max(of.ulps.high, least)};
+    set.together = {std::max(set.together.low, least), std::max(set.together.high, least)};
+  }
+}
+
+/// Of a vector that belongs to a set; the number is the one that a member is furthest from.
+Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& errors, const Bounds& ulps) const {
+  double largest = 0;
+  std::size_t furthest = part.begin;
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    largest = std::max(largest, std::abs(about_.values[i]));
+    if (errors.of[i].nearest_to_zero() > errors.of[furthest].nearest_to_zero()) furthest = i;
+  }
+  const double least_unit = ulp(std::min(largest, largest_finite(scalar_)), scalar_);
+  return {ulps.low, ulps.high, ulps.low * least_unit, int(furthest)};
+}
+
+std::vector<GivenVector> Tally::given_vector(std::size_t begin) const {
+  GivenVector g;
+  g.scalar = scalar_;
+  for (std::size_t k = 0; k < 3; ++k) g.high[k] = about_.values[begin + k], g.told[k] = about_.gives(begin + k);
+  const bool is_normal = std::any_of(layout_.parts.begin(), layout_.parts.end(), [&](const Layout::Part& part) {
+    return part.begin == begin && part.role == Role::normal;
+  });
+  if (!is_normal || !unit_normal_.known) return {g};
+  return {g, {unit_normal_.high, unit_normal_.low, g.told, direction_slack, scalar_}};
+}
+
+void Tally::count_member(std::size_t member, const Distance& d) {
+  Enclosure::Member& m = result_.members[member];
+  if (d.least <= 1) m.may_match = true;
+  if (m.number < 0 || d.least < m.ulps) m.ulps = d.least, m.absolute = d.absolute, m.number = d.number;
+}
+
+void Tally::count(bool yes, const Errors& errors, std::size_t given, const FromSet& set) {
   (yes ? result_.may_be_yes : result_.may_be_no) = true;
   if (yes != about_.yes) return;
-  std::uint64_t mismatched = 0;
-  double ulps = 0, ulps_at_most = 0, absolute = 0;
-  int worst = -1;
-  for (const Layout::Part& part : layout_.parts) {
-    const double unit = unit_of(about_, part, errors, scalar_);
-    for (std::size_t i = part.begin; i < part.end && i < errors.size(); ++i) {
-      result_.error[i].include(errors[i]);
-      if (!about_.gives(i)) continue;
-      const Bounds& off = part.role == Role::normal && turn ? *turn : errors[i];
-      const double least = off.nearest_to_zero() / unit;
-      ulps_at_most = std::max(ulps_at_most, off.furthest_from_zero() / unit);
-      if (least > 1) mismatched |= std::uint64_t{1} << i;
-      if (least > ulps || worst < 0) ulps = least, absolute = off.nearest_to_zero(), worst = int(i);
+  Distance worst;
+  bool matches = true;
+  const auto include = [&](const Distance& d) {
+    matches = matches && d.least <= 1;
+    if (d.number >= 0 && (worst.number < 0 || d.least > worst.least)) {
+      worst.least = d.least, worst.absolute = d.absolute, worst.number = d.number;
     }
+    worst.most = std::max(worst.most, d.most);
+  };
+  for (std::size_t p = 0; p < layout_.parts.size(); ++p) {
+    const Layout::Part& part = layout_.parts[p];
+    if (part.end > given) {  // anything is right
+      count_member(p, {0, 0, 0, int(part.begin)});
+      continue;
+    }
+    for (std::size_t i = part.begin; i < part.end; ++i) result_.error[i].include(errors.of[i]);
+    const auto of = std::find_if(set.vectors.begin(), set.vectors.end(),
+                                 [&](const FromSet::Of& v) { return v.begin == part.begin; });
+    const bool in_set = of != set.vectors.end() && about_.gives(part.begin);
+    const Distance d = in_set ? distance_of(part, errors, of->ulps) : distance_of(part, errors);
+    count_member(p, d);
+    include(d);
+    if (in_set) include(distance_of(part, errors, set.together));
   }
-  if (mismatched == 0) result_.may_match = true;
-  result_.ulps_at_most_of_any = std::max(result_.ulps_at_most_of_any, ulps_at_most);
-  const bool better = !any_ || std::popcount(mismatched) < std::popcount(result_.mismatched) ||
-                      (std::popcount(mismatched) == std::popcount(result_.mismatched) && ulps < result_.ulps);
-  if (better) {
-    result_.mismatched = mismatched;
-    result_.ulps = ulps;
-    result_.absolute = absolute;
-    result_.ulps_at_most = ulps_at_most;
-    result_.worst = worst;
+  result_.may_match = result_.may_match || matches;
+  result_.ulps_at_most_of_any = std::max(result_.ulps_at_most_of_any, worst.most);
+  if (!any_ || worst.least < result_.ulps) {
+    result_.ulps = worst.least;
+    result_.absolute = worst.absolute;
+    result_.ulps_at_most = worst.most;
+    result_.worst = worst.number;
   }
   any_ = true;
 }

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <optional>
 
+#include "oracles/first_contact.hpp"
 #include "oracles/residual.hpp"
 #include "oracles/times.hpp"
+#include "oracles/tuples.hpp"
 
 namespace nearmiss::oracle {
 
@@ -60,62 +62,34 @@ struct RoundPast {
     return surely_zero(x[0]) && surely_zero(x[1]) && surely_zero(x[2]);
   }
 
-  /// The right unit vector nearest to `wish`, out of a point of the axis where the center lies on it; empty
-  /// where that cannot be told.
-  std::optional<Vector<N>> out_of_axis(Vector<N> wish, Part part) const {
-    const bool has_axis = !m.is_ball && may_be_positive(length2);
-    const bool leads_in = part == Part::first_end ? may_be_positive(inner(d, wish)) : may_be_negative(inner(d, wish));
-    if (has_axis && (part == Part::tube || leads_in)) wish = minus(wish, times(d, N(inner(d, wish) / length2)));
-    for (int i = 0; i < 3 && !may_be_positive(norm2(wish)); ++i) {  // nothing to be near to
-      Vector<N> axis{N(0), N(0), N(0)};
-      axis[i] = N(1);
-      wish = has_axis ? outer(d, axis) : axis;
-    }
-    const N wish2 = norm2(wish);
-    if (may_be_zero(wish2)) return std::nullopt;
-    return times(wish, N(N(1) / root(wish2)));
-  }
-  /// The normals where the fixed thing is but its axis, or the moving center is on the axis.
+  /// The normals at a center on the axis: those that lead out of that part. Any other normal of the part is one of them.
   Normals<N> normals_of_axis(Part part) const {
-    if (m.is_ball || may_be_zero(length2)) return Normals<N>::any();
-    const Vector<N> along = times(d, N(N(1) / root(length2)));
-    return Normals<N>::cone({{along, N(part == Part::first_end ? -1 : 0), N(part == Part::second_end ? 1 : 0)}});
+    if (m.is_ball || surely_zero(length2)) return Normals<N>::any();
+    return Normals<N>::cone({{d, part == Part::first_end ? -1 : 0, part == Part::second_end ? 1 : 0}});
+  }
+  /// Where the center lies on the axis every normal out of it is right, with the place that it leads to. Of a fixed thing
+  /// that is but its axis, all surface, only those against the motion.
+  template <class Out>
+  void yes_on_axis(const RoundContact<N>& c, Normals<N> normals, Out& out) const {
+    constexpr std::size_t location = 1, normal = 4;
+    yes_to_any(NormalWithPlace<N>{std::move(normals), c.on_axis, m.radius, normal, location}, out,
+               [&](const Vector<N>& n, const Vector<N>& place) -> collide::Impact<N> {
+                 return {c.time, answer_vector(place), answer_vector(n)};
+               });
   }
 
-  /// Where `away` is the exact vector from the axis to the center, of length `distance`.
+  /// Where `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does not
+  /// start there, meets no normal that leads along its motion.
   template <class Out>
-  void yes(const RoundContact<N>& c, const N& distance, Out& out) const {
-    collide::Impact<N> impact{c.time, answer_vector(c.on_axis), {}};
-    if (all_surely_zero(c.away)) {  // the center on the axis, or no radius at all
-      if (surely_zero(m.radius)) return out.yes(impact, normals_of_axis(c.part));
-      // Of all right answers the one with the given normal, the one with the given location, and one half way
-      // between them: which is nearest depends on how the radius compares with the location's own magnitude.
-      bool told = false, all_told = true;
-      const auto toward = [&](const Vector<N>& wish) {
-        const std::optional<Vector<N>> normal = out_of_axis(wish, c.part);
-        if (!normal) {
-          all_told = false;
-          return;
-        }
-        impact.location = answer_vector(plus(c.on_axis, times(*normal, m.radius)));
-        impact.normal = answer_vector(*normal);
-        out.yes(impact);
-        told = true;
-      };
-      const auto given = [&](std::size_t i) -> Vector<N> {
-        return {N(out.given(i)), N(out.given(i + 1)), N(out.given(i + 2))};
-      };
-      const Vector<N> normal = given(4), place = minus(given(1), c.on_axis);
-      if (may_be_positive(norm2(normal))) {
-        toward(normal);
-        toward(plus(times(normal, m.radius), place));
-      }
-      if (may_be_positive(norm2(place)) || !told) toward(place);
-      if (told && all_told) return;  // else the right answer that is nearest may be among those not told
+  void yes(const RoundContact<N>& c, const N& distance, bool arrives, Out& out) const {
+    if (may_be_zero(distance)) {
+      const bool only_against = arrives || (all_surely_zero(c.away) && surely_zero(m.radius));
+      const Normals<N> out_of_axis = normals_of_axis(c.part);
+      return yes_on_axis(c, only_against ? out_of_axis.against(m.step) : out_of_axis, out);
     }
     const auto unit = [&](const N& x) -> N {
       if constexpr (is_enclosure<N>) {
-        return may_be_zero(distance) ? N(-1.0, 1.0) : assume_within(N(x / distance), -1.0, 1.0);
+        return assume_within(N(x / distance), -1.0, 1.0);
       } else {
         return x / distance;
       }
@@ -128,9 +102,7 @@ struct RoundPast {
         for (int i = 0; i < 3; ++i) location[i] = meet(location[i], seen[i]);
       }
     }
-    impact.location = answer_vector(location);
-    impact.normal = answer_vector(normal);
-    out.yes(impact, may_be_zero(distance) ? Normals<N>::any() : Normals<N>::as_given());
+    out.yes({c.time, answer_vector(location), answer_vector(normal)});
   }
 
   // The start.
@@ -145,7 +117,7 @@ struct RoundPast {
     const bool may_touch = may_be_zero(outside) && may_be_at_most_zero(leaving);
     if (may_be_negative(outside) && may_be_zero(m.own)) out.no();
     if (may_be_zero(outside) && may_be_positive(leaving)) out.no();
-    if (may_overlap || may_touch) yes(c, root(assume_at_least_zero(distance2)), out);
+    if (may_overlap || may_touch) yes(c, root(assume_at_least_zero(distance2)), false, out);
     return may_be_positive(outside);
   }
 
@@ -197,7 +169,13 @@ struct RoundPast {
     }
   }
 
-  void root_of_end(int i, Part part, N time, std::vector<RoundContact<N>>& roots) const {
+  /// The contacts that may be the first, and a time by which the ball surely reaches the fixed thing.
+  struct Roots {
+    std::vector<RoundContact<N>> list;
+    double surely_by = std::numeric_limits<double>::infinity();
+  };
+
+  void root_of_end(int i, Part part, N time, Roots& roots) const {
     const Vector<N> from = minus(m.at, m.end[i]);
     const N closing = -inner(from, m.step), speed2 = norm2(m.step);
     if (!may_be_positive(closing)) return;
@@ -205,11 +183,17 @@ struct RoundPast {
     const N outside = norm2(from) - square(m.reach());
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     if (!earlier_root(speed2, closing, outside, root(discriminant), time)) return;
-    add({time, m.end[i], from, part}, m.step, roots, [&](const Vector<N>& away) { return may_belong_to_end(away, part); });
+    if (!may_be_at_most_zero(closing) && !may_be_negative(discriminant)) reaches_by(time, roots);
+    add({time, m.end[i], from, part}, m.step, roots.list, [&](const Vector<N>& away) { return may_belong_to_end(away, part); });
   }
 
-  void root_of_tube(N time, std::vector<RoundContact<N>>& roots) const {
+  void root_of_tube(N time, Roots& roots) const {
     const Vector<N> from = minus(m.at, m.end[0]);
+    if constexpr (is_enclosure<N>) {  // the tube lies in a ball about an end; tells something of short ones alone
+      const N reach = m.reach() + root(length2);
+      const Window near = times_within(from, m.step, square(reach), norm2(outer(from, m.step)));
+      if (near.empty() || !narrow(time, N(near.from, near.to))) return;
+    }
     const Vector<N> from_d = outer(from, d), step_d = outer(m.step, d);
     const N closing = -inner(from_d, step_d), a = norm2(step_d);
     if (!may_be_positive(closing)) return;
@@ -221,13 +205,18 @@ struct RoundPast {
     if (!place_of(time, from, center)) return;
     const Vector<N> from_second = minus(center, d);
     if (!may_belong_to_tube(center, from_second)) return;
+    const bool surely_beside = !may_be_negative(inner(d, center)) && !may_be_positive(inner(d, from_second));
+    if (surely_beside && !may_be_at_most_zero(closing) && !may_be_negative(discriminant)) reaches_by(time, roots);
     const N s = share(center);
     RoundContact<N> c{time, plus(m.end[0], times(d, s)), minus(center, times(d, s)), Part::tube};
     if (!narrow_to_reach(c.away)) return;
     if constexpr (is_enclosure<N>) {
       if (!may_be_zero(length2) && !narrow_about_middle(c, s)) return;
     }
-    roots.push_back(c);
+    roots.list.push_back(c);
+  }
+  static void reaches_by(const N& time, Roots& roots) {
+    if constexpr (is_enclosure<N>) roots.surely_by = std::min(roots.surely_by, time.sup());
   }
 
   /// The same about a fixed time and a fixed share of the second end; false where nothing is left.
@@ -285,14 +274,18 @@ struct RoundPast {
     if (belongs(c.away)) roots.push_back(c);
   }
 
-  std::vector<RoundContact<N>> roots() const {
-    std::vector<RoundContact<N>> found;
+  Roots roots() const {
+    Roots found;
     N time;
     if (!may_be_near(time)) return found;
     root_of_end(0, Part::first_end, time, found);
     if (m.is_ball) return found;
     root_of_end(1, Part::second_end, time, found);
     if (may_be_positive(length2)) root_of_tube(time, found);
+    if constexpr (is_enclosure<N>) {
+      std::erase_if(found.list, [&](const RoundContact<N>& c) { return c.time.inf() > found.surely_by; });
+      for (RoundContact<N>& c : found.list) c.time = N(c.time.inf(), std::min(c.time.sup(), found.surely_by));
+    }
     return found;
   }
 
@@ -330,14 +323,17 @@ template <class N, class Out>
 void report_first_contact(const RoundMotion<N>& m, Out& out) {
   const RoundPast<N> past{m};
   if (!past.start(out)) return;
-  const std::vector<RoundContact<N>> roots = past.roots();
-  for (const RoundContact<N>& c : roots) {
-    const bool later = std::any_of(roots.begin(), roots.end(),
+  const auto roots = past.roots();
+  for (const RoundContact<N>& c : roots.list) {
+    const bool later = std::any_of(roots.list.begin(), roots.list.end(),
                                    [&](const RoundContact<N>& other) { return may_be_less(other.time, c.time); });
-    if (is_enclosure<N> || !later) past.yes(c, m.reach(), out);
+    if (is_enclosure<N> || !later) past.yes(c, m.reach(), true, out);
   }
-  const bool none = !out.result().may_be_yes;
-  if (none || (is_enclosure<N> && !past.surely_reaches_somewhere())) out.no();
+  if (!out.result().may_be_yes) return out.no();
+  if constexpr (is_enclosure<N>) {
+    const bool surely = roots.surely_by < std::numeric_limits<double>::infinity() || past.surely_reaches_somewhere();
+    if (!surely) out.no();
+  }
 }
 
 }  // namespace nearmiss::oracle

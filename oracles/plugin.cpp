@@ -10,10 +10,12 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 #include <sstream>
 
 #include "impl/plugin/nearmiss_plugin.h"
+#include "impl/subject/floating_point.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/query.hpp"
 
@@ -23,6 +25,15 @@ namespace {
 
 static_assert(NEARMISS_MAX_VALUES == Answer::capacity);
 static_assert(sizeof(nearmiss_answer::why) == sizeof(Answer::why));
+
+constexpr std::uint32_t bit_of(Precondition p) { return std::uint32_t{1} << std::size_t(p); }
+static_assert(NEARMISS_TRUE_RECTANGLE == bit_of(Precondition::true_rectangle));
+static_assert(NEARMISS_UNIT_NORMAL == bit_of(Precondition::unit_normal));
+static_assert(NEARMISS_UNIT_DIRECTION == bit_of(Precondition::unit_direction));
+static_assert(NEARMISS_UNIT_QUATERNION == bit_of(Precondition::unit_quaternion));
+static_assert(NEARMISS_STARTS_OUTSIDE == bit_of(Precondition::starts_outside));
+static_assert(NEARMISS_MOVES == bit_of(Precondition::moves));
+static_assert(NEARMISS_NO_ZERO_SIZES == bit_of(Precondition::no_zero_sizes));
 
 constexpr unsigned seconds_to_load = 10;
 
@@ -59,12 +70,24 @@ void try_to_load(const std::string& file, const std::string& path) {
   if (WEXITSTATUS(status) != 0) refuse(file, fmt::format("loading it ends the process (exit code {})", WEXITSTATUS(status)));
 }
 
+/// A library's function, and the modes of floating-point arithmetic that its loading left: it is asked in them, for it
+/// would run in them in its user's program. Nothing else does.
+struct Asked {
+  nearmiss_offer offer;
+  FloatingPointModes modes;
+};
+
+int given_by(const Asked& asked, std::span<const double> inputs, nearmiss_answer& given) {
+  const FloatingPointScope of_the_library(asked.modes);
+  return asked.offer.answer(inputs.data(), &given);
+}
+
 /// The case goes to the library's function, and its word comes back. Runs in a worker.
-Answer ask(const void* offer, std::span<const double> inputs) {
+Answer ask(const void* asked, std::span<const double> inputs) {
   nearmiss_answer given{};
   given.given = ~std::uint64_t{0};
-  const auto& of = *static_cast<const nearmiss_offer*>(offer);
-  const int status = of.answer(inputs.data(), &given);
+  const nearmiss_offer& of = static_cast<const Asked*>(asked)->offer;
+  const int status = given_by(*static_cast<const Asked*>(asked), inputs, given);
   if (status != NEARMISS_ANSWERED && status != NEARMISS_CANNOT_ANSWER) {
     return Answer::without(Answer::Status::broke, fmt::format("the plugin's function returned {}", status));
   }
@@ -86,7 +109,7 @@ collide::Contract contract_of(const nearmiss_contract* c) {
 
 std::string text_or(const char* text, const char* otherwise) { return text == nullptr ? otherwise : text; }
 
-void take_offer(const std::string& file, const nearmiss_offer& offer, Subject& subject) {
+void take_offer(const std::string& file, const nearmiss_offer& offer, const FloatingPointModes& modes, Subject& subject) {
   const std::string name = text_or(offer.query, "");
   const Query* query = find_query(name);
   if (query == nullptr) refuse(file, fmt::format("it offers the query '{}', which the catalogue does not have", name));
@@ -109,12 +132,17 @@ void take_offer(const std::string& file, const nearmiss_offer& offer, Subject& s
     if (c.lowest > c.highest) {
       refuse(file, fmt::format("its contract of {} has lowest {} above highest {}", name, c.lowest, c.highest));
     }
-    o.answer = AnswerFunction(ask, &offer);
+    if (const std::uint32_t unknown = offer.needs & ~Preconditions::known_bits; unknown != 0) {
+      refuse(file, fmt::format("it requires {:#x} for {}, and there is no such bit in nearmiss_plugin.h", unknown, name));
+    }
+    o.required = Preconditions::of_bits(offer.needs);
+    static std::deque<Asked> all;  // workers are told where they lie
+    o.answer = AnswerFunction(ask, &all.emplace_back(Asked{offer, modes}));
   }
 }
 
 /// Not dereferenced before its version is known.
-Subject subject_of(const std::string& file, const nearmiss_plugin* plugin) {
+Subject subject_of(const std::string& file, const nearmiss_plugin* plugin, const FloatingPointModes& modes) {
   if (plugin == nullptr) refuse(file, "nearmiss_plugin_entry() returns no description");
   if (plugin->version != NEARMISS_PLUGIN_VERSION) {
     refuse(file, fmt::format("it is made for version {} of nearmiss_plugin.h, and this is version {}", plugin->version,
@@ -136,13 +164,26 @@ Subject subject_of(const std::string& file, const nearmiss_plugin* plugin) {
     s.offerings.push_back({std::string(q.name), Offer::not_offered, "the plugin has no function for it", {}, {}});
   }
   if (plugin->offers == nullptr && plugin->offer_count > 0) refuse(file, "it counts offers and has none");
-  for (std::size_t i = 0; i < plugin->offer_count; ++i) take_offer(file, plugin->offers[i], s);
+  for (std::size_t i = 0; i < plugin->offer_count; ++i) take_offer(file, plugin->offers[i], modes, s);
   return s;
 }
+
+/// What is loaded may set modes of floating-point arithmetic; they end with this.
+class ModesBefore {
+ public:
+  ModesBefore() = default;
+  ~ModesBefore() { before_.set(); }
+  ModesBefore(const ModesBefore&) = delete;
+  ModesBefore& operator=(const ModesBefore&) = delete;
+
+ private:
+  FloatingPointModes before_ = FloatingPointModes::current();
+};
 
 }  // namespace
 
 void load_plugin(const std::string& file) {
+  const ModesBefore modes_before;
   std::error_code error;
   if (file.empty()) refuse("--plugin", "the name of its file is empty");
   if (!std::filesystem::exists(file, error)) refuse(file, "there is no such file");
@@ -157,7 +198,10 @@ void load_plugin(const std::string& file) {
   }
   const Entry entry = entry_of(library);
   if (entry == nullptr) refuse(file, "it is no plugin: it has no function nearmiss_plugin_entry");
-  add_subject(subject_of(file, entry()));
+  const nearmiss_plugin* plugin = entry();
+  const FloatingPointModes modes = FloatingPointModes::current();
+  FloatingPointModes::standard().set();
+  add_subject(subject_of(file, plugin, modes));
 }
 
 void load_plugins_of_environment() {

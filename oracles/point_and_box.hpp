@@ -49,8 +49,29 @@ void for_each_possible_region(const Vector<N>& local, const Vector<N>& half, F&&
 template <class N>
 Normals<N> normal_cone(const std::array<Vector<N>, 3>& axes, const Sides& sides) {
   std::vector<Facing<N>> facing;
-  for (int i = 0; i < 3; ++i) facing.push_back({axes[i], N(sides[i] < 0 ? -1 : 0), N(sides[i] > 0 ? 1 : 0)});
+  for (int i = 0; i < 3; ++i) facing.push_back({axes[i], sides[i] < 0 ? -1 : 0, sides[i] > 0 ? 1 : 0});
   return Normals<N>::cone(std::move(facing));
+}
+
+/// Calls f(sides) for regions that meet where the point may be on the surface: the outward normals there are those of these.
+/// A region between two face planes has no others than its neighbour beyond one of them.
+template <class N, class F>
+void for_each_cone_at(const Vector<N>& local, const Vector<N>& half, F&& f) {
+  for_each_possible_region(local, half, [&](const Sides& sides) {
+    for (int i = 0; i < 3; ++i) {
+      if (sides[i] == 0 && (may_be_on_side(local[i], half[i], 1) || may_be_on_side(local[i], half[i], -1))) return;
+    }
+    f(sides);
+  });
+}
+
+/// May one of the outward normals there not lead along the motion?
+template <class N>
+bool may_be_met(const Vector<N>& step, const Sides& sides) {
+  for (int i = 0; i < 3; ++i) {
+    if (sides[i] != 0 && may_be_at_most_zero(N(N(sides[i]) * step[i]))) return true;
+  }
+  return false;
 }
 
 /// From the box's nearest feature to a point in that region: `nearest` and `away` add up to the point.

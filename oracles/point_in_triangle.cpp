@@ -1,67 +1,70 @@
-/// Truth: the areas that the point forms with the edges. In a triangle without area many weights are right.
+/// Truth: the areas that the point forms with the edges. In a triangle without area many weights are right: those that are
+/// not negative, have the sum 1 and give the point.
 #include <collide/point_in_triangle.hpp>
 
 #include "oracles/point_and_triangle.hpp"
+#include "oracles/tuples.hpp"
 
 namespace nearmiss::oracle {
 
 namespace {
 
-using Weights = std::array<Exact, 3>;
+constexpr std::size_t weights = 0;  // where they begin in the answer
 
-inline Interval flat_weight() { return {0, 1}; }
+/// A triangle without area, seen along an axis, on which the point lies.
+template <class N>
+struct FlatTriangle {
+  const std::array<Vector<N>, 3>& corner;
+  const std::array<int, 2>& seen;
+  const Vector<N>& p;
 
-/// Weights of corners at x0, x1, x2 on a line that give p, which lies between them: those nearest to `given`.
-/// All right ones are some of them plus a multiple of (x1 - x2, x2 - x0, x0 - x1).
-inline Weights nearest_on_line(const Weights& x, const Exact& p, const Weights& given) {
-  const Weights step{x[1] - x[2], x[2] - x[0], x[0] - x[1]};
-  Weights w;
-  for (int i = 0; i < 3; ++i) {  // some right ones: of two corners on either side of p
+  /// Of the corners, seen from the point, along that axis.
+  Vector<N> from_point(int k) const { return {corner[0][k] - p[k], corner[1][k] - p[k], corner[2][k] - p[k]}; }
+};
+
+inline Vector<Exact> weight_of_two(int i, int j, const Exact& share) {
+  Vector<Exact> w{Exact(0), Exact(0), Exact(0)};
+  w[i] = w[i] + Exact(1) - share, w[j] = w[j] + share;
+  return w;
+}
+
+/// The ends of the segment of right weights, where the corners lie at x on a line and the point at 0, between two or on
+/// one of them: no end has three weights.
+inline std::vector<Vector<Exact>> ends_of_weights(const Vector<Exact>& x) {
+  std::vector<Vector<Exact>> ends;
+  for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const Exact across = x[j] - x[i], share = surely_zero(across) ? Exact(0) : Exact((p - x[i]) / across);
-    if (surely_zero(across) || may_be_negative(share) || may_be_negative(Exact(Exact(1) - share))) continue;
-    w = {Exact(0), Exact(0), Exact(0)};
-    w[i] = Exact(1) - share, w[j] = share;
-    break;
+    if (surely_zero(x[i])) ends.push_back(weight_of_two(i, i, Exact(0)));
+    if (may_be_negative(Exact(x[i] * x[j]))) ends.push_back(weight_of_two(i, j, x[i] / (x[i] - x[j])));
   }
-  Exact along(0), step2(0);
-  for (int i = 0; i < 3; ++i) along = along + (given[i] - w[i]) * step[i], step2 = step2 + square(step[i]);
-  Exact amount = along / step2;
-  for (int i = 0; i < 3; ++i) {  // as far as no weight becomes negative
-    if (surely_zero(step[i])) continue;
-    const Exact most = -w[i] / step[i];
-    const bool from_below = may_be_positive(step[i]);
-    if (from_below ? may_be_less(amount, most) : may_be_less(most, amount)) amount = most;
-  }
-  for (int i = 0; i < 3; ++i) w[i] = w[i] + amount * step[i];
-  return w;
+  return ends;
 }
 
-/// Where all corners are one point any weights are right: the given ones, made to be weights.
-inline Weights nearest_at_point(Weights w) {
-  Exact sum(0);
-  for (Exact& x : w) {
-    if (may_be_negative(x)) x = Exact(0);
-    sum = sum + x;
+/// The corners of the polygon of right weights.
+inline std::vector<Vector<Exact>> ends_of_weights(const FlatTriangle<Exact>& t) {
+  for (const int k : t.seen) {
+    const Vector<Exact> x = t.from_point(k);
+    if (!surely_zero(x[0]) || !surely_zero(x[1]) || !surely_zero(x[2])) return ends_of_weights(x);
   }
-  if (surely_zero(sum)) return {Exact(1), Exact(0), Exact(0)};
-  for (Exact& x : w) x = x / sum;
-  return w;
+  return {weight_of_two(0, 0, Exact(0)), weight_of_two(1, 1, Exact(0)), weight_of_two(2, 2, Exact(0))};  // all one point
 }
 
-/// Right weights for a point on a triangle without area.
-inline Weights flat_weights(const std::array<Vector<Exact>, 3>& corner, const std::array<int, 2>& seen,
-                            const Vector<Exact>& p, const Weights& given) {
-  for (const int k : seen) {
-    const Weights x{corner[0][k], corner[1][k], corner[2][k]};
-    if (surely_zero(Exact(x[0] - x[1])) && surely_zero(Exact(x[1] - x[2]))) continue;
-    return nearest_on_line(x, p[k], given);
-  }
-  return nearest_at_point(given);
+template <class Out, class Make>
+void yes_to_any_weights(const FlatTriangle<Exact>& t, Out& out, Make make) {
+  yes_to_any_of(ends_of_weights(t), weights, out, make);
 }
-inline std::array<Interval, 3> flat_weights(const std::array<Vector<Interval>, 3>&, const std::array<int, 2>&,
-                                            const Vector<Interval>&, const std::array<Interval, 3>&) {
-  return {flat_weight(), flat_weight(), flat_weight()};
+template <class Out, class Make>
+void yes_to_any_weights(const FlatTriangle<Interval>& t, Out& out, Make make) {
+  const Interval any(0, 1), zero(0);
+  const Vector<Interval> origin{zero, zero, zero};
+  std::vector<Form> forms{{{Interval(1), Interval(1), Interval(1)}, origin, Interval(1)}};
+  for (int i = 0; i < 3; ++i) {
+    Form weight{origin, origin, any};
+    weight.direction[i] = Interval(1);
+    forms.push_back(weight);
+  }
+  for (const int k : t.seen) forms.push_back({t.from_point(k), origin, zero});
+  yes_to_all_on(forms, weights, out, make({any, any, any}));
 }
 
 }  // namespace
@@ -75,8 +78,9 @@ void point_in_triangle(const collide::inputs::point_in_triangle<N>& q, Out& out)
     if (view.may_be_outside) out.no();
     if (view.may_have_area) out.yes({answer_vector<N>(view.weight), true});
     if (!view.may_be_flat) return;
-    const std::array<N, 3> given{N(out.given(0)), N(out.given(1)), N(out.given(2))};
-    out.yes({answer_vector<N>(flat_weights(corner, view.seen, p, given)), true});
+    yes_to_any_weights(FlatTriangle<N>{corner, view.seen, p}, out, [](const Vector<N>& weight) -> collide::Containment<N> {
+      return {answer_vector(weight), true};
+    });
   };
   if (q.axis >= 0) return along(q.axis);
   for_each_possible_axis(vector(q.normal), along);

@@ -12,6 +12,7 @@
 
 #include "impl/subject/answer.hpp"
 #include "oracles/enclosure.hpp"
+#include "oracles/layout.hpp"
 
 namespace nearmiss {
 
@@ -42,9 +43,13 @@ struct Query {
   Kind kind;
   std::vector<Field> inputs;
   std::vector<Field> outputs;
+  Layout layout;  ///< the members of an answer, as runs of its outputs
   /// The first rule that the inputs break, if any. Expects inputs.size() values.
   std::optional<Invalid> (*broken)(std::span<const double> values);
   Oracle oracle;
+
+  /// "location", "corners.2.point": the outputs' name without their component.
+  std::string member_name(std::size_t part) const;
 };
 
 /// All queries, in the catalogue's order.

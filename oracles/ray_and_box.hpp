@@ -24,8 +24,19 @@ bool may_start_in(const RayAndBox<N>& r) {
   return may;
 }
 
+/// Does the ray surely start in the box as seen along axis k?
+template <class N>
+bool surely_starts_in_seen_along(const RayAndBox<N>& r, int k) {
+  bool surely = true;
+  for (const int i : {(k + 1) % 3, (k + 2) % 3}) {
+    surely = surely && !may_be_less(r.at[i], r.low[i]) && !may_be_less(r.high[i], r.at[i]);
+  }
+  return surely;
+}
+
 /// May the ray miss the box? Two convex sets are apart when an axis separates them: one of the box's, or a
-/// cross product of one of these with the ray's direction.
+/// cross product of one of these with the ray's direction. Such a product, which is nothing where the ray runs along the
+/// axis, separates none that meet as seen along it.
 template <class N>
 bool may_miss(const RayAndBox<N>& r) {
   for (int i = 0; i < 3; ++i) {
@@ -42,7 +53,7 @@ bool may_miss(const RayAndBox<N>& r) {
         may_all_lie_right = may_all_lie_right && may_be_negative(left);
       }
     }
-    if (may_all_lie_left || may_all_lie_right) return true;
+    if ((may_all_lie_left || may_all_lie_right) && !surely_starts_in_seen_along(r, k)) return true;
   }
   return false;
 }

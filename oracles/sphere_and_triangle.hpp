@@ -103,32 +103,11 @@ class SphereAndTriangle {
     return may_be_at_most_zero(toward) && may_be_before;
   }
 
-  // Normals where the center is on the triangle. A direction that may be zero says nothing.
+  // Normals where the center is on the triangle.
 
-  static void face(std::vector<Facing<N>>& facing, const Vector<N>& direction, int low, int high) {
-    const N length2 = norm2(direction);
-    if (may_be_zero(length2)) return;
-    Vector<N> unit = times(direction, N(N(1) / root(length2)));
-    for (N& x : unit) x = assume_within(x, -1.0, 1.0);
-    facing.push_back({unit, N(low), N(high)});
-  }
-  Normals<N> vertex_cone(int i) const {
-    std::vector<Facing<N>> facing;
-    face(facing, e_[i], -1, 0);
-    face(facing, e_[(i + 2) % 3], 0, 1);
-    return Normals<N>::cone(std::move(facing));
-  }
-  Normals<N> edge_cone(int i) const {
-    std::vector<Facing<N>> facing;
-    face(facing, e_[i], 0, 0);
-    face(facing, out_[i], 0, 1);
-    return Normals<N>::cone(std::move(facing));
-  }
-  Normals<N> face_cone() const {
-    std::vector<Facing<N>> facing;
-    for (const Vector<N>& e : e_) face(facing, e, 0, 0);
-    return Normals<N>::cone(std::move(facing));
-  }
+  Normals<N> vertex_cone(int i) const { return Normals<N>::cone({{e_[i], -1, 0}, {e_[(i + 2) % 3], 0, 1}}); }
+  Normals<N> edge_cone(int i) const { return Normals<N>::cone({{e_[i], 0, 0}, {out_[i], 0, 1}}); }
+  Normals<N> face_cone() const { return Normals<N>::cone({{e_[0], 0, 0}, {e_[1], 0, 0}, {e_[2], 0, 0}}); }
 
   void set_weights(Contact& c, const Vector<N>& weights) const {
     if (surely_has_area()) {
@@ -184,14 +163,22 @@ class SphereAndTriangle {
       return N(0);
     }
   }
+  /// The point of the longest edge's line nearest to x, which is over the face. That is beyond the edge's ends no
+  /// further than the third corner's is: of edges that are nearly as long, the one asked about may not be the longest.
+  Vector<N> beside_longest_edge(const Vector<N>& x) const {
+    const int l = longest();
+    if (may_be_zero(e2_[l])) return on_edge(l, minus(x, corner_[l])).point;
+    const N third = join(join(N(0), N(1)), N(N(1) + inner(e_[l], e_[(l + 1) % 3]) / e2_[l]));
+    const N along = inner(minus(x, corner_[l]), e_[l]) / e2_[l];
+    return plus(corner_[l], times(e_[l], N(assume_within(along, bounds(third).low, bounds(third).high))));
+  }
   /// The foot of a point on the plane, in the face; empty where it cannot be there. An enclosure is also as near to
-  /// the longest edge as the triangle is thick, which tells something of thin ones alone.
+  /// the longest edge's line as the triangle is thick, which tells something of thin ones alone.
   std::optional<Place> in_face(const Vector<N>& x) const {
     Place place{{}, {N(0), N(0), N(0)}, face_cone()};
     if constexpr (is_enclosure<N>) {
-      const int l = longest();
       const N about = thickness() * N(-1, 1);
-      const Vector<N> by_edge = on_edge(l, minus(x, corner_[l])).point;
+      const Vector<N> by_edge = beside_longest_edge(x);
       for (int k = 0; k < 3; ++k) place.point[k] = assume_within(by_edge[k] + about, lowest(k).inf(), highest(k).sup());
     }
     if (surely_has_area()) {
@@ -235,8 +222,9 @@ class SphereAndTriangle {
       if (!may_be_at_most_zero(outside)) return;
       Contact c{{N(0), answer_vector(place.point), {}, {}}};
       set_weights(c, place.weights);
-      if (may_be_zero(distance2)) {
-        c.normals = place.cone;
+      if (may_be_zero(distance2)) {  // a triangle has an outward normal against every motion
+        const bool surely_on_it = surely_zero(distance2) || surely_zero(r_);
+        c.normals = surely_on_it ? place.cone.against(v_) : place.cone;
         all_.list.push_back(c);
         return;
       }
@@ -286,17 +274,6 @@ class SphereAndTriangle {
     surely = !may_be_negative(chord2) && !may_be_at_most_zero(closing) && !may_be_negative(*time);
     return N(assume_at_least_zero(*time));
   }
-  /// No time before this brings the point as near as `reach`; nothing where none does.
-  std::optional<double> earliest(const Vector<N>& w, const Vector<N>& u, const N& reach2, const N& moment2) const {
-    const N closing = -inner(w, u);
-    const N chord2 = norm2(u) * reach2 - moment2;
-    if (!may_be_at_least_zero(chord2)) return std::nullopt;
-    const N outside = norm2(w) - reach2;
-    if (may_be_at_most_zero(outside)) return 0.0;
-    if (!may_be_positive(closing)) return std::nullopt;
-    const N far = assume_at_least_zero(closing) + root(chord2);
-    return bounds(N(outside / N(bounds(far).high))).low;
-  }
   N moment2(const Vector<N>& w) const { return norm2(outer(w, v_)); }
   /// |(w x e) x (v x e)|^2 = |e|^2 (e . (w x v))^2.
   N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(inner(e_[i], outer(w, v_))); }
@@ -306,7 +283,7 @@ class SphereAndTriangle {
     Contact c{{time, answer_vector(place.point), {}, {}}};
     set_weights(c, place.weights);
     if (may_be_zero(r_)) {
-      c.normals = place.cone;
+      c.normals = place.cone.against(v_);
     } else {
       Vector<N> unit = times(away, N(N(1) / r_));
       for (N& y : unit) y = assume_within(y, -1.0, 1.0);
@@ -346,17 +323,24 @@ class SphereAndTriangle {
     window.clip(times_not_positive(N(-inner(w, e_[i])), N(-inner(v_, e_[i]))));
     window.clip(times_not_positive(N(inner(w, e_[i]) - e2_[i]), N(inner(v_, e_[i]))));
     if (window.empty()) return;
-    const auto time = root_time(outer(w, e_[i]), outer(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), window, surely);
-    if (!time) return;
-    const Vector<N> x = at(*time);
-    const N along = inner(minus(x, corner_[i]), e_[i]);
-    const bool between = !may_be_negative(along) && !may_be_positive(N(along - e2_[i]));
-    if (surely && between) surely_by_ = std::min(surely_by_, bounds(*time).high);
+    const auto of_line = root_time(outer(w, e_[i]), outer(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), Window{}, surely);
+    if (!of_line) return;
+    N time = *of_line;
+    if constexpr (is_enclosure<N>) {
+      // Is the line surely touched between the edge's ends? The window assumes that it is, so it comes afterwards.
+      const bool bounded = time.sup() < std::numeric_limits<double>::infinity();
+      if (surely && bounded && surely_between(i, at(time))) surely_by_ = std::min(surely_by_, time.sup());
+      if (!narrow(time, N(window.from, window.to))) return;
+    }
+    const Vector<N> x = at(time);
     if (!may_be_at_edge(i, x)) return;
     Place place = on_edge(i, minus(x, corner_[i]));
     Vector<N> away = minus(x, place.point);
-    N narrowed = *time;
-    if (edge_about_middle(i, narrowed, place, away)) add_root(narrowed, place, away, false);
+    if (edge_about_middle(i, time, place, away)) add_root(time, place, away, false);
+  }
+  bool surely_between(int i, const Vector<N>& x) const {
+    const N along = inner(minus(x, corner_[i]), e_[i]);
+    return !may_be_negative(along) && !may_be_positive(N(along - e2_[i]));
   }
 
   // The same contacts about a fixed time and a fixed place on the feature; false where nothing is left.
@@ -418,10 +402,10 @@ class SphereAndTriangle {
   void tiny_edge_root(int i) {
     if constexpr (is_enclosure<N>) {
       const Vector<N> w = from_corner(i);
-      const N reach = r_ + N(root(e2_[i]).sup());
-      const auto from = earliest(w, v_, square(reach), moment2(w));
-      if (!from || *from > near_.to) return;
-      const N time(std::max(*from, near_.from), near_.to);
+      Window times = times_within(w, v_, square(N(r_ + N(root(e2_[i]).sup()))), moment2(w));
+      times.clip(near_);
+      if (times.empty()) return;
+      const N time(times.from, times.to);
       const Place place = on_edge(i, w);
       add_root(time, place, minus(at(time), place.point), false);
     }
@@ -450,8 +434,9 @@ class SphereAndTriangle {
       if (!narrow(place.point[k], touching[k])) return;
     }
     if (!face_about_middle(time, place)) return;
-    const std::optional<double> earliest = earliest_by_longest_edge();
-    if (!earliest || *earliest > near_.to) return;
+    Window near_edge = times_near_longest_edge();
+    near_edge.clip(near_);
+    if (near_edge.empty()) return;
     Contact c{{time, answer_vector(place.point), {}, {}}};
     set_weights(c, place.weights);
     Vector<N> unit = times(n_, N(length / n2_));
@@ -460,26 +445,41 @@ class SphereAndTriangle {
     all_.list.push_back(std::move(c));
   }
 
-  /// No time before this brings the sphere as near to the longest edge, or its line, as the triangle is thick;
-  /// nothing where none does. That holds for every triangle, but tells something of thin ones alone.
-  std::optional<double> earliest_by_longest_edge() const {
+  /// How far the triangle reaches from its longest edge: as its third corner from the line, or from an end.
+  double reach_from_longest_edge() const {
+    const int l = longest();
+    const double most = std::min(root(e2_[(l + 1) % 3]).sup(), root(e2_[(l + 2) % 3]).sup());
+    if (may_be_zero(e2_[l])) return most;
+    const N third = N(1) + inner(e_[l], e_[(l + 1) % 3]) / e2_[l];
+    const bool beside = !may_be_negative(third) && !may_be_positive(N(third - N(1)));
+    return beside ? std::min(most, N(root(n2_) / root(e2_[l])).sup()) : most;
+  }
+  /// The sphere touches the triangle only while it is as near to the longest edge as the triangle reaches from it. That holds
+  /// for every triangle, but tells something of thin ones alone.
+  Window times_near_longest_edge() const {
+    Window times;
     if constexpr (is_enclosure<N>) {
       const int l = longest();
-      const Vector<N> w = from_corner(l);
-      const N reach = r_ + N(thickness().sup());
-      if (may_be_zero(e2_[l])) return earliest(w, v_, square(reach), moment2(w));
-      return earliest(outer(w, e_[l]), outer(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
-    } else {
-      return 0.0;
+      const Vector<N> w = from_corner(l), other = from_corner((l + 1) % 3);
+      const N reach = r_ + N(reach_from_longest_edge());
+      if (may_be_zero(e2_[l])) return times_within(w, v_, square(N(reach + root(e2_[l]))), moment2(w));
+      times = times_within(w, v_, square(reach), moment2(w));
+      times.include(times_within(other, v_, square(reach), moment2(other)));
+      Window beside = times_within(outer(w, e_[l]), outer(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
+      beside.clip(times_not_positive(N(-inner(w, e_[l])), N(-inner(v_, e_[l]))));
+      beside.clip(times_not_positive(N(inner(w, e_[l]) - e2_[l]), N(inner(v_, e_[l]))));
+      times.include(beside);
     }
+    return times;
   }
 
-  /// A face that may have no area: within its thickness of the cylinder about its longest edge.
+  /// A face that may have no area.
   void thin_face_root() {
     if constexpr (is_enclosure<N>) {
-      const std::optional<double> from = earliest_by_longest_edge();
-      if (!from || *from > near_.to) return;
-      const N time(std::max(*from, near_.from), near_.to);
+      Window times = times_near_longest_edge();
+      times.clip(near_);
+      if (times.empty()) return;
+      const N time(times.from, times.to);
       const Vector<N> x = at(time);
       const std::optional<Place> place = in_face(x);
       if (place) add_root(time, *place, minus(x, place->point), false);
@@ -490,7 +490,7 @@ class SphereAndTriangle {
   void keep_first(std::size_t at_start) {
     std::vector<Contact>& list = all_.list;
     if constexpr (is_enclosure<N>) {
-      const bool hits = surely_by_ < std::numeric_limits<double>::infinity() || surely_overlaps();
+      const bool hits = surely_by_ < std::numeric_limits<double>::infinity() || center_surely_crosses() || surely_overlaps();
       if (!hits) all_.may_miss = true;
       if (surely_passes_) all_.surely_by = surely_by_;
       std::vector<Contact> kept(list.begin(), list.begin() + std::ptrdiff_t(at_start));
@@ -513,6 +513,17 @@ class SphereAndTriangle {
     }
   }
 
+  /// A center that comes from the front through the triangle, however small the sphere.
+  bool center_surely_crosses() const {
+    if (may_be_at_least_zero(N(inner(n_, v_))) || may_be_at_most_zero(N(inner(n_, from_corner(0))))) return false;
+    bool within = true;
+    for (int i = 0; i < 3; ++i) {
+      const N moment = -inner(v_, outer(from_corner(i), from_corner((i + 1) % 3)));
+      within = within && !may_be_negative(moment);
+    }
+    return within;
+  }
+
   // A sure overlap, at a time and a place found in plain doubles, which prove nothing by themselves.
 
   struct Doubles {
@@ -522,7 +533,7 @@ class SphereAndTriangle {
     const Bounds b = bounds(x);
     return 0.5 * b.low + 0.5 * b.high;
   }
-  /// The weights of corners 1 and 2 at the nearest point to x; rounded to multiples of 2^-30.
+  /// The weights of corners 1 and 2 at the nearest point to x; rounded to multiples of 2^-50, whose sums are exact.
   static std::array<double, 2> nearest_weights(const Doubles& d, const double* x) {
     double a[3], b[3], w[3];
     for (int k = 0; k < 3; ++k) a[k] = d.c[1][k] - d.c[0][k], b[k] = d.c[2][k] - d.c[0][k], w[k] = x[k] - d.c[0][k];
@@ -532,7 +543,7 @@ class SphereAndTriangle {
     std::array<double, 2> best{0, 0};
     double best2 = std::numeric_limits<double>::infinity();
     const auto consider = [&](double s, double t) {
-      s = std::floor(s * 0x1p30) * 0x1p-30, t = std::floor(t * 0x1p30) * 0x1p-30;
+      s = std::floor(s * 0x1p50) * 0x1p-50, t = std::floor(t * 0x1p50) * 0x1p-50;
       if (!(s >= 0 && t >= 0 && s + t <= 1)) return;
       double distance2 = 0;
       for (int k = 0; k < 3; ++k) distance2 += (w[k] - s * a[k] - t * b[k]) * (w[k] - s * a[k] - t * b[k]);
@@ -540,8 +551,9 @@ class SphereAndTriangle {
     };
     const auto clamp01 = [](double s) { return s > 0 ? std::min(s, 1.0) : 0.0; };
     if (det > 0) consider((aw * bb - bw * ab) / det, (bw * aa - aw * ab) / det);
-    consider(clamp01(aw / aa), 0), consider(0, clamp01(bw / bb));
-    const double along = clamp01((bw - aw + aa - ab) / (aa - 2 * ab + bb));
+    const auto share = [&](double part, double whole) { return whole > 0 ? clamp01(part / whole) : 0.0; };
+    consider(share(aw, aa), 0), consider(0, share(bw, bb));
+    const double along = share(bw - aw + aa - ab, aa - 2 * ab + bb);
     consider(1 - along, along);
     return best;
   }
@@ -556,7 +568,8 @@ class SphereAndTriangle {
       const double x[3] = {d.p[0] + d.v[0] * t, d.p[1] + d.v[1] * t, d.p[2] + d.v[2] * t};
       return nearest_weights(d, x);
     };
-    for (int step = 0; step < 40 && from < to; ++step) {
+    constexpr int steps = 52;
+    for (int step = 0; step < steps && from < to; ++step) {
       const double t = 0.5 * from + 0.5 * to;
       const auto [s, u] = weights_at(t);
       double slope = 0;

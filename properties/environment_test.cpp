@@ -1,31 +1,49 @@
-/// The arithmetic that every result rests on: checked at start, in every rounding mode on entry.
+/// The arithmetic that every result rests on: checked at start, and the same in whatever modes the oracle is entered.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfenv>
+#include <cmath>
+#include <thread>
 
 #include "corpus/generator.hpp"
+#include "impl/subject/floating_point.hpp"
 #include "impl/subject/subject.hpp"
+#include "impl/subject/worker.hpp"
 #include "oracles/environment.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
 namespace {
 
-class RoundingMode : public testing::TestWithParam<int> {
- protected:
-  void SetUp() override { std::fesetround(GetParam()); }
-  void TearDown() override { std::fesetround(FE_TONEAREST); }
+/// What code of others may have done to the thread that asks.
+struct Modes {
+  const char* name;
+  void (*set)();
 };
 
-TEST_P(RoundingMode, TheSelfCheckPassesAndKeepsTheMode) {
-  const auto broken = broken_environment();
-  const int after = std::fegetround();
-  std::fesetround(FE_TONEAREST);
+class AnyModes : public testing::TestWithParam<Modes> {
+ protected:
+  ~AnyModes() override { FloatingPointModes::standard().set(); }
+  /// Does it in the modes of the parameter, and checks that they are still the same afterwards.
+  template <class Work>
+  static auto within_modes(Work work) {
+    GetParam().set();
+    const FloatingPointModes before = FloatingPointModes::current();
+    auto result = work();
+    const FloatingPointModes after = FloatingPointModes::current();
+    FloatingPointModes::standard().set();
+    EXPECT_TRUE(before == after);
+    return result;
+  }
+};
+
+TEST_P(AnyModes, TheSelfCheckPasses) {
+  const auto broken = within_modes([] { return broken_environment(); });
   EXPECT_FALSE(broken) << *broken;
-  EXPECT_EQ(after, GetParam());
 }
 
-TEST_P(RoundingMode, TheJudgeSaysTheSameAndKeepsTheMode) {
+TEST_P(AnyModes, TheJudgeSaysTheSame) {
   // A third of the way: t = 1/3, x = 1/3, neither of which is a double.
   const Case c{find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 3, 0, 0, 1.0 / 3, 5, 5}, "", 0, 0, {}};
   Answer right, wrong;
@@ -33,58 +51,154 @@ TEST_P(RoundingMode, TheJudgeSaysTheSameAndKeepsTheMode) {
   right.values = {1.0 / 3};
   wrong.values = {1.0 / 3 + 0x1p-52};
   const collide::Contract contract{.forward = 2};
-  const Finding agrees = judge(c, right, contract, Detail::full), differs = judge(c, wrong, contract, Detail::full);
-  const int after = std::fegetround();
-  std::fesetround(FE_TONEAREST);
-  EXPECT_EQ(agrees.verdict, Verdict::agrees);
-  EXPECT_EQ(differs.verdict, Verdict::violates_contract);
-  EXPECT_EQ(after, GetParam());
+  const auto judged = [&](const Answer& a) { return within_modes([&] { return judge(c, a, contract, Detail::full); }); };
+  EXPECT_EQ(judged(right).verdict, Verdict::agrees);
+  EXPECT_EQ(judged(wrong).verdict, Verdict::violates_contract);
 }
 
+/// A thread has the modes of the one that starts it.
+TEST_P(AnyModes, AThreadOfTheirsIsToldTheSame) {
+  const Case c{find_query("sphere_sphere_overlap"), Scalar::float64, {0, 0, 0, 0x1p-1074, 0x1p-1073, 0, 0, 0}, "", 0, 0, {}};
+  Truth t;
+  within_modes([&] { return std::thread([&] { t = truth_of(c); }).join(), 0; });
+  EXPECT_FALSE(t.yes);  // the centers are twice as far apart as the radii reach
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 bool same(const Bounds& a, const Bounds& b) { return (a.empty() && b.empty()) || (a.low == b.low && a.high == b.high); }
 
-/// Each query's oracle, both stages: the mode that it is entered in changes no bit.
-TEST_P(RoundingMode, EveryQueryIsJudgedTheSame) {
+bool same(const Enclosure& a, const Enclosure& b) {
+  const auto same_errors = [](const Bounds& x, const Bounds& y) { return same(x, y); };
+  const auto same_members = [](const Enclosure::Member& x, const Enclosure::Member& y) {
+    return x.may_match == y.may_match && same(x.ulps, y.ulps) && same(x.absolute, y.absolute) && x.number == y.number;
+  };
+  return a.may_be_yes == b.may_be_yes && a.may_be_no == b.may_be_no && a.may_match == b.may_match &&
+         same(a.ulps, b.ulps) && same(a.absolute, b.absolute) && a.worst == b.worst &&
+         std::equal(a.error.begin(), a.error.end(), b.error.begin(), same_errors) &&
+         std::equal(a.members.begin(), a.members.end(), b.members.begin(), same_members);
+}
+bool same(const Finding& f, const Finding& g) {
+  return f.verdict == g.verdict && f.disagreement == g.disagreement && f.truth_yes == g.truth_yes &&
+         f.decided_by == g.decided_by && f.clause == g.clause && f.worst == g.worst && same(f.forward_ulps, g.forward_ulps) &&
+         same(f.forward_absolute, g.forward_absolute) && same(f.unit_error, g.unit_error) &&
+         f.backward.has_value() == g.backward.has_value() && (!f.backward || f.backward->above == g.backward->above);
+}
+bool same(const Truth& t, const Truth& u) {
+  return t.yes == u.yes && t.margin_at_least == u.margin_at_least &&
+         std::equal(t.alternatives.begin(), t.alternatives.end(), u.alternatives.begin(), u.alternatives.end(),
+                    [](const Alternative& a, const Alternative& b) {
+                      return std::equal(a.values.begin(), a.values.end(), b.values.begin(),
+                                        [](const Bounds& x, const Bounds& y) { return same(x, y); });
+                    });
+}
+
+/// All that the oracle and the judge say about an answer.
+struct Said {
+  Finding finding;
+  Truth truth;
+  Enclosure interval, exact;
+  std::vector<double> widening;
+  bool on_surface = false;
+};
+Said said(const Case& c, const Answer& answer, const collide::Contract& contract) {
+  const Oracle& oracle = c.query->oracle;
+  Said s{judge(c, answer, contract, Detail::full), truth_of(c), {}, {}, widening(*c.query, c.values, c.scalar, 4), false};
+  s.interval = oracle.interval(c.values, s.widening, answer, c.scalar);
+  s.exact = oracle.exact(c.values, answer, c.scalar, nullptr);
+  if (oracle.may_be_on_surface != nullptr) {
+    const auto& outputs = c.query->outputs;
+    const auto place = std::find_if(outputs.begin(), outputs.end(), [](const Field& f) { return f.role == Role::position; });
+    s.on_surface = oracle.may_be_on_surface(c.values, s.widening, answer, std::size_t(place - outputs.begin()), 1, c.scalar);
+  }
+  return s;
+}
+bool same(const Said& a, const Said& b) {
+  return same(a.finding, b.finding) && same(a.truth, b.truth) && same(a.interval, b.interval) && same(a.exact, b.exact) &&
+         a.widening == b.widening && a.on_surface == b.on_surface;
+}
+
+/// The same shapes of the least numbers that there are; empty where that breaks a rule.
+std::optional<Case> of_subnormals(Case c) {
+  double largest = 0;
+  for (const double x : c.values) largest = std::max(largest, std::abs(x));
+  const int least = c.scalar == Scalar::float32 ? -149 : -1074, bits = 8;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Role role = c.query->inputs[i].role;
+    if (role == Role::flag || role == Role::index) continue;
+    c.values[i] = std::ldexp(std::nearbyint(std::ldexp(c.values[i], bits - std::ilogb(largest))), least);
+  }
+  if (c.query->broken(c.values)) return std::nullopt;
+  return c;
+}
+
+/// Each query's oracle, each of its entries, and the judge: the modes that they are entered in change no bit.
+TEST_P(AnyModes, EveryQueryIsJudgedTheSame) {
   constexpr std::uint64_t cases = 40;
-  int by_exact = 0, wrong = 0;
+  int by_exact = 0, wrong = 0, subnormal = 0;
   for (const Query& query : catalogue()) {
     for (std::uint64_t i = 0; i < cases; ++i) {
-      std::fesetround(FE_TONEAREST);
-      const Case c = generate(query, i % 2 ? Scalar::float32 : Scalar::float64, 14, i);
+      Case c = generate(query, i % 2 ? Scalar::float32 : Scalar::float64, 14, i);
+      const std::optional<Case> least = i % 8 < 4 ? std::nullopt : of_subnormals(c);
+      if (least) c = *least, ++subnormal;
       const Subject& fast = *find_subject(i % 2 ? "collide-fast-float" : "collide-fast-double");
       const Offering& offering = fast.offering(query.name);
       Answer answer = offering.answer(c.values);
       if (i % 4 > 1) answer.yes = !answer.yes;
-      const Finding f = judge(c, answer, offering.contract, Detail::full);
-      const Truth t = truth_of(c);
-      std::fesetround(GetParam());
-      const Finding g = judge(c, answer, offering.contract, Detail::full);
-      const Truth u = truth_of(c);
-      const int after = std::fegetround();
-      std::fesetround(FE_TONEAREST);
-      ASSERT_EQ(after, GetParam());
-      ASSERT_TRUE(f.verdict == g.verdict && f.disagreement == g.disagreement && f.truth_yes == g.truth_yes &&
-                  f.decided_by == g.decided_by && f.clause == g.clause && f.worst == g.worst &&
-                  f.forward_ulps == g.forward_ulps && f.forward_absolute == g.forward_absolute &&
-                  f.unit_error == g.unit_error && f.backward.has_value() == g.backward.has_value() &&
-                  (!f.backward || f.backward->above == g.backward->above))
-          << query.name << ", case " << i;
-      ASSERT_TRUE(t.yes == u.yes && t.margin_at_least == u.margin_at_least && t.alternatives.size() == u.alternatives.size())
-          << query.name << ", case " << i;
-      for (std::size_t k = 0; k < t.alternatives.size(); ++k) {
-        for (std::size_t n = 0; n < query.outputs.size(); ++n) {
-          ASSERT_TRUE(same(t.alternatives[k].values[n], u.alternatives[k].values[n])) << query.name << ", case " << i;
-        }
-      }
-      by_exact += f.decided_by == Stage::exact;
-      wrong += f.backward.has_value();
+      const collide::Contract contract{.backward = 4, .forward = 4, .unit = 4};
+      const Said before = said(c, answer, contract);
+      const Said after = within_modes([&] { return said(c, answer, contract); });
+      ASSERT_TRUE(same(before, after)) << query.name << ", case " << i;
+      by_exact += before.finding.decided_by == Stage::exact;
+      wrong += before.finding.backward.has_value();
     }
   }
   EXPECT_GT(by_exact, 0);
   EXPECT_GT(wrong, 100);
+  EXPECT_GT(subnormal, 500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, RoundingMode, testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
+/// A process that is asked begins with the standard ones.
+TEST_P(AnyModes, AWorkerHasTheStandardOnes) {
+  Worker worker;
+  const AnswerFunction tells_its_modes = [](std::span<const double>) {
+    Answer a;
+    a.yes = FloatingPointModes::current() == FloatingPointModes::standard();
+    return a;
+  };
+  const Offering offering{"", Offer::answers, "", {}, tells_its_modes};
+  EXPECT_TRUE(within_modes([&] { return worker.ask(offering, std::vector<double>{0}, 1).front().yes; }));
+}
+
+constexpr Modes all_modes[] = {
+    {"standard", [] {}},
+    {"upward", [] { std::fesetround(FE_UPWARD); }},
+    {"downward", [] { std::fesetround(FE_DOWNWARD); }},
+    {"toward_zero", [] { std::fesetround(FE_TOWARDZERO); }},
+#if defined(__SSE2__)
+    {"flush_to_zero", [] { _mm_setcsr(_mm_getcsr() | 0x8000u); }},
+    {"denormals_are_zero", [] { _mm_setcsr(_mm_getcsr() | 0x0040u); }},
+    {"all_that_fast_math_sets_and_upward", [] { std::fesetround(FE_UPWARD), _mm_setcsr(_mm_getcsr() | 0x8040u); }},
+    {"long_double_as_float",
+     [] {
+       const unsigned short word = 0x007f;
+       asm volatile("fldcw %0" : : "m"(word));
+     }},
+#endif
+#if defined(__GLIBC__)
+    {"traps", [] { feenableexcept(FE_ALL_EXCEPT); }},
+#if defined(__SSE2__)
+    {"a_trap_pending",
+     [] {
+       const volatile long double three = 3;
+       [[maybe_unused]] const volatile long double third = 1 / three;
+       feenableexcept(FE_ALL_EXCEPT);
+     }},
+#endif
+#endif
+};
+
+INSTANTIATE_TEST_SUITE_P(Every, AnyModes, testing::ValuesIn(all_modes),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace nearmiss

@@ -117,6 +117,10 @@ std::vector<Hand> hands() {
       {"inside_center", "moving_sphere_box", with({0.5, 0, 0, 1, 0, 0, 1}, cube), true, true, {0, 1, 0, 0, 1, 0, 0}},
       {"tie_in_the_middle", "moving_sphere_box", with({0, 0, 0, 1, 0, 0, 1}, cube), true, true, {0, 0, 0, -1, 0, 0, -1}},
       {"inside_no_such_face", "moving_sphere_box", with({0.5, 0, 0, 1, 0, 0, 1}, cube), false, true, {0, -1, 0, 0, -1, 0, 0}},
+      // Center on the edge x = y = 1: any normal between both faces that does not lead along the motion; where both do, any.
+      {"tie_on_edge", "moving_sphere_box", with({1, 1, 0, 1, 1, -2, 0}, cube), true, true, {0, 1, 1, 0, r2, r2, 0}},
+      {"tie_on_edge_that_is_left", "moving_sphere_box", with({1, 1, 0, 1, 1, -2, 0}, cube), false, true, {0, 1, 1, 0, 1, 0, 0}},
+      {"tie_on_edge_leaving", "moving_sphere_box", with({1, 1, 0, 1, 1, 1, 0}, cube), true, true, {0, 1, 1, 0, 0.6, 0.8, 0}},
       // A point that hits the vertex (1, 1, 1) along the diagonal: any normal of the octant is right.
       {"degenerate_point_at_vertex", "moving_sphere_box", with({3, 3, 3, 0, -1, -1, -1}, cube), true, true, {2, 1, 1, 1, r2, 0, r2}},
       {"degenerate_point_at_vertex_inward", "moving_sphere_box", with({3, 3, 3, 0, -1, -1, -1}, cube), false, true, {2, 1, 1, 1, r2, 0, -r2}},
@@ -393,7 +397,9 @@ std::vector<Hand> hands_of_moving_spheres() {
       {"inside_overlap", "moving_sphere_triangle", Numbers{1, 1, 0.5, 1, 0, 0, -1} + triangle, true, true, {0, 1, 1, 0, 0, 0, 1}},
       {"inside_from_behind", "moving_sphere_triangle", Numbers{1, 1, -0.5, 1, 0, 0, -1} + triangle, true, true, {0, 1, 1, 0, 0, 0, -1}},
       {"tie_up", "moving_sphere_triangle", Numbers{1, 1, 0, 1, 0, 0, -1} + triangle, true, true, {0, 1, 1, 0, 0, 0, 1}},
-      {"tie_down", "moving_sphere_triangle", Numbers{1, 1, 0, 1, 0, 0, -1} + triangle, true, true, {0, 1, 1, 0, 0, 0, -1}},
+      {"tie_down", "moving_sphere_triangle", Numbers{1, 1, 0, 1, 1, 0, 0} + triangle, true, true, {0, 1, 1, 0, 0, 0, -1}},
+      // The center on the triangle: of its two sides the one that is met.
+      {"tie_side_that_is_left", "moving_sphere_triangle", Numbers{1, 1, 0, 1, 0, 0, -1} + triangle, false, true, {0, 1, 1, 0, 0, 0, -1}},
       {"tie_aside", "moving_sphere_triangle", Numbers{1, 1, 0, 1, 0, 0, -1} + triangle, false, true, {0, 1, 1, 0, 1, 0, 0}},
       {"gate_from_behind", "moving_sphere_triangle", Numbers{1, 1, -5, 1, 0, 0, 1} + triangle, true, false, {inf}},
       {"gate_wholly_behind", "moving_sphere_triangle", Numbers{1, -3, -2, 1, 0, 1, 0} + triangle, true, false, {inf}},
@@ -410,7 +416,8 @@ std::vector<Hand> hands_of_moving_spheres() {
       {"touch_diagonal", "moving_sphere_rectangle", Numbers{2, 1, 5, 1, 0, 0, -1} + rectangle, true, true, {4, 2, 1, 0, 0, 0, 1}},
       {"inside_overlap", "moving_sphere_rectangle", Numbers{3, 1, 0.5, 1, 0, 0, -1} + rectangle, true, true, {0, 3, 1, 0, 0, 0, 1}},
       {"tie_up", "moving_sphere_rectangle", Numbers{3, 1, 0, 1, 0, 0, -1} + rectangle, true, true, {0, 3, 1, 0, 0, 0, 1}},
-      {"tie_down", "moving_sphere_rectangle", Numbers{3, 1, 0, 1, 0, 0, -1} + rectangle, true, true, {0, 3, 1, 0, 0, 0, -1}},
+      {"tie_down", "moving_sphere_rectangle", Numbers{3, 1, 0, 1, 1, 0, 0} + rectangle, true, true, {0, 3, 1, 0, 0, 0, -1}},
+      {"tie_side_that_is_left", "moving_sphere_rectangle", Numbers{3, 1, 0, 1, 0, 0, -1} + rectangle, false, true, {0, 3, 1, 0, 0, 0, -1}},
       {"gate_from_behind", "moving_sphere_rectangle", Numbers{3, 1, -5, 1, 0, 0, 1} + rectangle, true, false, {inf}},
       {"degenerate_segment", "moving_sphere_rectangle", Numbers{3, 0, 5, 1, 0, 0, -1} + flat_rectangle, true, true, {4, 3, 0, 0, 0, 0, 1}},
 
@@ -566,7 +573,8 @@ std::vector<Hand> hands_of_depths() {
       // Half a unit of overlap along x; box 2's vertices at x = 1/2, box 1's face at 1: half way.
       {"hit_face", "box_box_penetration", cube + cube_at(1.5, 0, 0) + Numbers{-1}, true, true, {0.5, 0, 1, 0, 0, 0.75, 1, 1}},
       {"hit_other_vertex", "box_box_penetration", cube + cube_at(1.5, 0, 0) + Numbers{-1}, true, true, {0.5, 0, 1, 0, 0, 0.75, -1, 1}},
-      {"hit_no_vertex", "box_box_penetration", cube + cube_at(1.5, 0, 0) + Numbers{-1}, false, true, {0.5, 0, 1, 0, 0, 0.75, 0, 0}},
+      {"hit_middle_of_the_patch", "box_box_penetration", cube + cube_at(1.5, 0, 0) + Numbers{-1}, true, true, {0.5, 0, 1, 0, 0, 0.75, 0, 0}},
+      {"hit_off_the_patch", "box_box_penetration", cube + cube_at(1.5, 0, 0) + Numbers{-1}, false, true, {0.5, 0, 1, 0, 0, 0.75, 1.5, 0}},
       {"miss_apart", "box_box_penetration", cube + cube_at(5, 0, 0) + Numbers{-1}, true, false, {-3, 0}},
       {"miss_by_another_axis", "box_box_penetration", cube + cube_at(5, 0, 0) + Numbers{-1}, false, false, {-3, 1}},
       {"touch_face", "box_box_penetration", cube + cube_at(2, 0, 0) + Numbers{-1}, true, true, {0, 0, 1, 0, 0, 1, 1, 1}},

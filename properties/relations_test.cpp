@@ -9,6 +9,8 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
+#include "corpus/store.hpp"
+#include "oracles/confirmed.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -30,6 +32,20 @@ TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswers) {
   const auto [query, subject] = GetParam();
   const std::uint64_t cases = is_certified(*subject) ? 200 : 1500;
   EXPECT_EQ(failure_of_relations(*query, *subject, stream(11), cases), "");
+}
+
+/// Each by eight changes of each relation.
+TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswersToStoredCases) {
+  const auto [query, subject] = GetParam();
+  for (const StoredCase& s : stored_cases(*query)) {
+    if (s.question.scalar != subject->scalar) continue;
+    for (const Relation& r : relations()) {
+      for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        const auto found = examined(r, s.question, seed, *subject, claims_same_bits(*subject));
+        EXPECT_TRUE(!found || (found->broken.empty() && found->oracle.empty())) << s.file << " " << r.name << " " << seed;
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Relations, EveryTierRelated, testing::ValuesIn(our_pairings()),
@@ -245,6 +261,42 @@ Subject mistaken(std::string_view query, Mistake answer) {
     if (o.query == query) o.answer = answer;
   }
   return s;
+}
+
+/// A point that leaves a box by 3.5 times the error that is promised: two places and a half-extent may move, and a
+/// radius as well where there is one.
+TEST(Relations, AnAnswerThatALostNumberMakesRightIsNoContradiction) {
+  constexpr double error = 0x1p-6;
+  const Relation& relation = *find_relation("sphere-as-point");
+  const Case c{find_query("moving_sphere_box"), Scalar::float64,
+               {0, 1 + 3.5 * error, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1}, "", 0, 0, {}};
+  const Partners partners = *relation.of(c, 0);
+  Subject measured = *find_subject("collide-certified-double");
+  for (Offering& o : measured.offerings) o.contract = {.backward = error / 0x1p-53, .forward = 0x1p53, .unit = 0x1p50};
+  const Answer hit = right("moving_point_box", std::vector<double>{0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1});
+  const Answer miss = right("moving_point_box", partners.cases[0].values);
+  ASSERT_TRUE(hit.yes && !miss.yes);
+  const RelationFinding found = relate(relation, partners, c, {hit, miss}, measured, false);
+  EXPECT_FALSE(found.findings[0].is_proved()) << found.findings[0].clause;
+  EXPECT_TRUE(confirmed(partners.cases[0], hit, measured.standard_for("moving_point_box"), Detail::verdict).is_proved());
+  EXPECT_EQ(found.oracle, "");
+}
+
+/// Near a bound the proof is found for one order of a capsule's ends and not for the other.
+TEST(Relations, AnAnswerThatIsNotProvedToBeWrongIsNotYetRight) {
+  const Relation& relation = *find_relation("turned-corners");
+  const Case c{find_query("moving_sphere_capsule"), Scalar::float64,
+               {3.208552239228606, -3.6878210926869617, 3.9009941126583483, 0.150390625, 0.5017885250901633,
+                -0.4910210782009093, -2.027119566426956, 4.438009534131537, -4.5367018818573035, 2.435438576593205,
+                3.302302239228606, -3.5471960926869617, 3.8697441126583483, 0.021484375}, "", 0, 0, {}};
+  const Partners partners = *relation.of(c, 0);
+  Subject lenient = *find_subject("collide-certified-double");
+  for (Offering& o : lenient.offerings) o.contract = {.backward = 0x1p40};
+  const Answer hit = right("moving_sphere_capsule", c.values);
+  const RelationFinding found = relate(relation, partners, c, {Answer{}, hit}, lenient, false);
+  EXPECT_EQ(found.findings[0].verdict, Verdict::not_proved);
+  EXPECT_TRUE(confirmed(partners.cases[0], Answer{}, lenient.standard_for(c.query->name), Detail::verdict).is_proved());
+  EXPECT_EQ(found.oracle, "");
 }
 
 int broken_among(const Relation& r, std::string_view query, const Subject& s, int cases, bool bit_for_bit = false) {

@@ -6,6 +6,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/worker.hpp"
+#include "oracles/confirmed.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -47,7 +48,7 @@ Finding found(const Case& c, const Subject& subject, Worker& worker) {
   if (subject.name.starts_with("collide-")) return examined(c, subject);
   const Offering& offering = subject.offering(c.query->name);
   const std::vector<Answer> answers = worker.ask(offering, c.values, c.values.size());
-  return judge(c, answers.front(), offering.contract, Detail::verdict);
+  return confirmed(c, answers.front(), subject.standard_for(c.query->name), Detail::verdict);
 }
 
 /// An open bug is a stored case that expects the violation: it fails here on the day it is fixed.

@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/fit.hpp"
 #include "corpus/shrink.hpp"
 #include "impl/subject/added.hpp"
+#include "oracles/confirmed.hpp"
+#include "oracles/requirements.hpp"
 #include "reports/pretty_json.hpp"
 #include "reports/related.hpp"
 #include "reports/run.hpp"
@@ -48,6 +50,12 @@ std::vector<Pairing> our_pairings() {
   return all;
 }
 
+std::vector<Pairing> certified_pairings() {
+  std::vector<Pairing> certified = our_pairings();
+  std::erase_if(certified, [](const Pairing& p) { return !p.subject->name.starts_with("collide-certified"); });
+  return certified;
+}
+
 std::vector<NamedQuery> every_query() {
   std::vector<NamedQuery> all;
   for (const Query& q : catalogue()) all.push_back({&q});
@@ -55,8 +63,7 @@ std::vector<NamedQuery> every_query() {
 }
 
 Finding examined(const Case& question, const Subject& subject) {
-  const Offering& offering = subject.offering(question.query->name);
-  return judge(question, offering.answer(question.values), offering.contract, Detail::verdict);
+  return confirmed(question, ask_here(subject, question), subject.standard_for(question.query->name), Detail::verdict);
 }
 
 namespace {
@@ -88,7 +95,7 @@ std::string told(const Case& question, const Subject& subject, const std::functi
   const std::string first = failure_of(question);
   const Case shrunk = shrink(question, [&](const Case& c) { return !failure_of(c).empty(); }, 4000);
   Workers workers;
-  const Answer answer = subject.offering(shrunk.query->name).answer(shrunk.values);
+  const Answer answer = ask_here(subject, shrunk);
   const Report report = examine(shrunk, subject, answer, workers);
   return fmt::format("{} {}: {}\n{}\n{}\nshrunk ({}):\n{}\n{}", question.query->name, subject.name, first,
                      seed_text(question, subject), left_behind(report, subject, *shrunk.query, fault_of(report.finding)),
@@ -109,7 +116,7 @@ namespace {
 
 /// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
 std::optional<RelationFinding> examined_here(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s) {
-  return examine(r, c, seed, s, [&](const Case& asked) { return s.offering(asked.query->name).answer(asked.values); },
+  return examine(r, c, seed, s, [&](const Case& asked) { return ask_here(s, asked); },
                  claims_same_bits(s));
 }
 
@@ -141,7 +148,7 @@ std::uint64_t stream(std::uint64_t usual) {
 std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases) {
   Case c;
   for (std::uint64_t i = 0; i < cases; ++i) {
-    generate(c, query, subject.scalar, stream, i);
+    generate_inside(c, query, subject.scalar, stream, i, subject.offering(query.name).required);
     if (is_violation(examined(c, subject))) return told(c, subject);
   }
   return {};
@@ -150,7 +157,7 @@ std::string failure_of_agreement(const Query& query, const Subject& subject, std
 std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases) {
   Case c;
   for (std::uint64_t i = 0; i < cases; ++i) {
-    generate(c, query, subject.scalar, stream, i);
+    generate_inside(c, query, subject.scalar, stream, i, subject.offering(query.name).required);
     for (const Relation& r : relations()) {
       if (breaks(examined_here(r, c, i, subject))) return told(r, c, i, subject);
     }

@@ -22,6 +22,8 @@ std::ostream& operator<<(std::ostream& out, const Pairing& p);
 /// Every query with every tier of `collide`, every plugin and every subject that NEARMISS_SUBJECTS names ("added": those
 /// of NEARMISS_ADD), that answers it.
 std::vector<Pairing> our_pairings();
+/// Every query with the certified tier in each scalar.
+std::vector<Pairing> certified_pairings();
 
 /// A query; shows as its name.
 struct NamedQuery {
@@ -35,7 +37,7 @@ inline constexpr Scalar scalars[] = {Scalar::float32, Scalar::float64};
 /// The subject's answer, given in this process, and the judge's word on it.
 Finding examined(const Case& question, const Subject& subject);
 inline bool is_violation(const Finding& f) {
-  return f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke;
+  return f.is_proved() || f.verdict == Verdict::broke;
 }
 /// A violation as a person needs it: the finding, its seed, the command that replays it, the shrunk case as JSON and as
 /// C++. It leaves a report in properties/QUERY/ of runs_folder().

@@ -28,11 +28,12 @@ constexpr collide::Contract no_promise{};
 void count(ExtremesCell& cell, const Finding& f) {
   if (f.verdict == Verdict::broke) ++cell.broke;
   if (f.verdict == Verdict::cannot_answer) ++cell.no_answer;
-  if (f.verdict == Verdict::broke || f.verdict == Verdict::cannot_answer) return;
+  if (f.verdict == Verdict::not_asked) ++cell.not_asked;
+  if (f.verdict == Verdict::broke || f.verdict == Verdict::cannot_answer || f.verdict == Verdict::not_asked) return;
   ++cell.cases;
-  cell.false_hits += f.disagreement == Disagreement::false_hit;
-  cell.false_misses += f.disagreement == Disagreement::false_miss;
-  cell.not_finite += f.disagreement == Disagreement::not_finite;
+  cell.false_hits += f.has(Disagreement::false_hit);
+  cell.false_misses += f.has(Disagreement::false_miss);
+  cell.not_finite += f.has(Disagreement::not_finite);
   if (std::isfinite(f.forward_ulps)) cell.forward_ulps = std::max(cell.forward_ulps, f.forward_ulps);
   if (f.backward) cell.backward_epsilon = std::max(cell.backward_epsilon, f.backward->above);
 }
@@ -68,6 +69,7 @@ Json map_to_json(const ExtremesMap& m) {
           {"not_finite", matrix(m, [](const ExtremesCell& c) { return c.not_finite; })},
           {"broke", matrix(m, [](const ExtremesCell& c) { return c.broke; })},
           {"no_answer", matrix(m, [](const ExtremesCell& c) { return c.no_answer; })},
+          {"not_asked", matrix(m, [](const ExtremesCell& c) { return c.not_asked; })},
           {"gave_up", matrix(m, [](const ExtremesCell& c) { return c.gave_up; })},
           {"forward_ulps", matrix(m, [](const ExtremesCell& c) { return c.forward_ulps; })},
           {"backward_epsilon", matrix(m, [](const ExtremesCell& c) {
@@ -77,7 +79,7 @@ Json map_to_json(const ExtremesMap& m) {
 
 bool begun(const ExtremesMap& m) {
   return std::any_of(m.cells.begin(), m.cells.end(),
-                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer + c.gave_up > 0; });
+                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer + c.not_asked + c.gave_up > 0; });
 }
 
 /// Puts `text` where the template has `mark`, once.
@@ -99,12 +101,8 @@ std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Jso
 }  // namespace
 
 Extremes::Extremes(ExtremesSettings settings)
-    : settings_(std::move(settings)), workers_(WorkerLimits{.seconds_per_case = settings_.patience}) {
-  std::error_code error;
-  std::filesystem::create_directories(settings_.folder, error);
-  if (error) {
-    throw BadInput(fmt::format("{}: the folder cannot be made: {}", settings_.folder.string(), error.message()));
-  }
+    : settings_(std::move(settings)), workers_(WorkerLimits{.seconds_per_case = settings_.patience}), internal_errors_(settings_.folder) {
+  make_folder(settings_.folder);
   if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
     throw BadInput(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
   }
@@ -178,7 +176,9 @@ void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std:
       const bool late = timed_out(answers[i]);
       m->time_outs += late;
       m->time_outs_in_row += late;
-      count(m->cells[cell], judge(cases[i], answers[i], no_promise, Detail::verdict));
+      const Standard standard{no_promise, true, m->subject->offering(m->query->name).required};
+      const auto f = internal_errors_.judged(cases[i], *m->subject, answers[i], standard, Detail::verdict);
+      if (f) count(m->cells[cell], *f);
     }
   }
 }
@@ -193,6 +193,7 @@ nlohmann::ordered_json Extremes::to_json() const {
   for (const ExtremesMap& m : maps_) {
     if (begun(m) || !interrupted()) j["maps"].push_back(map_to_json(m));
   }
+  if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
   j["environment"] = environment_to_json();
   return j;
 }
@@ -217,7 +218,7 @@ void Extremes::write() const {
 
 std::string Extremes::table() const {
   std::vector<std::vector<std::string>> rows{
-      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "GAVE UP", "NO ANSWER", "BACKWARD", "FORWARD"}};
+      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "GAVE UP", "NO ANSWER", "NOT ASKED", "BACKWARD", "FORWARD"}};
   for (const Query* q : settings_.queries) {
     bool first = true;
     for (const Subject* s : settings_.subjects) {
@@ -229,7 +230,7 @@ std::string Extremes::table() const {
         for (const ExtremesCell& c : m.cells) {
           all.cases += c.cases, all.false_hits += c.false_hits, all.false_misses += c.false_misses;
           all.not_finite += c.not_finite, all.broke += c.broke, all.no_answer += c.no_answer;
-          all.gave_up += c.gave_up;
+          all.gave_up += c.gave_up, all.not_asked += c.not_asked;
           all.forward_ulps = std::max(all.forward_ulps, c.forward_ulps);
           all.backward_epsilon = std::max(all.backward_epsilon, c.backward_epsilon);
         }
@@ -238,7 +239,7 @@ std::string Extremes::table() const {
       if (std::exchange(first, false)) rows.push_back({std::string(q->name)});
       rows.push_back({"  " + s->name, count_text(all.cases), count_text(all.false_hits), count_text(all.false_misses),
                       count_text(all.not_finite), count_text(all.broke), count_text(all.gave_up),
-                      count_text(all.no_answer),
+                      count_text(all.no_answer), count_text(all.not_asked),
                       all.backward_epsilon < 0 ? "-" : "> " + epsilons_text(all.backward_epsilon),
                       fmt::format("{:.3g}", all.forward_ulps)});
     }
@@ -253,9 +254,13 @@ std::string Extremes::summary() const {
   for (const ExtremesMap& m : maps_) {
     for (const ExtremesCell& c : m.cells) gave_up += c.gave_up;
   }
-  return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}", interrupted() ? "interrupted: " : "",
+  return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
                      plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"), count_text(gave_up), (settings_.folder / "extremes.json").string(),
-                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3");
+                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3", internal_errors_.text());
+}
+
+int Extremes::exit_code() const {
+  return internal_errors_.count() > 0 ? InternalError::exit_code : interrupted() ? 2 : 0;
 }
 
 }  // namespace nearmiss

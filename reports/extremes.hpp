@@ -12,6 +12,7 @@
 
 #include "corpus/sweep.hpp"
 #include "impl/subject/subject.hpp"
+#include "reports/internal_errors.hpp"
 #include "reports/progress.hpp"
 #include "reports/workers.hpp"
 
@@ -36,6 +37,7 @@ struct ExtremesCell {
   std::uint64_t not_finite = 0;    ///< NaN or infinity in a number of the answer
   std::uint64_t broke = 0;         ///< exception, abort, crash, limit
   std::uint64_t no_answer = 0;     ///< the subject says so
+  std::uint64_t not_asked = 0;     ///< the case is outside of what the subject requires
   std::uint64_t gave_up = 0;       ///< not asked any more, after time-outs in this row or all over this map
   double forward_ulps = 0;         ///< of the worst number of an answer with the right decision: at least
   double backward_epsilon = -1;    ///< largest proved bound; negative where nothing is proved
@@ -67,6 +69,8 @@ class Extremes {
   /// Rows of query and subject: the worst of all their cells.
   std::string table() const;
   std::string summary() const;
+  /// 0, 2 where it was interrupted; InternalError's where there was one.
+  int exit_code() const;
   nlohmann::ordered_json to_json() const;
   /// The page with everything in it; empty where the library that draws it was not there at build.
   static std::optional<std::string> page(const nlohmann::ordered_json& report);
@@ -77,6 +81,7 @@ class Extremes {
   ExtremesSettings settings_;
   std::vector<ExtremesMap> maps_;
   Workers workers_;
+  InternalErrors internal_errors_;
   Progress progress_;
   std::uint64_t done_ = 0, total_ = 0;
 };

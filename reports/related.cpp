@@ -32,13 +32,19 @@ bool some_contract_is_broken(const RelationReport& r) {
   return std::any_of(r.answers.begin(), r.answers.end(), [](const Report& a) { return is_bad(a.finding); });
 }
 
+std::string none_of(std::size_t answers) {
+  return answers == 2 ? "Neither answer" : fmt::format("None of the {} answers", answers);
+}
+
 std::string what_is_wrong(const RelationReport& r) {
   const std::vector<std::string> wrong = wrong_decisions(r);
   if (r.breach == Breach::contradiction) {
-    return fmt::format("The decisions contradict each other, and {}. Neither answer breaks its contract", list_text(wrong));
+    return fmt::format("The decisions contradict each other, and {}. {} is proved to break its contract", list_text(wrong),
+                       none_of(r.answers.size()));
   }
   if (r.breach == Breach::none) return "Nothing is proved against these answers";
-  const std::string contract = some_contract_is_broken(r) ? "" : ". Neither answer breaks its contract for that case alone";
+  const std::string contract =
+      some_contract_is_broken(r) ? "" : fmt::format(". {} is proved to break its contract for that case alone", none_of(r.answers.size()));
   return fmt::format("Broken is: {}{}{}", r.broken, wrong.empty() ? "" : fmt::format("; {}", list_text(wrong)), contract);
 }
 
@@ -93,7 +99,7 @@ std::string headline(const RelationReport& r) {
   }
   switch (r.breach) {
     case Breach::none: return fmt::format("{} does not break the relation {} in {}", first.subject, r.choice.relation->name, first.question.query->name);
-    case Breach::contradiction: return line + list_text(wrong_decisions(r)) + ", within its contract";
+    case Breach::contradiction: return line + list_text(wrong_decisions(r)) + ", not proved to break its contract";
     case Breach::bits: return line + "its answers differ in some bits";
     case Breach::contract:
     case Breach::broke: return line + r.broken;
@@ -179,7 +185,8 @@ RelatedReplay replay(const RelatedCase& related, const std::string& file, std::s
       report->replay = replay_command(*s, file);
       r.reports.push_back(std::move(*report));
     } else {
-      r.unasked.push_back({s->name, "not offered"});
+      const bool offered = !(s->offering(related.question.query->name).answer == nullptr);
+      r.unasked.push_back({s->name, offered ? "a partner is not offered, or a case is outside of what it requires" : "not offered"});
     }
   }
   return r;

@@ -9,7 +9,7 @@
 
 #include "corpus/bad_input.hpp"
 #include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/fit.hpp"
 #include "reports/interrupt.hpp"
 #include "reports/pretty_json.hpp"
 #include "reports/text.hpp"
@@ -31,12 +31,6 @@ double worst_backward(const RelationFinding& f) {
     if (one.backward) worst = std::max(worst, one.backward->above);
   }
   return worst;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
 }
 
 /// A case of a partner, and where its answer belongs.
@@ -65,7 +59,8 @@ void RelationTally::add(const RelationTally& other) {
   worst_backward = std::max(worst_backward, other.worst_backward);
 }
 
-RelationsRun::RelationsRun(RelationsSettings settings) : settings_(std::move(settings)), begin_(Clock::now()) {
+RelationsRun::RelationsRun(RelationsSettings settings)
+    : settings_(std::move(settings)), begin_(Clock::now()), internal_errors_(settings_.folder) {
   make_folder(settings_.folder);
 }
 
@@ -76,16 +71,19 @@ void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::
   struct Stream {
     const Query* query;
     Scalar scalar;
+    Preconditions required;  ///< of all subjects that are asked its cases
     std::uint64_t next = 0;
     double seconds = 0;
   };
   std::vector<Stream> streams;
   for (const Query* q : settings_.queries) {
     for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
-      const bool any = std::any_of(settings_.subjects.begin(), settings_.subjects.end(), [&](const Subject* s) {
-        return s->scalar == scalar && !(s->offering(q->name).answer == nullptr);
-      });
-      if (any) streams.push_back({q, scalar});
+      std::set<Preconditions> sets;
+      for (const Subject* s : settings_.subjects) {
+        const Offering& o = s->offering(q->name);
+        if (s->scalar == scalar && !(o.answer == nullptr)) sets.insert(o.required);
+      }
+      for (const Preconditions required : sets) streams.push_back({q, scalar, required});
     }
   }
   if (cases) total_ = *cases * streams.size();
@@ -98,7 +96,7 @@ void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::
     const Clock::time_point begin = Clock::now();
     const std::size_t count = std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)});
     progress_.doing(fmt::format("relations of {}", stream->query->name));
-    batch(*stream->query, stream->scalar, stream->next, count);
+    batch(*stream->query, stream->scalar, stream->required, stream->next, count);
     stream->next += count;
     done_ += count;
     stream->seconds += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -120,12 +118,14 @@ std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<
   return answers;
 }
 
-void RelationsRun::batch(const Query& query, Scalar scalar, std::uint64_t first, std::size_t count) {
-  std::vector<Case> cases;
-  for (std::size_t i = 0; i < count; ++i) cases.push_back(generate(query, scalar, settings_.seed, first + i));
+void RelationsRun::batch(const Query& query, Scalar scalar, Preconditions required, std::uint64_t first,
+                         std::size_t count) {
+  std::vector<Case> cases(count);
+  for (std::size_t i = 0; i < count; ++i) generate_inside(cases[i], query, scalar, settings_.seed, first + i, required);
   std::map<const Subject*, std::vector<Answer>> own;
   for (const Subject* s : settings_.subjects) {
-    if (s->scalar == scalar && !(s->offering(query.name).answer == nullptr)) own[s] = ask(*s, cases);
+    const Offering& o = s->offering(query.name);
+    if (s->scalar == scalar && !(o.answer == nullptr) && o.required == required) own[s] = ask(*s, cases);
   }
   for (const Relation* r : settings_.relations) {
     if (should_stop()) return;
@@ -164,8 +164,16 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
       // Without an answer to the case itself there is nothing to compare; 'nearmiss run' reports it.
       if (!partners[i] || first_answers[i].status != Answer::Status::answered) continue;
       if (!offers_all(*subject, *partners[i])) continue;
-      take({subject, &relation, cases[i].query}, {&relation, cases[i].index, bits},
-           relate(relation, *partners[i], cases[i], std::move(answers[i]), *subject, bits));
+      if (!may_be_asked_all(*subject, *partners[i])) {
+        ++not_asked_;
+        continue;
+      }
+      try {
+        take({subject, &relation, cases[i].query}, {&relation, cases[i].index, bits},
+             relate(relation, *partners[i], cases[i], std::move(answers[i]), *subject, bits));
+      } catch (const InternalError& error) {
+        internal_errors_.add(*subject, error);
+      }
     }
   }
 }
@@ -200,7 +208,7 @@ RelationTally RelationsRun::sum() const {
   return all;
 }
 std::uint64_t RelationsRun::bad() const { return sum().bad(); }
-std::uint64_t RelationsRun::contradicted() const { return sum().oracle; }
+std::uint64_t RelationsRun::contradicted() const { return sum().oracle + internal_errors_.count(); }
 
 Json RelationsRun::to_json() const {
   Json j{{"schema", 1},
@@ -237,6 +245,7 @@ Json RelationsRun::to_json() const {
                             {"breach", w.breach},
                             {"headline", w.headline}});
   }
+  if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
   j["environment"] = environment_to_json();
   return j;
 }
@@ -303,8 +312,9 @@ std::string RelationsRun::summary() const {
       plural_text(all.cases, "pair"), duration_text(std::chrono::duration<double>(Clock::now() - begin_).count()),
       plural_text(all.bad(), "broken promise"), plural_text(all.contradictions, "contradiction"),
       plural_text(written_.size(), "report"), settings_.folder.string());
+  if (not_asked_ > 0) text += fmt::format("; {} not asked, for what subjects require", plural_text(not_asked_, "pair"));
   if (all.oracle > 0) text += fmt::format("; Nearmiss contradicts itself {} times", count_text(all.oracle));
-  return text;
+  return text + internal_errors_.text();
 }
 
 }  // namespace nearmiss

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/internal_errors.hpp"
 #include "reports/progress.hpp"
 #include "reports/related.hpp"
 
@@ -57,7 +58,7 @@ class RelationsRun {
   std::string summary() const;
   nlohmann::ordered_json to_json() const;
   std::uint64_t bad() const;
-  /// Where Nearmiss contradicted itself.
+  /// Where Nearmiss contradicted itself, about one case or about related ones.
   std::uint64_t contradicted() const;
   std::uint64_t pairs() const { return sum().cases; }
   std::uint64_t contradictions() const { return sum().contradictions; }
@@ -75,7 +76,7 @@ class RelationsRun {
     std::string file, breach, headline;
     double above = -1;
   };
-  void batch(const Query& query, Scalar scalar, std::uint64_t first, std::size_t count);
+  void batch(const Query& query, Scalar scalar, Preconditions required, std::uint64_t first, std::size_t count);
   void relate_all(const Relation& relation, const std::vector<Case>& cases,
                   const std::map<const Subject*, std::vector<Answer>>& own);
   void take(const Key& key, const RelationChoice& choice, const RelationFinding& found);
@@ -96,7 +97,9 @@ class RelationsRun {
   };
   std::map<std::pair<Key, std::string>, Kept> kept_;
   std::vector<Written> written_;
+  InternalErrors internal_errors_;
   std::uint64_t done_ = 0;
+  std::uint64_t not_asked_ = 0;  ///< pairs of which a partner is outside of what the subject requires
   std::optional<std::uint64_t> total_;
 };
 

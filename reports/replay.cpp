@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "oracles/requirements.hpp"
 #include "reports/explain.hpp"
 #include "reports/text.hpp"
 
@@ -92,7 +93,7 @@ std::string findings_table(const Replay& replayed) {
 
 std::string origin_text(const Case& c) {
   std::string text = one_line(c.origin, 200);
-  if (c.origin == "generator") text += fmt::format(", seed {}, index {}", c.seed, c.index);
+  if (c.origin.starts_with("generator")) text += fmt::format(", seed {}, index {}", c.seed, c.index);
   if (!c.moves.empty()) text += fmt::format(", moves: {}", fmt::join(c.moves, ", "));
   return text;
 }
@@ -106,8 +107,11 @@ void check_kind(const nlohmann::json& j, const std::string& where) {
       throw BadInput(fmt::format("{}: it is {}; what can be replayed is a case or a report", where, what));
     }
   }
-  if (j.contains("finding") && (!j.contains("schema") || j["schema"] != report_schema_version)) {
-    throw BadInput(fmt::format("{}: schema {}; this build reads reports of schema {}", where,
+  const auto is_readable = [](const nlohmann::json& version) {  // the case is written alike in all of them
+    return version.is_number_integer() && version >= 1 && version <= report_schema_version;
+  };
+  if (j.contains("finding") && (!j.contains("schema") || !is_readable(j["schema"]))) {
+    throw BadInput(fmt::format("{}: schema {}; this build reads reports of schema 1 to {}", where,
                                j.contains("schema") ? "is " + one_line(j["schema"].dump(), 60) : "is missing",
                                report_schema_version));
   }
@@ -136,6 +140,15 @@ Case case_of(const nlohmann::json& j, const std::string& file) {
   return case_from_json(question, file);
 }
 
+Measure measure_of(const nlohmann::json& j, const std::string& file) {
+  if (!j.is_object() || !j.contains("finding") || !j.contains("measure") || j["measure"].is_null()) return {};
+  const nlohmann::json& m = j["measure"];
+  const bool whole = m.is_object() && m.contains("error") && m["error"].is_number() && m["error"] > 0 &&
+                     m.contains("for_all") && m["for_all"].is_boolean();
+  if (!whole) throw BadInput(fmt::format("{}: measure is {}; it must have an error above 0 and for_all", file, one_line(m.dump(), 60)));
+  return {m["error"], m["for_all"]};
+}
+
 std::string replay_command(const Subject& subject, const std::string& file) {
   const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
   return "nearmiss replay " + plugin + shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
@@ -151,6 +164,8 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
       r.unasked.push_back({s->name, "not offered"});
     } else if (!same) {
       r.unasked.push_back({s->name, fmt::format("a number of the case is not exactly a {}", name_of(s->scalar))});
+    } else if (const Preconditions unmet = unmet_by(*same, offering.required); !unmet.empty()) {
+      r.unasked.push_back({s->name, requires_text(unmet)});
     } else {
       r.reports.push_back(examine(*same, *s, workers));
       r.reports.back().replay = replay_command(*s, file);

@@ -15,6 +15,8 @@ namespace nearmiss {
 Case read_case_or_report(const std::filesystem::path& file);
 /// The same for what was read from `file` already.
 Case case_of(const nlohmann::json& j, const std::string& file);
+/// By what the report's subject was measured; the usual measure where the file says none. Throws BadInput.
+Measure measure_of(const nlohmann::json& j, const std::string& file);
 
 /// One case and its reports, one for each subject that was asked.
 struct Replay {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/confirmed.hpp"
 #include "reports/hash.hpp"
 
 namespace nearmiss {
@@ -55,13 +56,14 @@ std::vector<Opinion> second_opinions(const Case& question, const Subject& subjec
     if (offering.answer == nullptr) continue;
     const std::optional<Case> same = in_scalar(question, referee.scalar);
     if (!same) continue;
+    const Standard asked{{}, true, offering.required};
     const Answer answer = workers.ask(referee, *same);
-    opinions.push_back({referee.name, referee.version, answer, judge(*same, answer, {}, Detail::full)});
+    opinions.push_back({referee.name, referee.version, answer, judge(*same, answer, asked, Detail::full)});
     const std::optional<double> factor = to_unit_scale(*same);
     const std::optional<Case> unit = factor ? scaled(*same, *factor) : std::nullopt;
     if (!unit) continue;
     const Answer again = scaled_back(*same->query, workers.ask(referee, *unit), *factor);
-    opinions.push_back({referee.name + " at unit scale", referee.version, again, judge(*same, again, {}, Detail::full)});
+    opinions.push_back({referee.name + " at unit scale", referee.version, again, judge(*same, again, asked, Detail::full)});
   }
   return opinions;
 }
@@ -78,15 +80,17 @@ Report examine(const Case& question, const Subject& subject, const Answer& answe
   r.subject = subject.name;
   r.version = subject.version;
   r.answer = answer;
-  r.contract = subject.offering(question.query->name).contract;
-  r.finding = judge(question, answer, r.contract, Detail::full);
+  r.standard = subject.standard_for(question.query->name);
+  r.finding = confirmed(question, answer, r.standard, Detail::full);
   r.truth = truth_of(question);
   r.referees = second_opinions(question, subject, workers);
   r.static_checks = static_checks(question, answer, r.truth, workers);
   return r;
 }
 
-bool is_bad(const Finding& f) { return f.verdict == Verdict::violates_contract || f.verdict == Verdict::broke; }
+bool is_bad(const Finding& f) {
+  return f.is_proved() || f.verdict == Verdict::broke;
+}
 
 std::string fault_of(const Finding& f) {
   std::string fault(f.verdict == Verdict::broke ? name_of(f.verdict) : name_of(f.disagreement));

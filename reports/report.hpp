@@ -17,7 +17,7 @@ struct Opinion {
   std::string referee;
   std::string version;
   Answer answer;
-  Finding finding;  ///< judged with no contract: agrees, or differs ("within contract")
+  Finding finding;  ///< judged with no contract: agrees, or differs
 };
 
 struct Report {
@@ -25,7 +25,7 @@ struct Report {
   std::string subject;
   std::string version;
   Answer answer;
-  collide::Contract contract;
+  Standard standard;
   Finding finding;
   Truth truth;
   std::vector<Opinion> referees;
@@ -38,7 +38,7 @@ Report examine(const Case& question, const Subject& subject, Workers& workers);
 /// The same for an answer that the subject has given already.
 Report examine(const Case& question, const Subject& subject, const Answer& answer, Workers& workers);
 
-/// A violation of the contract, or a subject that broke: what makes a command exit with 1.
+/// A violation of the contract, an excess of the measure, or a subject that broke: what makes a command exit with 1.
 bool is_bad(const Finding& f);
 /// How it is wrong, in one word for files and groups: "false-miss", "broke", "none".
 std::string fault_of(const Finding& f);
@@ -52,7 +52,7 @@ nlohmann::ordered_json truth_to_json(const Query& query, Scalar scalar, const Tr
 nlohmann::ordered_json finding_to_json(const Case& question, const Finding& f);
 /// Nearmiss, compiler and platform.
 nlohmann::ordered_json environment_to_json();
-inline constexpr int report_schema_version = 1;
+inline constexpr int report_schema_version = 2;
 
 /// The members of an answer that mean something: those given and, of a "no", its depth at most.
 bool is_part(const Query& query, const Answer& answer, std::size_t output);

@@ -80,6 +80,30 @@ Json moved(const Case& question, double k) {
   return groups;
 }
 
+Json backward(const Case& question, const std::optional<Backward>& b) {
+  if (!b) return nullptr;
+  Json j = epsilons("above_epsilon", b->above, question.scalar);
+  j["moved"] = moved(question, b->above);
+  return j;
+}
+
+Json forward(const Query& query, int worst, double ulps, double absolute) {
+  if (worst < 0 || std::size_t(worst) >= query.outputs.size()) return nullptr;
+  return {{"ulps", number(ulps)}, {"absolute", number(absolute)}, {"field", query.outputs[std::size_t(worst)].name}};
+}
+
+Json member_finding(const Case& question, const MemberFinding& m) {
+  const Query& query = *question.query;
+  const bool is_decision = m.member == MemberFinding::decision;
+  Json j{{"member", is_decision ? "decision" : query.member_name(std::size_t(m.member))},
+         {"disagreement", name_of(m.disagreement)},
+         {"breaks", m.breaks() ? Json(m.clause) : Json(nullptr)}};
+  j["backward"] = backward(question, m.backward);
+  // Without a right decision, or a distance, there is nothing to be off from.
+  j["forward"] = m.forward_ulps > 0 ? forward(query, m.worst, m.forward_ulps, m.forward_absolute) : Json(nullptr);
+  return j;
+}
+
 Json opinion(const Query& query, const Opinion& o) {
   const bool answered = o.answer.status == Answer::Status::answered;
   Json j{{"name", o.referee}, {"version", o.version}, {"answer", answer_to_json(query, o.answer)}};
@@ -106,6 +130,14 @@ Json contract_to_json(const collide::Contract& c) {
           {"unit_epsilon", promise(c.unit)},
           {"lowest_exponent", c.lowest},
           {"highest_exponent", c.highest}};
+}
+
+Json requires_to_json(Preconditions required) {
+  Json names = Json::array();
+  for (const Precondition p : all_preconditions) {
+    if (required.has(p)) names.push_back(name_of(p));
+  }
+  return names;
 }
 
 }  // namespace
@@ -141,18 +173,12 @@ Json truth_to_json(const Query& query, Scalar scalar, const Truth& truth) {
 
 Json finding_to_json(const Case& question, const Finding& f) {
   Json j{{"verdict", name_of(f.verdict)}, {"disagreement", name_of(f.disagreement)}, {"clause", f.clause}};
-  j["backward"] = nullptr;
-  if (f.backward) {
-    j["backward"] = epsilons("above_epsilon", f.backward->above, question.scalar);
-    j["backward"]["moved"] = moved(question, f.backward->above);
-  }
-  j["forward"] = nullptr;
-  if (f.worst >= 0 && std::size_t(f.worst) < question.query->outputs.size()) {
-    j["forward"] = {{"ulps", number(f.forward_ulps)},
-                    {"absolute", number(f.forward_absolute)},
-                    {"field", question.query->outputs[std::size_t(f.worst)].name}};
-  }
+  j["backward"] = backward(question, f.backward);
+  j["forward"] = forward(*question.query, f.worst, f.forward_ulps, f.forward_absolute);
   j["unit_error_epsilon"] = number(f.unit_error);
+  j["headline"] = f.headline < 0 ? Json(nullptr) : Json(f.headline);
+  j["members"] = Json::array();
+  for (const MemberFinding& m : f.members) j["members"].push_back(member_finding(question, m));
   return j;
 }
 
@@ -172,7 +198,10 @@ Json report_to_json(const Report& r) {
   j["answer"] = answer_to_json(query, r.answer);
   j["truth"] = truth_to_json(query, r.question.scalar, r.truth);
   j["finding"] = finding_to_json(r.question, r.finding);
-  j["contract"] = contract_to_json(r.contract);
+  j["contract"] = contract_to_json(r.standard.contract);
+  j["measure"] = nullptr;
+  if (!r.standard.promised) j["measure"] = {{"error", measure().error}, {"for_all", measure().for_all}};
+  if (!r.standard.required.empty()) j["requires"] = requires_to_json(r.standard.required);
   j["referees"] = Json::array();
   for (const Opinion& o : r.referees) j["referees"].push_back(opinion(query, o));
   j["static_checks"] = Json::array();

@@ -10,11 +10,12 @@
 #include <cstdlib>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/fit.hpp"
 #include "reports/explain.hpp"
 #include "reports/interrupt.hpp"
 #include "reports/pretty_json.hpp"
@@ -31,17 +32,11 @@ using namespace std::chrono_literals;
 constexpr auto between_indexes = 5s;
 constexpr std::size_t least_batch = 32;
 constexpr double most_seconds_per_batch = 0.4;
-constexpr int run_schema_version = 1;
+constexpr int run_schema_version = 2;
 
 std::string utc_text(const char* format) { return fmt::format(fmt::runtime(format), fmt::gmtime(std::time(nullptr))); }
 
 double seconds_since(Run::Clock::time_point t) { return std::chrono::duration<double>(Run::Clock::now() - t).count(); }
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-}
 
 std::string_view name_of(RunState s) {
   switch (s) {
@@ -71,10 +66,22 @@ std::string_view noun_of(Disagreement d) {
   switch (d) {
     case Disagreement::none: return "other violation";
     case Disagreement::off_surface: return "off-surface place";
+    case Disagreement::wrong_time:
+    case Disagreement::wrong_place:
+    case Disagreement::wrong_normal:
+    case Disagreement::wrong_depth:
+    case Disagreement::wrong_direction:
+    case Disagreement::wrong_weight:
+    case Disagreement::wrong_flag:
+    case Disagreement::wrong_index:
+    case Disagreement::wrong_combination:
+    case Disagreement::negative_time:
+    case Disagreement::false_hit:
+    case Disagreement::false_miss: return nearmiss::name_of(d);
     case Disagreement::not_finite: return "non-finite number";
     case Disagreement::not_unit: return "non-unit normal";
-    default: return nearmiss::name_of(d);
   }
+  return "?";
 }
 
 std::string percent_text(std::uint64_t part, std::uint64_t whole) {
@@ -89,12 +96,12 @@ std::vector<std::string> table_row(const Tally& t) {
   return {"  " + t.subject->name,
           count_text(t.cases),
           count_text(t.of(Verdict::agrees)),
-          count_text(t.of(Verdict::within_contract)),
+          count_text(t.of(Verdict::not_proved)),
           count_text(hits),
           count_text(misses),
-          count_text(t.of(Verdict::violates_contract) - hits - misses),
+          count_text(t.wrong),
           count_text(t.of(Verdict::broke)),
-          count_text(t.of(Verdict::out_of_domain)),
+          count_text(t.of(Verdict::out_of_domain) + t.of(Verdict::not_asked)),
           count_text(t.of(Verdict::cannot_answer)),
           t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward),
           fmt::format("{:.3g}", t.worst_forward),
@@ -129,6 +136,7 @@ Run::Run(RunSettings settings)
     : settings_(std::move(settings)),
       started_(utc_text("{:%Y-%m-%dT%H:%M:%SZ}")),
       begin_(Clock::now()),
+      internal_errors_(settings_.folder),
       notes_(std::make_unique<Notes>()) {
   for (const Query* q : settings_.queries) {
     for (const Subject* s : settings_.subjects) {
@@ -162,15 +170,19 @@ std::vector<const Subject*> Run::asked(const Query& query, Scalar scalar) const 
 bool Run::should_stop() const { return interrupted() || (settings_.until && Clock::now() >= *settings_.until); }
 
 void Run::examine(std::span<const Case> cases, const std::function<void()>& meanwhile) {
-  const Query& query = *cases.front().query;
-  const auto asked_now = asked(query, cases.front().scalar);
+  examine(asked(*cases.front().query, cases.front().scalar), cases, meanwhile);
+}
+
+void Run::examine(const std::vector<const Subject*>& asked_now, std::span<const Case> cases,
+                  const std::function<void()>& meanwhile) {
   for (const Subject* s : asked_now) workers_.send(*s, cases);
   if (meanwhile) meanwhile();
+  std::vector<std::optional<bool>> touching(cases.size());
   for (const Subject* s : asked_now) {
     const std::span<const Answer> answers = workers_.receive(*s);
-    const collide::Contract& contract = s->offering(query.name).contract;
     for (std::size_t i = 0; i < cases.size() && (i % 64 != 0 || !should_stop()); ++i) {
-      take(cases[i], *s, answers[i], judge(cases[i], answers[i], contract, Detail::verdict));
+      const std::optional<Finding> f = take(cases[i], *s, answers[i]);
+      if (f) touches_.count(cases[i], *s, answers[i], *f, touching[i]);
     }
   }
   write_pending();
@@ -180,22 +192,27 @@ void Run::examine(std::span<const Case> cases, const std::function<void()>& mean
 void Run::examine_by_all(const Case& question, const std::function<void(const Subject&, const Finding&)>& each) {
   for (const Subject* s : settings_.subjects) {
     if (!tallies_.contains({question.query, s})) continue;
-    const std::optional<Case> same = in_scalar(question, s->scalar);
-    Finding f;
-    f.verdict = Verdict::out_of_domain;
-    Answer answer;
-    if (same) {
-      answer = workers_.ask(*s, *same);
-      f = judge(*same, answer, s->offering(question.query->name).contract, Detail::verdict);
+    std::optional<Finding> f;
+    if (const std::optional<Case> same = in_scalar(question, s->scalar)) {
+      f = take(*same, *s, workers_.ask(*s, *same));
+    } else {
+      f.emplace().verdict = Verdict::out_of_domain;
+      count(question, *s, {}, *f);
     }
-    take(same ? *same : question, *s, answer, f);
-    if (each) each(*s, f);
+    if (each && f) each(*s, *f);
   }
   write_pending();
   tick();
 }
 
-void Run::take(const Case& question, const Subject& subject, const Answer& answer, const Finding& f) {
+std::optional<Finding> Run::take(const Case& question, const Subject& subject, const Answer& answer) {
+  const Standard standard = subject.standard_for(question.query->name);
+  const auto f = internal_errors_.judged(question, subject, answer, standard, Detail::verdict);
+  if (f) count(question, subject, answer, *f);
+  return f;
+}
+
+void Run::count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f) {
   Tally& t = tally(*question.query, subject);
   t.count(f);
   ++cases_;
@@ -222,6 +239,7 @@ void Run::write_report(const Pending& p) {
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
                       std::string(nearmiss::name_of(r.finding.verdict)),
                       std::string(nearmiss::name_of(r.finding.disagreement)), headline(r),
+                      r.finding.verdict == Verdict::broke ? tally(*r.question.query, *p.subject).breakage_of(r.finding) : "",
                       r.finding.backward ? std::optional(r.finding.backward->above) : std::nullopt});
 }
 
@@ -229,7 +247,8 @@ void Run::generate(std::optional<std::uint64_t> cases) {
   struct Stream {
     const Query* query;
     Scalar scalar;
-    std::size_t subjects;
+    Preconditions required;                ///< of all its subjects
+    std::vector<const Subject*> subjects;
     std::uint64_t next = 0;
     double seconds = 0;
     std::size_t batch = least_batch;  ///< cases to ask at once, as many as keep the run answering to a user who stops it
@@ -238,10 +257,12 @@ void Run::generate(std::optional<std::uint64_t> cases) {
   std::uint64_t total = cases_;
   for (const Query* q : settings_.queries) {
     for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
-      const std::size_t n = asked(*q, scalar).size();
-      if (n == 0) continue;
-      streams.push_back({q, scalar, n});
-      total += n * cases.value_or(0);
+      std::map<Preconditions, std::vector<const Subject*>> sets;
+      for (const Subject* s : asked(*q, scalar)) sets[s->offering(q->name).required].push_back(s);
+      for (const auto& [required, alike] : sets) {
+        streams.push_back({q, scalar, required, alike});
+        total += alike.size() * cases.value_or(0);
+      }
     }
   }
   if (cases) total_ = total;
@@ -260,14 +281,16 @@ void Run::generate(std::optional<std::uint64_t> cases) {
     batch.of = stream == streams.end() || left(*stream) == 0 ? nullptr : &*stream;
     if (batch.of == nullptr) return;
     batch.cases.resize(std::min({stream->batch, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)}));
-    for (Case& c : batch.cases) nearmiss::generate(c, *stream->query, stream->scalar, settings_.seed, stream->next++);
+    for (Case& c : batch.cases) {
+      generate_inside(c, *stream->query, stream->scalar, settings_.seed, stream->next++, stream->required);
+    }
     batch.seconds = seconds_since(begin);
     stream->seconds += batch.seconds;
   };
   Batch now, next;
   for (make(now); now.of != nullptr && !should_stop(); std::swap(now, next)) {
     const Clock::time_point begin = Clock::now();
-    examine(now.cases, [&] { make(next); });  // the subjects' processes answer meanwhile
+    examine(now.of->subjects, now.cases, [&] { make(next); });  // the subjects' processes answer meanwhile
     const double seconds = seconds_since(begin) - next.seconds;
     now.of->seconds += seconds;
     if (seconds < most_seconds_per_batch / 4) now.of->batch = std::min(2 * now.of->batch, Workers::batch);
@@ -296,7 +319,7 @@ void Run::write_index(RunState state) {
          {"updated", utc_text("{:%Y-%m-%dT%H:%M:%SZ}")},
          {"seconds", seconds_since(begin_)},
          {"cases", cases_},
-         {"findings", bad_}};
+         {"findings", bad()}};
   j["tallies"] = Json::array();
   for (const Query* q : settings_.queries) {
     for (const Subject* s : settings_.subjects) {
@@ -325,9 +348,15 @@ void Run::write_index(RunState state) {
                              {"cases", t.cases},
                              {"false_hits", hits},
                              {"false_misses", misses},
-                             {"wrong", t.of(Verdict::violates_contract) - hits - misses},
+                             {"wrong", t.wrong},
                              {"broke", t.of(Verdict::broke)}});
   }
+  j["touches"] = touches_.to_json();
+  j["inconsistent_conventions"] = Json::array();
+  for (const Touches::Inconsistent& i : touches_.inconsistent()) {
+    j["inconsistent_conventions"].push_back({{"subject", i.subject->name}, {"closed", i.closed}, {"strict", i.strict}});
+  }
+  if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
   j.update(notes_->parts);
   j["reports"] = Json::array();
   for (const Written& w : written_) {
@@ -337,6 +366,7 @@ void Run::write_index(RunState state) {
                             {"subject", w.subject},
                             {"verdict", w.verdict},
                             {"disagreement", w.disagreement},
+                            {"breakage", w.breakage.empty() ? Json(nullptr) : Json(w.breakage)},
                             {"backward_above_epsilon", w.above ? Json(*w.above) : Json(nullptr)},
                             {"headline", w.headline}});
   }
@@ -369,35 +399,45 @@ std::optional<std::string> Run::shortfall() const {
   return fmt::format("nothing was asked: the time was over before the first case; {}", index);
 }
 
-std::uint64_t Run::bad() const { return bad_; }
+std::uint64_t Run::bad() const { return bad_ + touches_.inconsistent().size(); }
 std::uint64_t Run::cases() const { return cases_; }
-int Run::exit_code() const { return bad_ > 0 ? 1 : shortfall() ? 2 : 0; }
+int Run::exit_code() const {
+  if (internal_errors_.count() > 0) return InternalError::exit_code;
+  return bad() > 0 ? 1 : shortfall() ? 2 : 0;
+}
 
 /// "nothing violated", or all that was by kind; and how many queries had no turn.
 std::string Run::violated_text() const {
   if (cases_ == 0) return "nothing asked";
   std::map<std::string_view, std::uint64_t> faults;
+  std::set<std::string> reasons;
   for (const auto& [key, t] : tallies_) {
+    for (const auto& [kind, count] : t.breakages) reasons.insert(kind);
     for (int d = 0; d < disagreement_count; ++d) faults[noun_of(Disagreement(d))] += t.violations[std::size_t(d)];
     faults["breakage"] += t.of(Verdict::broke);
   }
+  faults["inconsistent convention"] += touches_.inconsistent().size();
   std::vector<std::string> counted;
   for (const auto& [fault, count] : faults) {
-    if (count > 0) counted.push_back(plural_text(count, fault));
+    if (count == 0) continue;
+    counted.push_back(plural_text(count, fault));
+    if (fault == "breakage" && reasons.size() > 1) counted.back() += fmt::format(" of {} kinds", reasons.size());
   }
   std::map<const Query*, std::uint64_t> asked;
-  for (const auto& [key, t] : tallies_) asked[key.first] += t.cases;
+  std::uint64_t not_asked = 0;
+  for (const auto& [key, t] : tallies_) asked[key.first] += t.cases, not_asked += t.of(Verdict::not_asked);
   const auto unasked = std::uint64_t(std::count_if(asked.begin(), asked.end(), [](const auto& a) { return a.second == 0; }));
   return (counted.empty() ? "nothing violated" : "violations: " + list_text(counted)) +
+         (not_asked == 0 ? "" : fmt::format(", {} not asked for what subjects require", plural_text(not_asked, "case"))) +
          (unasked == 0 ? "" : fmt::format(", {} of {} queries not asked", unasked, asked.size()));
 }
 
 std::string Run::summary() const {
   const double seconds = seconds_since(begin_);
-  return fmt::format("{}{} in {} ({}/s): {}; {} in {}", interrupted() ? "interrupted: " : "",
+  return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}", interrupted() ? "interrupted: " : "",
                      plural_text(cases_, "answer"), duration_text(seconds),
                      count_text(std::uint64_t(double(cases_) / std::max(seconds, 1e-3))), violated_text(),
-                     plural_text(written_.size(), "report"), settings_.folder.string());
+                     plural_text(written_.size(), "report"), settings_.folder.string(), internal_errors_.text());
 }
 
 std::string Run::worst_findings() const {
@@ -405,8 +445,8 @@ std::string Run::worst_findings() const {
   std::vector<const Written*> worst;
   for (const Written& w : written_) {
     const auto same = std::find_if(worst.begin(), worst.end(), [&](const Written* o) {
-      return std::tie(o->query, o->subject, o->verdict, o->disagreement) ==
-             std::tie(w.query, w.subject, w.verdict, w.disagreement);
+      return std::tie(o->query, o->subject, o->verdict, o->disagreement, o->breakage) ==
+             std::tie(w.query, w.subject, w.verdict, w.disagreement, w.breakage);
     });
     if (same == worst.end()) {
       worst.push_back(&w);
@@ -425,7 +465,7 @@ std::string Run::worst_findings() const {
 
 std::string Run::table() const {
   if (cases_ == 0) return "";
-  std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "WITHIN", "FALSE HIT", "FALSE MISS", "WRONG",
+  std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "NOT PROVED", "FALSE HIT", "FALSE MISS", "WRONG",
                                               "BROKE", "OUTSIDE", "NO ANSWER", "BACKWARD", "FORWARD", "YES", "EXACT"}};
   for (const Query* q : settings_.queries) {
     bool first = true;
@@ -444,7 +484,28 @@ std::string Run::table() const {
     }
     if (settings_.queries.size() > 1 && all.cases > 0) rows.push_back(table_row(all));
   }
-  return table_text(rows, "", 1) + stages_text();
+  return table_text(rows, "", 1) + breakages_text() + stages_text();
+}
+
+/// Why subjects broke, most often first; empty where none did.
+std::string Run::breakages_text() const {
+  struct Row {
+    std::uint64_t count;
+    std::string subject, query, kind;
+  };
+  std::vector<Row> all;
+  for (const auto& [key, t] : tallies_) {
+    for (const auto& [kind, count] : t.breakages) {
+      all.push_back({count, key.second->name, std::string(key.first->name), kind});
+    }
+  }
+  if (all.empty()) return "";
+  std::sort(all.begin(), all.end(), [](const Row& a, const Row& b) {
+    return std::tie(b.count, a.subject, a.query, a.kind) < std::tie(a.count, b.subject, b.query, b.kind);
+  });
+  std::vector<std::vector<std::string>> rows{{"BROKE", "SUBJECT", "QUERY", "REASON"}};
+  for (const Row& r : all) rows.push_back({count_text(r.count), r.subject, r.query, r.kind});
+  return "\n" + table_text(rows);
 }
 
 Run::Stages Run::stages_of(const Query& query) const {
@@ -474,6 +535,15 @@ std::string Run::stages_text() const {
                      percent_text(stages_of(*most).exact, stages_of(*most).interval + stages_of(*most).exact));
 }
 
+std::string Run::touches_text() const {
+  std::string text = touches_.text();
+  for (const Touches::Inconsistent& i : touches_.inconsistent()) {
+    text += fmt::format("{} has an inconsistent convention: exact touches are contact in {}, and none in {}\n",
+                        i.subject->name, list_text(i.closed), list_text(i.strict));
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string Run::table_by_class() const {
   std::vector<std::vector<std::string>> rows{{"", "CASES", "FALSE HIT", "FALSE MISS", "WRONG", "BROKE"}};
   for (const Subject* s : settings_.subjects) {
@@ -484,7 +554,7 @@ std::string Run::table_by_class() const {
       const std::uint64_t hits = t.violations_by(Disagreement::false_hit);
       const std::uint64_t misses = t.violations_by(Disagreement::false_miss);
       rows.push_back({"  " + key.second, count_text(t.cases), count_text(hits), count_text(misses),
-                      count_text(t.of(Verdict::violates_contract) - hits - misses), count_text(t.of(Verdict::broke))});
+                      count_text(t.wrong), count_text(t.of(Verdict::broke))});
     }
   }
   return table_text(rows, "", 1);

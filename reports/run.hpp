@@ -17,9 +17,11 @@
 #include <vector>
 
 #include "reports/folder_lock.hpp"
+#include "reports/internal_errors.hpp"
 #include "reports/progress.hpp"
 #include "reports/report.hpp"
 #include "reports/tally.hpp"
+#include "reports/touches.hpp"
 #include "reports/workers.hpp"
 
 namespace nearmiss {
@@ -53,13 +55,15 @@ class Run {
   ~Run();
 
   /// Asks every subject of the run that offers the query and computes in the cases' scalar. All cases
-  /// are of one query and one scalar. Stops early when it should. `meanwhile` is done while the subjects answer.
+  /// are of one query and one scalar. Stops early when it should. `meanwhile` is done while the subjects answer. A case
+  /// outside of what a subject requires is counted as not asked.
   void examine(std::span<const Case> cases, const std::function<void()>& meanwhile = {});
   /// Asks every subject that offers the query, whatever its scalar; a case that it cannot hold exactly
   /// is out of its domain. Calls `each` with every finding.
   void examine_by_all(const Case& question, const std::function<void(const Subject&, const Finding&)>& each = {});
   /// Cases of the generator: `cases` for each query and subject, or without a number until the time is
-  /// over. Queries take turns, so that each gets the same time as long as it has cases left.
+  /// over. Queries take turns, so that each gets the same time as long as it has cases left. Subjects that require the
+  /// same get the same cases, fitted to that.
   void generate(std::optional<std::uint64_t> cases);
 
   /// True when it was interrupted or its time is over.
@@ -75,6 +79,8 @@ class Run {
   void finish();
   /// One line: what was asked and what came of it.
   std::string summary() const;
+  /// Answers about which the judge contradicts itself: told and kept, never counted among the findings.
+  const InternalErrors& internal_errors() const { return internal_errors_; }
   /// One line, where fewer cases were asked than were wanted: interrupted, or no time for a single one.
   std::optional<std::string> shortfall() const;
   /// Violations and breakages.
@@ -85,10 +91,12 @@ class Run {
   std::string table() const;
   /// For every subject its findings among the cases that each move of the generator made; with settings().by_class.
   std::string table_by_class() const;
+  /// What the subjects make of exact touches: counts where some are no, and who has two conventions; empty without any.
+  std::string touches_text() const;
   /// Headline and file of the worst reports, one for each query, subject and fault; empty without any.
   std::string worst_findings() const;
   const RunSettings& settings() const { return settings_; }
-  /// 0, 1 for violations, 2 without any where there is a shortfall().
+  /// 0, 1 for violations, 2 without any where there is a shortfall(); InternalError's where there was one.
   int exit_code() const;
 
  private:
@@ -97,6 +105,7 @@ class Run {
   /// A report that was written, as the index lists it.
   struct Written {
     std::string file, id, query, subject, verdict, disagreement, headline;
+    std::string breakage;  ///< its kind; empty for a violation
     std::optional<double> above;
   };
   /// How often each of the oracle's stages decided, of all subjects together.
@@ -106,9 +115,14 @@ class Run {
   };
   Stages stages_of(const Query& query) const;
   std::string stages_text() const;
+  std::string breakages_text() const;
   Tally& tally(const Query& query, const Subject& subject);
   std::vector<const Subject*> asked(const Query& query, Scalar scalar) const;
-  void take(const Case& question, const Subject& subject, const Answer& answer, const Finding& f);
+  void examine(const std::vector<const Subject*>& subjects, std::span<const Case> cases,
+               const std::function<void()>& meanwhile);
+  /// Judges the answer, counts what comes of it, and says what that is; empty where the judge contradicts itself.
+  std::optional<Finding> take(const Case& question, const Subject& subject, const Answer& answer);
+  void count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f);
   void write_pending();
   void write_report(const Pending& p);
   void write_index(RunState state);
@@ -123,6 +137,8 @@ class Run {
   std::map<std::pair<const Query*, const Subject*>, Tally> tallies_;
   std::map<std::pair<const Subject*, std::string>, Tally> by_class_;
   Keeper keeper_;
+  InternalErrors internal_errors_;
+  Touches touches_;
   std::vector<Pending> pending_;
   std::vector<Written> written_;
   std::unique_ptr<Notes> notes_;

@@ -12,40 +12,54 @@
 
 namespace nearmiss {
 
-inline constexpr int disagreement_count = int(Disagreement::not_unit) + 1;
-
 /// The counts of one subject on one query. The ways in which answers differ are never added together.
 struct Tally {
   const Query* query = nullptr;
   const Subject* subject = nullptr;
   std::uint64_t cases = 0;
   std::array<std::uint64_t, verdict_count> verdicts{};
-  std::array<std::uint64_t, disagreement_count> within_contract{};  ///< by disagreement
-  std::array<std::uint64_t, disagreement_count> violations{};       ///< by disagreement
+  /// Answers in which some member differs in that way, by no more than was promised as far as is proved.
+  std::array<std::uint64_t, disagreement_count> not_proved{};
+  /// Answers in which some member breaks the contract, or exceeds the measure, in that way. An answer of which several
+  /// members do counts for each.
+  std::array<std::uint64_t, disagreement_count> violations{};
+  /// Breakages by kind_of_breakage(); after the first `most_kinds` any other is an `other_kind`.
+  std::map<std::string, std::uint64_t> breakages{};
+  static constexpr std::size_t most_kinds = 32;
+  static constexpr const char* other_kind = "any other reason";
+  std::uint64_t wrong = 0;  ///< answers with a violation other than a wrong decision
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
   std::uint64_t truth_yes = 0;  ///< of the decided ones
   double worst_backward = -1;   ///< the largest proved bound, in epsilon; negative: nothing was proved
   double worst_forward = 0;     ///< in ulps, where the decision is right
 
   void count(const Finding& f);
+  /// The kind under which a breakage is counted.
+  std::string breakage_of(const Finding& f) const;
   /// The counts of another query or subject added to these.
   void add(const Tally& other);
   std::uint64_t of(Verdict v) const { return verdicts[std::size_t(v)]; }
   std::uint64_t violations_by(Disagreement d) const { return violations[std::size_t(d)]; }
-  std::uint64_t bad() const { return of(Verdict::violates_contract) + of(Verdict::broke); }
+  std::uint64_t bad() const {
+    return of(Verdict::violates_contract) + of(Verdict::exceeds_measure) + of(Verdict::broke);
+  }
   std::uint64_t decided() const { return decided_by_interval + decided_by_exact; }
 };
 
 nlohmann::ordered_json tally_to_json(const Tally& t);
 
-/// Says which findings are kept as reports: of each query, subject and fault the first `first_few`, then
-/// only those whose proved backward bound is at least twice that of the worst kept so far.
+/// Says which findings are kept as reports: of each query, subject and fault of a member, or kind of breakage that the tally
+/// knows, the first `first_few`, then
+/// only those whose proved backward bound is at least twice that of the worst kept so far. A finding with several faults
+/// is kept where one of them is.
 class Keeper {
  public:
   bool keep(const Tally& of, const Finding& f);
   static constexpr std::uint64_t first_few = 8;
 
  private:
+  bool keep(const std::string& kind, double above);
+
   struct Kept {
     std::uint64_t count = 0;
     double worst = 0;

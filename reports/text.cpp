@@ -53,17 +53,17 @@ std::string number_text(double x, Scalar scalar) {
 }
 
 std::string bounds_text(const Bounds& b) {
-  if (b.low == b.high) return number_text(b.low);
+  if (b.low == b.high) return value_text(b.low);
   const long double middle = (static_cast<long double>(b.low) + b.high) / 2;
   if (b.high - b.low > shown_as_one * ulp(double(middle), Scalar::float64)) {
-    return fmt::format("between {} and {}", number_text(b.low), number_text(b.high));
+    return fmt::format("between {} and {}", value_text(b.low), value_text(b.high));
   }
   for (int digits = 1; digits <= most_digits; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", middle, digits);
+    const std::string text = fmt::format("{:.{}g}", middle + 0.0L, digits);
     const long double read = std::strtold(text.c_str(), nullptr);
     if (b.low <= read && read <= b.high) return text;
   }
-  return number_text(b.low);
+  return value_text(b.low);
 }
 
 std::string epsilons_text(double k) {
@@ -91,7 +91,7 @@ std::string count_text(std::uint64_t n) {
 }
 
 std::string plural_text(std::uint64_t n, std::string_view noun) {
-  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') || noun.ends_with('x') ? "es" : "s";
+  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') || noun.ends_with('x') || noun.ends_with("ch") ? "es" : "s";
   return fmt::format("{} {}{}", count_text(n), noun, ending);
 }
 

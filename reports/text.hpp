@@ -12,6 +12,8 @@ namespace nearmiss {
 
 /// The shortest decimal that reads back as the same number of `scalar`; NaN, Infinity, -Infinity.
 std::string number_text(double x, Scalar scalar = Scalar::float64);
+/// The same of a number of an answer, where zero has no sign.
+inline std::string value_text(double x, Scalar scalar = Scalar::float64) { return number_text(x + 0.0, scalar); }
 /// The shortest decimal within the bounds where they are neighbours or nearly so, otherwise "between LOW
 /// and HIGH".
 std::string bounds_text(const Bounds& b);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "oracles/requirements.hpp"
+
 namespace nearmiss {
 
-Worker& Workers::of(const Subject& subject) {
-  std::unique_ptr<Worker>& worker = workers_[&subject];
-  if (!worker) worker = std::make_unique<Worker>(limits_);
-  return *worker;
+Workers::Asked& Workers::of(const Subject& subject) {
+  Asked& asked = workers_[&subject];
+  if (!asked.worker) asked.worker = std::make_unique<Worker>(limits_);
+  return asked;
 }
 
 std::size_t Workers::capacity_for(const Query& query) {
@@ -20,12 +22,30 @@ Answer Workers::ask(const Subject& subject, const Case& question) {
 }
 
 void Workers::send(const Subject& subject, std::span<const Case> cases) {
+  const Offering& offering = subject.offering(cases.front().query->name);
+  Asked& asked = of(subject);
+  asked.all = offering.required.empty();
+  asked.inside.clear();
+  asked.answers.clear();
   flat_.clear();
-  for (const Case& c : cases) flat_.insert(flat_.end(), c.values.begin(), c.values.end());
-  of(subject).send(subject.offering(cases.front().query->name), flat_, cases.front().values.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Preconditions unmet = unmet_by(cases[i], offering.required);
+    if (!asked.all) asked.answers.push_back(unmet.empty() ? Answer{} : answer_of_unasked(unmet));
+    if (!unmet.empty()) continue;
+    if (!asked.all) asked.inside.push_back(i);
+    flat_.insert(flat_.end(), cases[i].values.begin(), cases[i].values.end());
+  }
+  if (!flat_.empty()) asked.worker->send(offering, flat_, cases.front().values.size());
 }
 
-std::span<const Answer> Workers::receive(const Subject& subject) { return of(subject).receive(); }
+std::span<const Answer> Workers::receive(const Subject& subject) {
+  Asked& asked = of(subject);
+  if (asked.all) return asked.worker->receive();
+  if (asked.inside.empty()) return asked.answers;
+  const std::span<const Answer> given = asked.worker->receive();
+  for (std::size_t i = 0; i < given.size(); ++i) asked.answers[asked.inside[i]] = given[i];
+  return asked.answers;
+}
 
 std::optional<Case> in_scalar(const Case& question, Scalar scalar) {
   const bool exact =

@@ -16,7 +16,8 @@ class Workers {
  public:
   explicit Workers(WorkerLimits limits = {}) : limits_(limits) {}
 
-  /// The subject must offer the case's query. For a batch, `cases` are all of one query.
+  /// The subject must offer the case's query. For a batch, `cases` are all of one query. A case outside of what the
+  /// subject requires does not reach it; what is received in place of an answer is answer_of_unasked().
   Answer ask(const Subject& subject, const Case& question);
   /// At most `capacity_for` cases. Several subjects may be sent to before the first is received from;
   /// what is received stays valid until the subject is sent to again.
@@ -28,10 +29,16 @@ class Workers {
   static constexpr std::size_t batch = Worker::capacity;
 
  private:
-  Worker& of(const Subject& subject);
+  struct Asked {
+    std::unique_ptr<Worker> worker;
+    bool all = true;                   ///< the last batch was asked as it is
+    std::vector<std::size_t> inside;   ///< or these cases of it
+    std::vector<Answer> answers;       ///< and this is what is received of it
+  };
+  Asked& of(const Subject& subject);
 
   WorkerLimits limits_;
-  std::map<const Subject*, std::unique_ptr<Worker>> workers_;
+  std::map<const Subject*, Asked> workers_;
   std::vector<double> flat_;
 };
 

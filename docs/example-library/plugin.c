@@ -45,9 +45,9 @@ static const nearmiss_contract eight_roundings = {
     .backward = 8, .forward = INFINITY, .unit = INFINITY, .lowest = -20, .highest = 20};
 
 static const nearmiss_offer offers[] = {
-    {"sphere_sphere_overlap", 8, 0, NULL, &eight_roundings, sphere_sphere_overlap},
-    {"moving_point_sphere", 11, 7, NULL, &eight_roundings, moving_point_sphere},
-    {"closest_point_segment", 9, 3, NULL, &eight_roundings, closest_point_segment},
+    {"sphere_sphere_overlap", 8, 0, NULL, &eight_roundings, sphere_sphere_overlap, 0},
+    {"moving_point_sphere", 11, 7, NULL, &eight_roundings, moving_point_sphere, 0},
+    {"closest_point_segment", 9, 3, NULL, &eight_roundings, closest_point_segment, 0},
 };
 
 static const nearmiss_plugin skim = {NEARMISS_PLUGIN_VERSION, "skim",         "skim 1.0", NEARMISS_FLOAT,

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <string>
 
 #include "impl/adapters/motion.hpp"
 #include "impl/subject/adapter.hpp"
@@ -37,11 +38,18 @@ struct Ccd {
     return requires(const Q& q) { q.limit; } ? "the sphere's way as one convex shape" : "";
   }
   template <class Q>
-  static std::string why_not() {
+  static std::string left_out() {
+    if constexpr (std::same_as<Q, in::box_box_overlap<double>>) return "the axis, which libccd does not look for";
+    if constexpr (std::same_as<Q, in::box_box_penetration<double>>) return std::string("the axis and the contact: ") + positions;
     if constexpr (std::same_as<Q, in::sphere_sphere_penetration<double>> ||
                   std::same_as<Q, in::sphere_box_penetration<double>>) {
-      return "EPA of a ball ends after seconds or never: it builds the ball from triangles";
-    } else if constexpr (requires(const Q& q) { q.plane; }) {
+      return std::string("the contact: ") + positions;
+    }
+    return "";
+  }
+  template <class Q>
+  static std::string why_not() {
+    if constexpr (requires(const Q& q) { q.plane; }) {
       return "libccd's shapes are bounded, and a plane is not";
     } else if constexpr (requires(const Q& q) { q.velocity; } || requires(const Q& q) { q.ray; }) {
       return "libccd knows no motions";
@@ -62,15 +70,10 @@ struct Ccd {
   static auto answer(const in::box_box_penetration<double>& q) {
     return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
   }
-  /// EPA would have to build the ball from triangles.
-  static auto answer(const in::sphere_sphere_penetration<double>& q)
-    requires(algorithm == CcdAlgorithm::mpr)
-  {
+  static auto answer(const in::sphere_sphere_penetration<double>& q) {
     return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
   }
-  static auto answer(const in::sphere_box_penetration<double>& q)
-    requires(algorithm == CcdAlgorithm::mpr)
-  {
+  static auto answer(const in::sphere_box_penetration<double>& q) {
     return depth<collide::Penetration<double>>(q.sphere, q.box);
   }
 
@@ -78,6 +81,16 @@ struct Ccd {
   static auto answer(const in::moving_sphere_passes_sphere<double>& q) { return passes(q, q.fixed); }
 
  private:
+  static constexpr const char* positions =
+      "ccd.h calls a position the place where a force should act, and not which point of the two bodies it is";
+
+  /// Of GJK, whose own default is no limit; and of EPA, which has none: to a ball it adds points as long as that brings it
+  /// nearer by the tolerance.
+  static constexpr int most_iterations = 1000;
+  /// Each iteration of either asks both bodies for a point.
+  static constexpr int most_points = 2 * (most_iterations + most_iterations);
+  static inline int points = 0;  ///< that libccd has asked for since it was last asked
+
   /// The hull of at most three points, or a box, with a ball around each of its points.
   struct Convex {
     int corners = 0;
@@ -130,7 +143,10 @@ struct Ccd {
 
   template <class S>
   static void support(const void* shape, const ccd_vec3_t* direction, ccd_vec3_t* point) {
-    const Vec3d p = static_cast<const S*>(shape)->support({direction->v[0], direction->v[1], direction->v[2]});
+    const S& s = *static_cast<const S*>(shape);
+    // A point within is no gain, and so it ends EPA.
+    const bool within = ++points > most_points;
+    const Vec3d p = within ? s.center() : s.support({direction->v[0], direction->v[1], direction->v[2]});
     ccdVec3Set(point, p.x, p.y, p.z);
   }
   template <class S>
@@ -146,7 +162,8 @@ struct Ccd {
     ccd.support2 = support<B>;
     ccd.center1 = center<A>;
     ccd.center2 = center<B>;
-    ccd.max_iterations = 1000;  // the default is no limit
+    ccd.max_iterations = most_iterations;
+    points = 0;
     return ccd;
   }
 
@@ -161,9 +178,8 @@ struct Ccd {
   static collide::Decision<double> decided(const A& a, const B& b) {
     return {meet(a, b)};
   }
-  /// Depth and direction; libccd's position is another point than the one asked for.
   template <class Depth, class A, class B>
-  static Partly<Depth> depth(const A& first, const B& second) {
+  static Reply<Depth> depth(const A& first, const B& second) {
     const auto a = convex(first);
     const auto b = convex(second);
     const ccd_t ccd = settings<std::remove_cv_t<decltype(a)>, std::remove_cv_t<decltype(b)>>();
@@ -171,6 +187,7 @@ struct Ccd {
     ccd_vec3_t direction, position;
     const int apart = algorithm == CcdAlgorithm::gjk ? ccdGJKPenetration(&a, &b, &ccd, &deep, &direction, &position)
                                                      : ccdMPRPenetration(&a, &b, &ccd, &deep, &direction, &position);
+    if (points > most_points) return CannotAnswer{"EPA has not ended after 1000 iterations"};
     Depth d;
     d.depth = -1;
     if (apart != 0) return only(d, {});  // it says no more than that

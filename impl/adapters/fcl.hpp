@@ -85,6 +85,22 @@ struct Fcl : FclShapes {
     return "";
   }
   template <class Q>
+  static std::string left_out() {
+    if constexpr (std::is_same_v<Q, in::box_box_overlap<double>>) {
+      return "the axis, which FCL does not tell";
+    } else if constexpr (std::is_same_v<Q, in::box_box_penetration<double>>) {
+      return "the axis, which it does not tell, and the contact: contact.h does not say which point pos is";
+    } else if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
+                         std::is_same_v<Q, in::sphere_box_penetration<double>> ||
+                         std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
+                         std::is_same_v<Q, in::box_plane_penetration<double>>) {
+      return "the contact: contact.h does not say which point pos is";
+    } else if constexpr (is_motion<Q>) {
+      return "the place and the normal, which continuousCollide does not tell";
+    }
+    return "";
+  }
+  template <class Q>
   static std::string why_not() {
     if constexpr (requires(const Q& q) { q.velocity, q.triangle; } || requires(const Q& q) { q.velocity, q.rectangle; }) {
       return "FCL moves nothing against a single triangle, which it has only as a part of meshes";
@@ -227,6 +243,10 @@ struct FclDistance : FclShapes {
   template <class Q>
   static std::string equivalence() {
     return "minus FCL's signed distance";
+  }
+  template <class Q>
+  static std::string left_out() {
+    return "normal and contact, which a distance has not";
   }
   template <class Q>
   static std::string why_not() {

@@ -28,6 +28,20 @@ struct Ode {
     return requires(const Q& q) { q.point, q.velocity; } ? "a ray that is long enough; time is its length over the speed" : "";
   }
   template <class Q>
+  static std::string left_out() {
+    if constexpr (std::is_same_v<Q, in::box_box_overlap<double>>) {
+      return "the axis, which ODE keeps to itself";
+    } else if constexpr (std::is_same_v<Q, in::box_box_penetration<double>>) {
+      return "the axis, which it keeps to itself, and the contact: ODE's manual does not say which point its position is";
+    } else if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
+                         std::is_same_v<Q, in::sphere_box_penetration<double>> ||
+                         std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
+                         std::is_same_v<Q, in::box_plane_penetration<double>>) {
+      return "the contact: ODE's manual does not say which point its position is";
+    }
+    return "";
+  }
+  template <class Q>
   static std::string why_not() {
     if constexpr (requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
       return "ODE has triangles only as parts of meshes";

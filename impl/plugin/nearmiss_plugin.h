@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /* Of this header. It changes with every change of the structs below; a plugin of another version is refused. */
-#define NEARMISS_PLUGIN_VERSION 1
+#define NEARMISS_PLUGIN_VERSION 2
 
 /* The number in which the library computes. It is asked nothing that is not exactly such a number. */
 enum { NEARMISS_FLOAT = 1, NEARMISS_DOUBLE = 2 };
@@ -45,12 +45,24 @@ typedef struct nearmiss_contract {
   int lowest, highest; /* the largest number of each group lies in [2^lowest, 2^highest] */
 } nearmiss_contract;
 
+/* What the library requires of its callers. A case that is not surely inside is not asked. */
+enum {
+  NEARMISS_TRUE_RECTANGLE = 1 << 0,  /* corners within 4 epsilon of those of a rectangle with sides that are not zero */
+  NEARMISS_UNIT_NORMAL = 1 << 1,     /* given normals of length 1 within 4 epsilon */
+  NEARMISS_UNIT_DIRECTION = 1 << 2,  /* directions of lines and rays, likewise */
+  NEARMISS_UNIT_QUATERNION = 1 << 3, /* orientations, likewise */
+  NEARMISS_STARTS_OUTSIDE = 1 << 4,  /* no touch and no overlap at the start; in front of a plane */
+  NEARMISS_MOVES = 1 << 5,           /* a velocity that is not zero */
+  NEARMISS_NO_ZERO_SIZES = 1 << 6    /* no radius, half extent, box side, segment, axis or triangle's area of zero */
+};
+
 typedef struct nearmiss_offer {
   const char *query;                 /* its name in the catalogue */
   int inputs, outputs;               /* how many numbers it has: checked, so that an older plugin is told so */
   const char *equivalence;           /* by which other operation it is answered; NULL: by this very one */
   const nearmiss_contract *contract; /* NULL: no promise */
   nearmiss_answer_function answer;
+  uint32_t needs; /* what it requires: some of the bits above; 0: nothing */
 } nearmiss_offer;
 
 typedef struct nearmiss_plugin {

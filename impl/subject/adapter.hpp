@@ -49,6 +49,7 @@ Answer erase(const Partly<A>& p) {
   a.given = p.given;
   return a;
 }
+inline Answer erase(const Answer& a) { return a; }
 inline Answer erase(const CannotAnswer& c) { return Answer::without(Answer::Status::cannot_answer, c.reason); }
 template <class... As>
 Answer erase(const std::variant<As...>& reply) {

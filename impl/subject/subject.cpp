@@ -19,17 +19,18 @@ const std::vector<Subject>& subjects() { return all_subjects(); }
 void add_subject(Subject subject) { all_subjects().push_back(std::move(subject)); }
 
 namespace {
-bool one_measure = false;
+Measure the_measure;
 }
 
-void hold_all_to(double error) {
-  one_measure = true;
-  for (Subject& s : all_subjects()) {
-    for (Offering& o : s.offerings) o.contract = {.backward = error / unit_roundoff(s.scalar)};
-  }
-}
+const Measure& measure() { return the_measure; }
+void set_measure(const Measure& m) { the_measure = m; }
 
-bool held_to_one_measure() { return one_measure; }
+Standard Subject::standard_for(std::string_view query) const {
+  const Offering& offer = offering(query);
+  if (!the_measure.for_all && !promises_nothing(offer.contract)) return {offer.contract, true, offer.required};
+  const double epsilons = the_measure.error / unit_roundoff(scalar);
+  return {{.backward = epsilons, .unit = epsilons}, false, offer.required};
+}
 
 const Subject* find_subject(std::string_view name) {
   for (const Subject& s : subjects()) {

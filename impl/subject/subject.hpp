@@ -11,6 +11,7 @@
 #include <collide/contract.hpp>
 
 #include "impl/subject/answer.hpp"
+#include "impl/subject/standard.hpp"
 
 namespace nearmiss {
 
@@ -56,6 +57,7 @@ struct Offering {
   std::string how;  ///< by which equivalence, or why not
   collide::Contract contract{};
   AnswerFunction answer{};  ///< nullptr where it is not offered
+  Preconditions required{};  ///< it is asked no case outside of them
 };
 
 struct Subject {
@@ -73,17 +75,27 @@ struct Subject {
     }
     return none;
   }
+  /// What its answers to the query are held to: its contract or, where it promises nothing, the measure; and what it
+  /// requires.
+  Standard standard_for(std::string_view query) const;
 };
 
 /// Every subject of this build, in the order in which CMake was told of them, then those that were added.
 const std::vector<Subject>& subjects();
 /// For the rest of the process. Pointers into subjects() that were taken before do not stay valid.
 void add_subject(Subject subject);
-/// From now on every subject promises, in place of its own contracts, a backward error of at most `error`, relative to
-/// the largest number of each group, for inputs of any size: one measure for all.
-void hold_all_to(double error);
-/// True after hold_all_to.
-bool held_to_one_measure();
+/// The measure of what promises nothing: a backward error of at most so much, relative to the largest number of each
+/// group, and normals whose length is off by at most so much, for inputs of any size. One for all subjects.
+struct Measure {
+  /// Ten thousand steps over the extent of a scene. It says which differences are told, not which are right.
+  static constexpr double usual = 1e-4;
+
+  double error = usual;
+  bool for_all = false;  ///< in place of contracts too
+};
+const Measure& measure();
+/// For the rest of the process.
+void set_measure(const Measure& m);
 /// nullptr when there is none of that name.
 const Subject* find_subject(std::string_view name);
 

@@ -14,11 +14,13 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <exception>
 #include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
+
+#include "impl/subject/contained.hpp"
+#include "impl/subject/floating_point.hpp"
 
 namespace nearmiss {
 
@@ -166,18 +168,6 @@ class Patience {
   std::optional<double> in_line_before_;
 };
 
-Answer answer_or_broke(const AnswerFunction& answer, std::span<const double> inputs) {
-  try {
-    return answer(inputs);
-  } catch (const std::bad_alloc&) {
-    return Answer::without(Answer::Status::broke, "memory limit reached");
-  } catch (const std::exception& e) {
-    return Answer::without(Answer::Status::broke, std::string("exception: ") + e.what());
-  } catch (...) {
-    return Answer::without(Answer::Status::broke, "exception that is no std::exception");
-  }
-}
-
 std::string last_line_of(int file) {
   const off_t size = lseek(file, 0, SEEK_END);
   std::string text(std::size_t(std::clamp<off_t>(size, 0, 4096)), '\0');
@@ -214,11 +204,12 @@ void Worker::start() {
     close(down.ends[1]);
     close(up.ends[0]);
     confine(limits_.bytes, child->standard_error);
+    FloatingPointModes::standard().set();
     char byte = 0;
     while (read(down.ends[0], &byte, 1) == 1) {
       for (std::size_t i = shared_->done; i < shared_->count; ++i) {
         const std::span<const double> inputs{shared_->values.data() + i * shared_->inputs, shared_->inputs};
-        shared_->add(answer_or_broke(shared_->answer, inputs));
+        shared_->add(answer_or_broke([&] { return shared_->answer(inputs); }));
       }
       if (write(up.ends[1], &byte, 1) != 1) break;
     }

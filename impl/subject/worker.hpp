@@ -19,7 +19,8 @@ struct WorkerLimits {
 /// asked. A child that throws, aborts, crashes, hangs or eats memory gives that case the answer
 /// `broke` with the reason (for an abort the last line that it wrote to standard error); a new child
 /// goes on with the next case. Processes that it started end with it, unless they left its process group. One batch
-/// at a time; not for use from several threads.
+/// at a time; not for use from several threads. A child begins with the standard modes of floating-point arithmetic; what the
+/// subject makes of them in its own process is its own matter.
 ///
 /// Throws std::system_error when the operating system refuses a process or memory.
 class Worker {

@@ -44,6 +44,8 @@ std::unique_ptr<Command> completion_command();
 
 /// The exit status of every command that judges.
 std::vector<Manual::Line> judging_exit_status();
+/// Its line for a judge that contradicts itself.
+Manual::Line internal_error_status();
 
 /// The command line as typed, for the index of a run; set once by main.
 std::string& typed_command_line();

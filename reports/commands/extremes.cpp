@@ -31,7 +31,8 @@ class ExtremesCommand : public Command {
          "and the largest proved errors. GAVE UP: cases that it was not asked after too many time-outs. BACKWARD: how far inputs would have to move to make an answer right, in units "
          "of the scalar's epsilon. FORWARD: the distance of a number from the exact one, in units in the last place."},
         {{"0", "It was written."},
-         {"2", "Wrong arguments, nothing to ask, an output that cannot be written, or it was interrupted."}},
+         {"2", "Wrong arguments, nothing to ask, an output that cannot be written, or it was interrupted."},
+         internal_error_status()},
         {{"nearmiss extremes", "Every query and subject."},
          {"nearmiss extremes --query moving_sphere_box --subject collide-fast-float --cases 200 --out far",
           "One heat map for each plane, into the folder far."}}};
@@ -57,7 +58,7 @@ class ExtremesCommand : public Command {
     extremes.write();
     fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
     if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", extremes.summary()));
-    return interrupted() ? 2 : 0;
+    return extremes.exit_code();
   }
 
  private:

@@ -9,10 +9,12 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/explain.hpp"
+#include "reports/internal_errors.hpp"
 #include "reports/interrupt.hpp"
 #include "reports/pretty_json.hpp"
 #include "reports/progress.hpp"
 #include "reports/report.hpp"
+#include "reports/run.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -66,6 +68,7 @@ class NyuCcd {
   std::string summary() const;
   std::uint64_t queries() const { return queries_; }
   int exit_code() const {
+    if (internal_errors_.count() > 0) return InternalError::exit_code;
     const bool violated =
         std::any_of(scores_.begin(), scores_.end(), [](const Score& s) { return s.violations + s.broke > 0; });
     return !oracle_wrong_.empty() || violated ? 1 : interrupted() ? 2 : 0;
@@ -105,11 +108,15 @@ class NyuCcd {
     const auto answers = workers_.receive(*s.subject);
     for (std::size_t i = 0; i < cases.size(); ++i) score(s, cases[i], answers[i], batch[at[i]].where, truth[at[i]]);
   }
-  static void score(Score& s, const Case& question, const Answer& a, const std::string& where, bool truth) {
-    const Finding f = judge(question, a, s.subject->offering(query).contract, Detail::verdict);
-    if (f.verdict == Verdict::violates_contract) ++s.violations;
+  void score(Score& s, const Case& question, const Answer& a, const std::string& where, bool truth) {
+    const auto judged =
+        internal_errors_.judged(question, *s.subject, a, s.subject->standard_for(query), Detail::verdict);
+    if (!judged) return;
+    const Finding& f = *judged;
+    if (f.is_proved()) ++s.violations;
     if (f.verdict == Verdict::broke) ++s.broke;
     if (f.verdict == Verdict::cannot_answer) ++s.cannot_answer;
+    if (f.verdict == Verdict::not_asked) ++s.outside;
     if (a.status != Answer::Status::answered) return;
     if (says_collides(a) == truth) {
       ++s.right;
@@ -130,6 +137,7 @@ class NyuCcd {
   }
 
   fs::path out_;
+  InternalErrors internal_errors_{out_.empty() ? runs_folder() : out_};
   Workers workers_;
   Progress progress_;
   std::vector<Score> scores_;
@@ -157,7 +165,7 @@ std::string NyuCcd::text() const {
     rows.push_back({s.subject->name, count_text(s.right), count_text(s.false_hits), count_text(s.false_misses),
                     count_text(s.outside), count_text(s.cannot_answer), count_text(s.broke), count_text(s.violations)});
   }
-  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar)\n" +
+  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar, or the case outside of what it\nrequires)\n" +
           table_text(rows, "", 1);
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;
@@ -184,7 +192,8 @@ class ImportCommand : public Command {
              "the query's definition; where the truth column says otherwise it is listed apart."},
             {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
              {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
-             {"2", "A file cannot be read or is malformed, none holds a query, the output cannot be written, or it was interrupted."}},
+             {"2", "A file cannot be read or is malformed, none holds a query, the output cannot be written, or it was interrupted."},
+             internal_error_status()},
             {{"nearmiss import nyu-ccd erleben-spikes/*.csv", "Compare."},
              {"nearmiss import nyu-ccd erleben-spikes/*.csv --out cases", "Also write each case as a JSON file."}}};
   }
@@ -201,11 +210,7 @@ class ImportCommand : public Command {
   }
   int run(const CLI::App&) override {
     catch_interrupts();
-    if (!out_.empty()) {
-      std::error_code error;
-      fs::create_directories(out_, error);
-      if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", out_, error.message()));
-    }
+    if (!out_.empty()) make_folder(out_);
     NyuCcd import(selection_.subjects(), out_);
     for (const std::string& f : files_) {
       if (!interrupted()) import.take(read_nyu_ccd({f}));

@@ -24,6 +24,23 @@ Json offers(const Query& query, bool referees_only) {
   return j;
 }
 
+std::vector<std::string_view> names_of(Preconditions required) {
+  std::vector<std::string_view> names;
+  for (const Precondition p : all_preconditions) {
+    if (required.has(p)) names.push_back(name_of(p));
+  }
+  return names;
+}
+
+/// {QUERY's subjects that require something: what}.
+Json requirements(const Query& query) {
+  Json j = Json::object();
+  for (const Subject& s : subjects()) {
+    if (const Preconditions r = s.offering(query.name).required; !r.empty()) j[s.name] = names_of(r);
+  }
+  return j;
+}
+
 Json list_json() {
   Json queries = Json::array();
   for (const Query& q : catalogue()) {
@@ -31,6 +48,7 @@ Json list_json() {
                        {"kind", name_of(q.kind)},
                        {"subjects", offers(q, false)},
                        {"referees", offers(q, true)},
+                       {"requires", requirements(q)},
                        {"fuzz_target", fmt::format("fuzz_{}", q.name)},
                        {"seeds", count_seeds(q)},
                        {"properties", properties_of(q)}});
@@ -69,11 +87,12 @@ std::string queries_table() {
 
 /// One line for each pair of query and subject, with the reason or the equivalence.
 std::string reasons_table() {
-  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "HOW OR WHY NOT"}};
+  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "REQUIRES", "HOW OR WHY NOT"}};
   for (const Query& q : catalogue()) {
     for (const Subject& s : subjects()) {
       const Offering& o = s.offering(q.name);
-      rows.push_back({std::string(q.name), s.name, std::string(name_of(o.offer)), o.how});
+      rows.push_back({std::string(q.name), s.name, std::string(name_of(o.offer)),
+                      o.required.empty() ? "-" : fmt::format("{}", fmt::join(names_of(o.required), ", ")), o.how});
     }
   }
   return table_text(rows);
@@ -99,9 +118,10 @@ class ListCommand : public Command {
             {"For every query: its kind of answer, whether each subject answers it (+), answers it by an equivalent "
              "question (~) or does not offer it (.), the number of seeds in its corpus, and the properties that are "
              "tested. Subjects marked as referees also give second opinions in reports.",
-             "--why tells for each query and subject by which equivalence, or why not. --json prints one object for "
+             "--why tells for each query and subject by which equivalence, or why not, and what the subject requires: "
+             "cases outside of that it is not asked. --json prints one object for "
              "programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by equivalence\" | "
-             "\"not offered\"}, \"referees\": {the same}, \"fuzz_target\", \"seeds\", \"properties\"}]}."},
+             "\"not offered\"}, \"referees\": {the same}, \"requires\": {NAME: [what it requires]}, \"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
              {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},

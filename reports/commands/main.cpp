@@ -12,6 +12,8 @@
 #include <new>
 
 #include "corpus/bad_input.hpp"
+#include "impl/subject/floating_point.hpp"
+#include "oracles/confirmed.hpp"
 #include "oracles/environment.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/manual_page.hpp"
@@ -32,7 +34,15 @@ std::vector<Manual::Line> judging_exit_status() {
           {"2",
            "It could not run, or not to its end: wrong arguments, malformed input, an output that cannot be written; "
            "or, without a violation, it was interrupted or had no time to ask anything. One line on standard error says "
-           "what and why."}};
+           "what and why."},
+          internal_error_status()};
+}
+
+Manual::Line internal_error_status() {
+  return {std::to_string(InternalError::exit_code),
+          "An internal error: the judge contradicts itself. Every answer that it accuses is judged twice, and the two words "
+          "differ, or those on related cases do. It is a fault of Nearmiss and counted nowhere; what was found beside it is "
+          "kept. One line on standard error has both words, and internal-errors/ of the folder the case."};
 }
 
 namespace {
@@ -170,6 +180,9 @@ int run_or_complain(const std::vector<std::string>& arguments) {
     const int code = CommandLine().run(with_negative_values(arguments));
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
     return code;
+  } catch (const InternalError& e) {
+    complain(fmt::format("internal error: {}", e.what()));
+    return InternalError::exit_code;
   } catch (const std::bad_alloc&) {
     return complain("out of memory");
   } catch (const std::exception& e) {
@@ -191,6 +204,7 @@ void hold_standard_files() {
 }  // namespace nearmiss
 
 int main(int argc, char** argv) {
+  nearmiss::FloatingPointModes::standard().set();  // a library may have set others when it was loaded
   nearmiss::hold_standard_files();
   for (const int s : {SIGPIPE, SIGXFSZ}) signal(s, SIG_IGN);  // what cannot be written is an error with a reason
   const std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -164,8 +164,8 @@ Json examine_fuzzed(Run& run) {
   return {{"files", files.size()}, {"examined", examined}, {"unreadable", unreadable}};
 }
 
-/// Related cases of every subject. True where a promise was broken.
-bool relate(Run& run, Clock::time_point until) {
+/// Related cases of every subject. Returns 0, 1 for broken promises, or InternalError's exit code.
+int relate(Run& run, Clock::time_point until) {
   run.doing("relations");
   std::vector<const Relation*> all;
   for (const Relation& r : relations()) all.push_back(&r);
@@ -180,7 +180,7 @@ bool relate(Run& run, Clock::time_point until) {
                          {"oracle", related.contradicted()},
                          {"reports", related.reports()}});
   fmt::print("relations: {}\n", related.summary());
-  return related.bad() + related.contradicted() > 0;
+  return related.contradicted() > 0 ? InternalError::exit_code : related.bad() > 0 ? 1 : 0;
 }
 
 /// The properties with fresh seeds. True where one failed.
@@ -258,13 +258,14 @@ class NightlyCommand : public Command {
     run.doing("generated cases");
     run.generate(std::nullopt);
     run.set_until(end);
-    bool failed = relate(run, between(begin, end, 1 - later - properties_share / 2));
-    failed = ask_properties(run, between(begin, end, 1 - later)) || failed;
+    const int related = relate(run, between(begin, end, 1 - later - properties_share / 2));
+    bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     run.finish();
-    fmt::print("\n{}\n{}{}; fuzzing: {}\n", run.table(), run.worst_findings(), run.summary(), fuzzing);
+    fmt::print("\n{}\n{}{}{}; fuzzing: {}\n", run.table(), run.touches_text(), run.worst_findings(), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
-    return failed ? 1 : run.exit_code();
+    const int code = std::max(related, run.exit_code());
+    return code == InternalError::exit_code || !failed ? code : 1;
   }
 
  private:

@@ -144,6 +144,16 @@ void add_positive_number(CLI::App& app, const std::string& name, std::optional<d
       ->check(positive_number(high));
 }
 
+void add_measure(CLI::App& app, std::optional<double>& measure) {
+  add_positive_number(
+      app, "--measure", measure,
+      fmt::format("Judge all subjects by one measure in place of their contracts: a backward error of at most E, "
+                  "relative to the largest number of each kind, and normals of length 1 within E. Default: their "
+                  "contracts, and {:g} for those that promise nothing",
+                  Measure::usual),
+      "E", 1);
+}
+
 void add_output_folder(CLI::App& app, std::string& folder, const std::string& description) {
   app.add_option("-o,--out", folder, description)
       ->type_name("DIR")
@@ -160,10 +170,7 @@ void Amount::declare(CLI::App& app, const std::string& what, const std::string& 
   app.get_option("--seconds")->excludes("--cases");
   add_whole_number(app, "--seed", seed, "Of the generator. Default: a random one, which is printed", 0,
                    std::numeric_limits<std::uint64_t>::max());
-  add_positive_number(app, "--measure", measure,
-                      "Judge all subjects by one promise in place of their own: a backward error of at most E, "
-                      "relative to the largest number of each kind, say 1e-6",
-                      "E", 1);
+  add_measure(app, measure);
   add_output_folder(app, out, folder + ". Default: reports/runs/TIME-SEED of the source tree");
 }
 

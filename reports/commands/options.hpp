@@ -48,6 +48,8 @@ void add_positive_number(CLI::App& app, const std::string& name, std::optional<d
                          const std::string& description, const std::string& unit, double high);
 
 /// An option that names a folder to write into, so never the empty text.
+/// --measure, with its default in the text.
+void add_measure(CLI::App& app, std::optional<double>& measure);
 void add_output_folder(CLI::App& app, std::string& folder, const std::string& description);
 
 /// `given`, or else one drawn from the system's entropy.

@@ -42,7 +42,8 @@ class RelationsCommand : public Command {
          "make a wrong answer right, in units of the scalar's epsilon."},
         {{"0", "No promise was broken; there may be contradictions within them."},
          {"1", "Broken promises, or a subject that broke."},
-         {"2", "It could not run, it was interrupted before it found anything, or Nearmiss contradicted itself."}},
+         {"2", "It could not run, or it was interrupted before it found anything."},
+         internal_error_status()},
         {{"nearmiss relations --subject bullet", "Every query and relation of one subject."},
          {"nearmiss relations --subject ode --query box_box_overlap --relation swapped --cases 100000", "One of them."},
          {"nearmiss relations --subject skim --plugin ./libskim.so --bit-for-bit", "A plugin without any epsilon, so it says."}}};
@@ -64,7 +65,7 @@ class RelationsCommand : public Command {
         ->disable_flag_override();
   }
   int run(const CLI::App&) override {
-    if (amount_.measure) hold_all_to(*amount_.measure);
+    if (amount_.measure) set_measure({*amount_.measure, true});
     const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
     std::vector<const Relation*> wanted;
@@ -87,7 +88,7 @@ class RelationsCommand : public Command {
     }
     fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
     if (interrupted() || run.contradicted() > 0) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));
-    if (run.contradicted() > 0) return 2;
+    if (run.contradicted() > 0) return InternalError::exit_code;
     return run.bad() > 0 ? 1 : interrupted() ? 2 : 0;
   }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "corpus/codec.hpp"
+#include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/pretty_json.hpp"
@@ -24,7 +25,8 @@ class ReplayCommand : public Command {
         "ask subjects one case again, and show what is true",
         {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again, "
          "whatever the file says about answers. The page shows the inputs, the exact answer, and for each subject "
-         "its answer, the verdict and how far the inputs would have to move to excuse it.",
+         "its answer, the verdict and how far the inputs would have to move to excuse it. Subjects are held to what "
+         "the report held them to: to their contracts, or to its measure.",
          "A report of 'nearmiss relations' has several cases: all of them are asked again and compared.",
          "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
         judging_exit_status(),
@@ -35,13 +37,16 @@ class ReplayCommand : public Command {
   void declare(CLI::App& app) override {
     app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
     selection_.declare_subjects(app);
+    add_measure(app, measure_);
     app.add_flag("--json", json_, "Print a JSON array with a report for each file and subject")
         ->disable_flag_override();
   }
   int run(const CLI::App&) override {
     std::vector<std::variant<Case, RelatedCase>> cases;
+    std::vector<Measure> measures;
     for (const std::string& f : files_) {
       const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe gives its text no second time
+      measures.push_back(measure_ ? Measure{*measure_, true} : measure_of(j, f));
       if (auto related = read_related(j, f)) {
         cases.emplace_back(std::move(*related));
       } else {
@@ -50,10 +55,11 @@ class ReplayCommand : public Command {
     }
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (!json_ && i > 0) fmt::print("\n");
+      set_measure(measures[i]);
       std::visit([&](const auto& c) { again(c, files_[i]); }, cases[i]);
     }
     if (json_) fmt::print("{}", pretty_json(reports_));
-    return bad_ ? 1 : 0;
+    return contradicted_ ? InternalError::exit_code : bad_ ? 1 : 0;
   }
 
  private:
@@ -69,6 +75,7 @@ class ReplayCommand : public Command {
     const RelatedReplay r = replay(related, file, selection_.subjects(), workers_);
     for (const RelationReport& report : r.reports) {
       bad_ = bad_ || is_bad(report.breach);
+      contradicted_ = contradicted_ || !report.oracle.empty();
       if (json_) reports_.push_back(report_to_json(report));
     }
     if (!json_) fmt::print("{}", replay_text(related, r));
@@ -76,7 +83,8 @@ class ReplayCommand : public Command {
 
   std::vector<std::string> files_;
   Selection selection_;
-  bool json_ = false, bad_ = false;
+  std::optional<double> measure_;
+  bool json_ = false, bad_ = false, contradicted_ = false;
   nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
   Workers workers_;
 };

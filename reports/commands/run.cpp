@@ -11,6 +11,18 @@ namespace nearmiss {
 
 namespace {
 
+/// The line that tells the measure, where some subject is held to it.
+std::string measure_text(const RunSettings& settings) {
+  for (const Subject* s : settings.subjects) {
+    for (const Query* q : settings.queries) {
+      if (s->offering(q->name).answer == nullptr || s->standard_for(q->name).promised) continue;
+      return fmt::format("measure {:g}: {} counted as wrong when proved to differ by more\n", measure().error,
+                         measure().for_all ? "all subjects are" : "subjects that promise nothing are");
+    }
+  }
+  return "";
+}
+
 class RunCommand : public Command {
  public:
   Manual manual() const override {
@@ -20,15 +32,19 @@ class RunCommand : public Command {
         {"Every chosen subject answers generated cases of every chosen query that it offers, each in a process of "
          "its own. The exact oracle knows the truth, and the judge tells what is proved against each answer. "
          "Subjects that compute in the same scalar get the same cases, and the same seed gives the same cases on "
-         "every machine.",
+         "every machine. A subject that requires something of its callers ('nearmiss list --why') gets cases that are "
+         "fitted to that.",
          "The run folder receives index.json with all counts (written from the start, and also when the run is "
          "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
-         "fault the first 8, then those that are at least twice as bad as any before. All others are counted. "
+         "fault (of a breakage, its reason) the first 8, then those that are at least twice as bad as any before. All others are counted. "
          "A folder that exists is added to; its index.json then describes the newest run. One run at a time can have "
          "it. Where a file cannot be written, say because the disk is full, the run ends and its index says \"failed\".",
          "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
-         "against them. WITHIN: they differ, by no more than was promised. FALSE HIT, FALSE MISS, WRONG: violations, "
-         "by a wrong yes, a wrong no, or wrong numbers. OUTSIDE: the promise does not cover the input. BACKWARD: the "
+         "against them. NOT PROVED: they differ, and are not proved to differ by more than was promised. FALSE HIT, "
+         "FALSE MISS, WRONG: proved to differ by more than was promised, by a wrong yes, a wrong no, or wrong numbers; "
+         "an answer that does so in two ways counts in both. A subject that promises nothing for a query is held to "
+         "the measure that the first line tells. OUTSIDE: the promise does not cover the input, or the case is outside "
+         "of what the subject requires and was not asked. BACKWARD: the "
          "largest proved bound on how far inputs would have to move to make an answer right, in units of the "
          "scalar's epsilon. FORWARD: the largest proved distance from an exact number, in units in the last place, "
          "where the decision is right. YES: the share of cases whose exact answer is yes. EXACT: the share that "
@@ -53,23 +69,23 @@ class RunCommand : public Command {
   }
 
   int run(const CLI::App&) override {
-    if (amount_.measure) hold_all_to(*amount_.measure);
+    if (amount_.measure) set_measure({*amount_.measure, true});
     selection_.check_offered();
     const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
     RunSettings settings{typed_command_line(), amount_.folder(seed), selection_.queries(), selection_.subjects(),
                          seed, amount_.until(), by_class_};
     Run run(std::move(settings));
-    fmt::print("seed {}, {}, into {}\n", seed,
+    fmt::print("seed {}, {}, into {}\n{}", seed,
                amount_.seconds ? fmt::format("for {} s", *amount_.seconds)
                                : count_text(*amount_.number()) + " cases for each query and subject",
-               run.settings().folder.string());
+               run.settings().folder.string(), measure_text(run.settings()));
     std::fflush(stdout);
     run.generate(amount_.number());
     run.finish();
     fmt::print("\n{}\n", run.table());
     if (by_class_) fmt::print("{}\n", run.table_by_class());
-    fmt::print("{}{}\n", run.worst_findings(), run.summary());
+    fmt::print("{}{}{}\n", run.touches_text(), run.worst_findings(), run.summary());
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return run.exit_code();
   }

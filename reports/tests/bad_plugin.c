@@ -3,6 +3,20 @@
 
 #include "impl/plugin/nearmiss_plugin.h"
 
+#ifdef SETS_MODES
+#include <fenv.h>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+/* As a library does that is linked with -ffast-math, and one that wants intervals. */
+__attribute__((constructor)) static void set_modes(void) {
+  fesetround(FE_UPWARD);
+#ifdef __SSE2__
+  _mm_setcsr(_mm_getcsr() | 0x8040u); /* flush to zero, denormals are zero */
+#endif
+}
+#endif
+
 /* The first input decides: an abort, an endless loop (for what is far away, too), an unknown return value, an answer. */
 static int misbehave(const double *inputs, nearmiss_answer *answer) {
   const double x = inputs[0];
@@ -11,6 +25,9 @@ static int misbehave(const double *inputs, nearmiss_answer *answer) {
   }
   if (x == 3) return 7;
   answer->yes = 0;
+#ifdef SETS_MODES
+  answer->yes = fegetround() == FE_UPWARD;
+#endif
   return NEARMISS_ANSWERED;
 }
 
@@ -45,7 +62,15 @@ static const nearmiss_contract contract = {1, 1, 1, 0, 20, -20};
 #define CONTRACT NULL
 #endif
 
-static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, CONTRACT, misbehave}};
+#ifdef UNKNOWN_NEED
+#define NEEDS (NEARMISS_NO_ZERO_SIZES | 1u << 31)
+#elif defined(NEEDS_SIZES)
+#define NEEDS NEARMISS_NO_ZERO_SIZES
+#else
+#define NEEDS 0
+#endif
+
+static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, CONTRACT, misbehave, NEEDS}};
 static const nearmiss_plugin plugin = {VERSION, NAME, "1", NEARMISS_DOUBLE, 1, offers};
 
 #ifdef NO_ENTRY

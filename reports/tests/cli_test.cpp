@@ -223,7 +223,7 @@ TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
   EXPECT_EQ(index["state"], "failed");
   EXPECT_GT(index["cases"], 0) << "the index could be written once more";
 
-  const Ran many = run_with_small_files(folder / "many", "16", "-n 500");  // the index itself becomes too large
+  const Ran many = run_with_small_files(folder / "many", "20", "-n 500");  // the index itself becomes too large
   EXPECT_EQ(many.exit_code, 2);
   EXPECT_NE(many.err.find("/index.json: cannot be written: File too large; "), std::string::npos) << many.err;
   index = index_of(folder / "many");
@@ -288,6 +288,29 @@ TEST(Run, TakesAFolderWhoseNameIsNoUtf8) {
   EXPECT_EQ(complaints(index_of(out), "run.schema.json"), "");
 }
 
+/// FCL's distance of boxes aborts at several lines.
+TEST(Run, CountsAndKeepsBreakagesByReason) {
+  if (!has_fcl()) GTEST_SKIP() << "FCL is not part of this build";
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "-s", "fcl-distance-indep", "-q", "box_box_penetration", "-n", "4000", "--seed", "1", "--out",
+                            (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const json index = index_of(folder / "r"), tally = index["tallies"][0];
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  ASSERT_GT(tally["breakages"].size(), 1u) << tally;
+  std::uint64_t broke = 0;
+  for (const auto& [reason, count] : tally["breakages"].items()) {
+    broke += count.get<std::uint64_t>();
+    const auto kept = std::count_if(index["reports"].begin(), index["reports"].end(),
+                                    [&](const json& r) { return r["breakage"] == reason; });
+    EXPECT_EQ(std::uint64_t(kept), std::min<std::uint64_t>(count.get<std::uint64_t>(), 8)) << reason;
+    EXPECT_NE(ran.out.find(reason), std::string::npos) << ran.out;
+    EXPECT_NE(reason.find(" at distance-inl.h:"), std::string::npos);
+  }
+  EXPECT_EQ(tally["verdicts"]["broke"], broke);
+  EXPECT_NE(last_line(ran.out).find(std::to_string(tally["breakages"].size()) + " kinds"), std::string::npos) << ran.out;
+}
+
 TEST(Run, ReportsTheTunnellingOfFcl) {
   if (!has_fcl()) GTEST_SKIP() << "FCL is not part of this build";
   const TemporaryFolder folder;
@@ -322,7 +345,9 @@ TEST(Run, MeasuresThoseThatPromiseNothing) {
   std::vector<std::string> arguments{"run", "-s", "bullet", "-q", "moving_point_capsule", "-q", "moving_point_box", "-n",
                                      "300", "--seed", "1", "--out", (folder / "r").string()};
   const Ran own = nearmiss(arguments);
-  EXPECT_EQ(own.exit_code, 0) << own.out << own.err;
+  EXPECT_EQ(own.exit_code, 1) << own.out << own.err;
+  EXPECT_NE(own.out.find("\nmeasure 0.0001: subjects that promise nothing are counted"), std::string::npos) << own.out;
+  const json usual = index_of(folder / "r");
   arguments.insert(arguments.end(), {"--measure", "1e-6", "--by-class"});
   const Ran measured = nearmiss(arguments);
   EXPECT_EQ(measured.exit_code, 1) << measured.err;
@@ -330,8 +355,21 @@ TEST(Run, MeasuresThoseThatPromiseNothing) {
   EXPECT_NE(measured.out.find("  small-lattice "), std::string::npos) << measured.out;
   const json index = index_of(folder / "r");
   std::uint64_t bad = 0;
-  for (const json& t : index["tallies"]) bad += t["verdicts"]["violates contract"].get<std::uint64_t>();
+  for (std::size_t i = 0; i < index["tallies"].size(); ++i) {
+    const auto beyond = [i](const json& j) {
+      return j["tallies"][i]["verdicts"]["differs by more than the measure"].get<std::uint64_t>();
+    };
+    EXPECT_GE(beyond(index), beyond(usual)) << "a smaller measure";
+    EXPECT_EQ(index["tallies"][i]["verdicts"]["violates contract"], 0);
+    bad += beyond(index);
+  }
   EXPECT_GT(bad, 0u);
+  for (const json& listed : index["reports"]) {  // a report is judged again by the measure that found it
+    const Ran again = nearmiss({"replay", "-s", "bullet", (folder / "r" / listed["file"].get<std::string>()).string()});
+    EXPECT_EQ(again.exit_code, 1) << again.out;
+    EXPECT_EQ(again.out.find("out of domain"), std::string::npos) << again.out;
+    break;
+  }
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
   std::uint64_t bad_scenes = 0;
   for (const json& c : index["by_class"]) {

@@ -79,6 +79,34 @@ TEST(Plugin, CostsOneCaseWhateverItDoes) {
   }
 }
 
+/// Of subjects of this build.
+json tallies_beside(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "run");
+  const TemporaryFolder folder;
+  for (const char* more : {"-s", "collide-certified-float", "-s", "collide-certified-double", "-s", "collide-fast-float",
+                           "--cases", "400", "--seed", "3", "--out"}) {
+    arguments.emplace_back(more);
+  }
+  arguments.push_back((folder / "r").string());
+  const Ran ran = nearmiss(arguments);
+  EXPECT_LE(ran.exit_code, 1) << ran.err;
+  return json::parse(read_file(folder / "r" / "index.json")).at("tallies");
+}
+
+/// It flushes subnormal numbers to zero and rounds upward as soon as it is loaded.
+TEST(Plugin, KeepsItsModesOfArithmeticToItself) {
+  const json alone = tallies_beside({});
+  EXPECT_EQ(tallies_beside({"--plugin", plugin("sets_modes")}), alone);
+  EXPECT_GT(alone.size(), 100u);
+}
+
+TEST(Plugin, IsAskedInTheModesThatItSets) {
+  const Ran ran = nearmiss({"replay", "--plugin", plugin("sets_modes"), "--subject", "misbehaves", "--json",
+                            NEARMISS_SOURCE_FOLDER "/corpus/seeds/sphere_sphere_overlap/overlap.json"});
+  ASSERT_LE(ran.exit_code, 1) << ran.err;
+  EXPECT_EQ(json::parse(ran.out).at(0).at("answer").at("yes"), true) << ran.out;
+}
+
 struct Refused {
   const char *name, *says;
 };
@@ -99,12 +127,13 @@ INSTANTIATE_TEST_SUITE_P(Faults, BadPluginFile,
                          testing::Values(Refused{"nowhere", "there is no such file"},
                                          Refused{"not_a_library", "it cannot be loaded"},
                                          Refused{"no_entry", "no function nearmiss_plugin_entry"},
-                                         Refused{"other_version", "made for version 2"},
+                                         Refused{"other_version", "made for version 3"},
                                          Refused{"miscounts", "sphere_sphere_overlap has 8 inputs"},
                                          Refused{"unknown_query", "'sphere_sphere_overlaps'"},
                                          Refused{"taken_name", "there is a subject 'collide-fast-double' already"},
                                          Refused{"contract_below_zero", "none may be below 0"},
                                          Refused{"contract_upside_down", "lowest 20 above highest -20"},
+                                         Refused{"unknown_need", "requires 0x80000000 for sphere_sphere_overlap"},
                                          Refused{"crashes", "loading it crashes"}),
                          [](const auto& test) { return std::string(test.param.name); });
 

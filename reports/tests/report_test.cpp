@@ -50,6 +50,12 @@ Case overlap(double x) {
           0,
           {}};
 }
+/// A ball of radius 1 that overlaps the unit box around 0, and moves on into it.
+Case overlapping() {
+  Case c = flight(0);
+  c.values[0] = -1.5;
+  return c;
+}
 Case nearest() {
   return {find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 4, 0, 0, 1, 2, 0}, "test", 0, 0, {}};
 }
@@ -63,6 +69,18 @@ Answer answer(bool yes, std::initializer_list<double> values) {
 Answer miss() { return answer(false, {infinity, 0, 0, 0, 0, 0, 0}); }
 Answer hit(double time, double y = 0, double normal_x = -1, double normal_y = 0) {
   return answer(true, {time, -1, y, 0, normal_x, normal_y, 0});
+}
+
+/// Of a ball that stands still, by a subject that requires a motion.
+Report unasked_report() {
+  Case still = flight(9);
+  std::fill_n(still.values.begin() + 4, 3, 0.0);
+  Subject s = stooge(still.query->name, strict);
+  s.offerings.front().required = {Precondition::moves};
+  Workers workers;
+  Report r = examine(still, s, miss(), workers);
+  r.replay = "nearmiss replay report.json";
+  return r;
 }
 
 Report report(const Case& question, const Answer& given, const collide::Contract& contract = strict) {
@@ -125,16 +143,17 @@ void PrintTo(const Expectation& e, std::ostream* out) { *out << e.name; }
 
 const Expectation expectations[] = {
     {"agrees", [] { return report(flight(0), hit(4)); }, Verdict::agrees, Disagreement::none,
-     "stooge agrees with the exact answer. Exactly, they touch at time 4."},
+     "stooge agrees with the exact answer. Exactly, it is a hit at time 4."},
     {"agrees_on_a_miss", [] { return report(flight(5), miss()); }, Verdict::agrees, Disagreement::none,
-     "Exactly, they never touch."},
+     "Exactly, it is a miss."},
     {"false_miss", [] { return report(flight(0), miss()); }, Verdict::violates_contract, Disagreement::false_miss,
-     "stooge says that the sphere never touches the box. Exactly, they touch at time 4. Even if every input number "
+     "stooge says that the sphere does not hit the box. Exactly, it is a hit at time 4. Even if every input number "
      "were moved by up to"},
     {"false_hit", [] { return report(flight(5), hit(4)); }, Verdict::violates_contract, Disagreement::false_hit,
-     "stooge says that the sphere touches the box at time 4. Exactly, they never touch."},
+     "stooge says that the sphere hits the box at time 4. Exactly, it is a miss."},
     {"wrong_time", [] { return report(flight(0), hit(4.5)); }, Verdict::violates_contract, Disagreement::wrong_time,
-     "stooge gives time 4.5. Exactly, it is 4: time is off by 0.5"},
+     "stooge gives time 4.5. Exactly, it is 4: time is off by 0.5 (in which the motion covers 1, 0.1 of the largest "
+     "position or size)"},
     {"wrong_place", [] { return report(flight(0), hit(4, 0.5)); }, Verdict::violates_contract,
      Disagreement::wrong_place,
      "stooge gives location (-1, 0.5, 0). Exactly, it is (-1, 0, 0): location.y is off by 0.5"},
@@ -153,7 +172,7 @@ const Expectation expectations[] = {
      [] {
        return report(nearest(), answer(true, {1, 0x1p-40, 0}), {.backward = 0x1p14});
      },
-     Verdict::within_contract, Disagreement::wrong_place, "Its contract allows that."},
+     Verdict::not_proved, Disagreement::wrong_place, "It is not proved to differ by more than it promises."},
     {"off_in_a_contract_of_ulps",
      [] {
        return report(nearest(), answer(true, {1, 0x1p-40, 0}), {.forward = 2});
@@ -223,17 +242,72 @@ const Expectation expectations[] = {
      },
      Verdict::violates_contract, Disagreement::wrong_index, "stooge gives edge 1. Exactly, it is 0"},
     {"not_finite", [] { return report(flight(0), hit(4, std::nan(""))); }, Verdict::violates_contract,
-     Disagreement::not_finite, "stooge answers, but location.y is nan. Exactly, they touch at time 4."},
+     Disagreement::not_finite, "stooge answers, but location.y is nan. Exactly, it is a hit at time 4."},
     {"not_unit", [] { return report(flight(0), hit(4, 0, -1.25)); }, Verdict::violates_contract, Disagreement::not_unit,
      "stooge gives a normal of length 1.25"},
-    {"within_contract", [] { return report(flight(0), hit(4.5), {}); }, Verdict::within_contract,
-     Disagreement::wrong_time, "It promises nothing that this would break."},
-    {"out_of_domain", [] { return report(flight(0), miss(), {.lowest = 10, .highest = 20}); }, Verdict::out_of_domain,
+    {"negative_time", [] { return report(overlapping(), hit(-1.5e-8)); }, Verdict::violates_contract,
+     Disagreement::negative_time,
+     "stooge gives time -1.5e-08. Exactly, it is 0: time is off by 1.5e-08 (in which the motion covers 3e-08, 2e-08 of "
+     "the largest position or size)"},
+    {"wrong_combination",
+     [] {
+       return report(overlap(0), answer(true, {2, 1, 0, 0, 0, 1, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_combination,
+     "stooge gives members each of which may be right, but no right answer has them together"},
+    {"exceeds_the_measure", [] { return report(flight(0), hit(4.5), {}); }, Verdict::exceeds_measure,
+     Disagreement::wrong_time, "It promises nothing; the measure is a backward error of at most 0.0001 times the largest number in each group."},
+    {"below_the_measure", [] { return report(flight(0), hit(4.00001), {}); }, Verdict::not_proved,
+     Disagreement::wrong_time, "It promises nothing, and is not proved to differ by more than the measure."},
+    {"all_wrong_members", [] { return report(flight(0), hit(4.5, 0.25, 0, 1)); }, Verdict::violates_contract,
+     Disagreement::wrong_normal,
+     "It also gives a wrong time, by more than 2^47 epsilon and gives a wrong location, by more than 2^45 epsilon"},
+    {"a_leaving_touch",
+     [] {
+       Case c = flight(0);
+       c.values[0] = -2, c.values[4] = -2;
+       return report(c, hit(0));
+     },
+     Verdict::violates_contract, Disagreement::false_hit, "Exactly, it is a miss."},
+    {"a_point_that_starts_inside",
+     [] {
+       Case c = flight(0);
+       c.values[0] = 0, c.values[3] = 0;
+       return report(c, hit(0));
+     },
+     Verdict::violates_contract, Disagreement::false_hit, "Exactly, it is a miss."},
+    {"parallel_axes",
+     [] {
+       const Case c{find_query("box_box_parallel_axis"),
+                    Scalar::float64,
+                    {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 5, 0, 0, 1, 1, 1, 0, 0, 0, 1, 0x1p-10},
+                    "test",
+                    0,
+                    0,
+                    {}};
+       return report(c, answer(false, {-1, -1}));
+     },
+     Verdict::violates_contract, Disagreement::false_miss,
+     "stooge says that no axis of box 1 is parallel to one of box 2. Exactly, the answer is yes."},
+    {"a_zero_with_a_sign",
+     [] {
+       return report(overlap(1.5), answer(true, {-0.0, -1, 0, 0, 1, 0, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_depth, "stooge gives depth 0. Exactly, it is 0.5"},
+    {"the_nearest_of_several",
+     [] {
+       return report(overlap(0), answer(true, {2, 0, 1, 0, 0, 1.5, 0}));
+     },
+     Verdict::violates_contract, Disagreement::off_surface,
+     "The nearest exact answer is (0, 1, 0): contact.y is off by 0.5"},
+    {"out_of_domain", [] { return report(flight(0), miss(), {.backward = 4, .lowest = 10, .highest = 20}); }, Verdict::out_of_domain,
      Disagreement::none, "stooge promises nothing for numbers of this size."},
     {"cannot_answer", [] { return report(flight(0), Answer::without(Answer::Status::cannot_answer, "too fast")); },
      Verdict::cannot_answer, Disagreement::none, "stooge says that it cannot answer this case: too fast."},
     {"broke", [] { return report(flight(0), Answer::without(Answer::Status::broke, "no answer within 2 s")); },
-     Verdict::broke, Disagreement::none, "stooge gave no answer: no answer within 2 s. Exactly, they touch at time 4."},
+     Verdict::broke, Disagreement::none, "stooge gave no answer: no answer within 2 s. Exactly, it is a hit at time 4."},
+    {"not_asked", unasked_report, Verdict::not_asked, Disagreement::none,
+     "stooge is not asked: it requires a velocity that is not zero. Exactly, "},
 };
 
 class EveryKind : public testing::TestWithParam<Expectation> {};
@@ -265,6 +339,34 @@ TEST(Report, CoversEveryVerdictAndDisagreement) {
       return int(e.disagreement) == d;
     })) << name_of(Disagreement(d));
   }
+}
+
+/// A right answer is listed once, however many branches of the oracle meet it.
+TEST(Report, ListsARightAnswerOnce) {
+  for (const Case& c : {flight(0), overlapping(), overlap(0), overlap(1.5), nearest()}) {
+    const std::vector<Alternative> all = truth_of(c).alternatives;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(all[i] == all[k]) << c.query->name;
+    }
+  }
+}
+
+TEST(Report, SaysOfEachMemberWhatIsProved) {
+  const auto j = report_to_json(report(flight(0), hit(4.5, 0.25)));
+  const auto& members = j["finding"]["members"];
+  ASSERT_EQ(members.size(), 2u);
+  EXPECT_EQ(members[0]["member"], "time");
+  EXPECT_EQ(members[0]["forward"]["absolute"], 0.5);
+  EXPECT_EQ(members[1]["member"], "location");
+  EXPECT_EQ(members[1]["forward"]["field"], "location.y");
+  EXPECT_TRUE(members[1]["backward"]["moved"].contains("position"));
+  EXPECT_EQ(j["measure"], nullptr);
+}
+
+TEST(Report, NamesTheMeasureThatItsSubjectIsHeldTo) {
+  const auto j = report_to_json(report(flight(0), hit(4.5), {}));
+  EXPECT_EQ(j["measure"]["error"], Measure::usual);
+  EXPECT_EQ(complaints(nlohmann::json::parse(j.dump()), "report.schema.json"), "");
 }
 
 TEST(Report, GivesAMissNoTime) {
@@ -314,7 +416,7 @@ TEST(ReportSchema, RejectsBrokenDocuments) {
     EXPECT_NE(complaints(broken, "report.schema.json"), "") << pointer << " = " << value;
   };
   reject("/surplus", 1);
-  reject("/schema", 2);
+  reject("/schema", 3);
   reject("/id", "2f53d141f79");
   reject("/answer/values/time", nullptr);
   reject("/answer/values/time", "infinite");

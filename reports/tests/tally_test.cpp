@@ -1,6 +1,7 @@
 /// What is counted, what is kept, and how numbers are told.
 #include <gtest/gtest.h>
 
+#include "reports/breakage.hpp"
 #include "reports/tally.hpp"
 #include "reports/text.hpp"
 
@@ -26,6 +27,46 @@ TEST(Tally, NeverAddsFalseHitsToFalseMisses) {
   EXPECT_EQ(t.violations[std::size_t(Disagreement::false_miss)], 5u);
   EXPECT_EQ(t.of(Verdict::violates_contract), 8u);
   EXPECT_EQ(t.worst_backward, 16);
+}
+
+MemberFinding breaking(Disagreement d, int member, double above) {
+  MemberFinding m;
+  m.member = member;
+  m.disagreement = d;
+  m.backward = Backward{above};
+  m.clause = "backward error at most 8 epsilon";
+  return m;
+}
+
+/// An answer with a wrong time and a wrong normal; the normal is the headline.
+Finding two_violations(double above_of_time) {
+  Finding f = violation(Disagreement::wrong_normal, 1024);
+  f.members = {breaking(Disagreement::wrong_time, 0, above_of_time), breaking(Disagreement::wrong_normal, 2, 1024)};
+  f.headline = 1;
+  return f;
+}
+
+TEST(Tally, CountsByMember) {
+  const Subject s{"s", "", Scalar::float64, false, {}};
+  Tally t = tally_of(s);
+  t.count(two_violations(16));
+  EXPECT_EQ(t.violations[std::size_t(Disagreement::wrong_time)], 1u);
+  EXPECT_EQ(t.violations[std::size_t(Disagreement::wrong_normal)], 1u);
+  EXPECT_EQ(t.wrong, 1u);
+  EXPECT_EQ(t.bad(), 1u);
+}
+
+TEST(Keeper, KeepsAFaultThatACommonerOneHides) {
+  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Tally t = tally_of(s);
+  Keeper keeper;
+  for (std::uint64_t i = 0; i < 3 * Keeper::first_few; ++i) keeper.keep(t, violation(Disagreement::wrong_normal, 1024));
+  Finding normal_alone = two_violations(16);
+  normal_alone.members.erase(normal_alone.members.begin());
+  normal_alone.headline = 0;
+  for (std::uint64_t i = 0; i < Keeper::first_few; ++i) EXPECT_TRUE(keeper.keep(t, normal_alone));
+  EXPECT_FALSE(keeper.keep(t, normal_alone));
+  EXPECT_TRUE(keeper.keep(t, two_violations(16)));
 }
 
 TEST(Tally, CountsTruthOnlyWhereItWasAskedFor) {
@@ -59,14 +100,61 @@ TEST(Keeper, KeepsTheFirstFewThenOnlyTheMuchWorse) {
   EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_miss, 0))) << "another fault has its own first few";
 }
 
-TEST(Keeper, KeepsOnlyTheFirstFewThatBroke) {
+Finding breakage(const std::string& reason) {
+  Finding f;
+  f.verdict = Verdict::broke;
+  f.clause = reason;
+  return f;
+}
+
+std::string assertion(int line) {
+  return "killed by signal 6 (Aborted): nearmiss: ./include/gjk-inl.h:" + std::to_string(line) + ": int f(): Assertion `";
+}
+
+TEST(Keeper, KeepsTheFirstFewOfEachReasonToBreak) {
   const Subject s{"s", "", Scalar::float64, false, {}};
-  const Tally t = tally_of(s);
-  Finding broke;
-  broke.verdict = Verdict::broke;
+  Tally t = tally_of(s);
   Keeper keeper;
-  for (std::uint64_t i = 0; i < Keeper::first_few; ++i) EXPECT_TRUE(keeper.keep(t, broke));
-  EXPECT_FALSE(keeper.keep(t, broke));
+  const auto keeps = [&](const std::string& reason) {
+    t.count(breakage(reason));
+    return keeper.keep(t, breakage(reason));
+  };
+  for (std::uint64_t i = 0; i < Keeper::first_few; ++i) EXPECT_TRUE(keeps(assertion(1643)));
+  EXPECT_FALSE(keeps(assertion(1643)));
+  EXPECT_TRUE(keeps(assertion(1644))) << "a rarer one is not hidden by the commonest";
+  EXPECT_TRUE(keeps("exception: no root between 0.25 and 3"));
+  EXPECT_EQ(t.breakages.at("killed by signal 6 (Aborted) at gjk-inl.h:1643"), Keeper::first_few + 1);
+  EXPECT_EQ(t.breakages.at("killed by signal 6 (Aborted) at gjk-inl.h:1644"), 1u);
+  EXPECT_EQ(t.breakages.at("exception: no root between N and N"), 1u);
+}
+
+TEST(Tally, KnowsSoManyReasonsAndNoMore) {
+  const Subject s{"s", "", Scalar::float64, false, {}};
+  Tally t = tally_of(s);
+  for (int line = 0; line < 100; ++line) t.count(breakage(assertion(line)));
+  t.count(breakage(assertion(0)));
+  EXPECT_EQ(t.breakages.size(), Tally::most_kinds + 1);
+  EXPECT_EQ(t.breakages.at(Tally::other_kind), 100 - Tally::most_kinds);
+  EXPECT_EQ(t.breakages.at("killed by signal 6 (Aborted) at gjk-inl.h:0"), 2u);
+}
+
+TEST(Breakage, IsToldByItsReason) {
+  const auto kind = kind_of_breakage;
+  EXPECT_EQ(kind("killed by signal 11 (Segmentation fault)"), "killed by signal 11 (Segmentation fault)");
+  EXPECT_EQ(kind("no answer within 2.000 s"), "no answer in time");
+  EXPECT_EQ(kind("no answer within 0.500 s"), "no answer in time");
+  EXPECT_EQ(kind("memory limit reached"), "memory limit reached");
+  EXPECT_EQ(kind("left with exit code 3"), "left with exit code 3");
+  EXPECT_EQ(kind("killed by signal 6 (Aborted): nearmiss: ./include/fcl/narrowphase/distance-inl.h:163: typename"),
+            "killed by signal 6 (Aborted) at distance-inl.h:163");
+  EXPECT_EQ(kind("killed by signal 6 (Aborted): ODE INTERNAL ERROR 1: assertion \"!bad\" failed in f() [odemath.h:41]"),
+            "killed by signal 6 (Aborted) at odemath.h:41");
+  EXPECT_EQ(kind("exception: /usr/include/fcl/gjk_libccd-inl.h:(1643): supportEPADirection(): at (0.25, -1e-17)"),
+            "exception at gjk_libccd-inl.h:1643");
+  EXPECT_EQ(kind("exception: no root in [-1.5e-300, +nan] of vec3, see 12:30, 0x1fp-3 or -inf"),
+            "exception: no root in [N, N] of vec3, see N:N, N or N");
+  EXPECT_EQ(kind("exception: " + std::string(300, 'x')).size(), 80u);
+  EXPECT_EQ(kind(""), "no reason given");
 }
 
 TEST(Text, ShowsTheShortestDecimalWithinTightBounds) {

@@ -48,21 +48,74 @@ struct StageCounts {
 
 namespace detail {
 
-/// Whether any operation since the construction overflowed or underflowed: then the bounds mean nothing.
+// A compiler knows nothing of the machine's flags and moves arithmetic past their clearing and reading, unless it must
+// have the operands again after the one and the results before the other.
+
+/// The compiler cannot know the numbers of `x` from before.
+template <class X>
+void forget(const X& x) noexcept {
+#if defined(__GNUC__)
+  asm volatile("" : : "r"(&x) : "memory");
+#else
+  static_cast<void>(*reinterpret_cast<const volatile char*>(&x));
+#endif
+}
+
+/// `x`, and whatever is in memory, is computed before what follows.
+inline void settle(double x) noexcept {
+#if defined(__GNUC__) && defined(__SSE2__)
+  asm volatile("" : : "x"(x) : "memory");
+#elif defined(__GNUC__)
+  asm volatile("" : : "m"(x) : "memory");
+#else
+  const volatile double settled = x;
+  static_cast<void>(settled);
+#endif
+}
+inline void settle(const DoubleWord<double>& x) noexcept { settle(x.high), settle(x.low); }
+inline void settle(int x) noexcept {
+#if defined(__GNUC__)
+  asm volatile("" : : "r"(x) : "memory");
+#else
+  const volatile int settled = x;
+  static_cast<void>(settled);
+#endif
+}
+
+/// Whether any operation from the construction up to the answer overflowed or underflowed: then the bounds mean nothing.
 class RangeFlags {
  public:
+  template <class... Args>
+  explicit RangeFlags(const Args&... args) noexcept {
+    clear();
+    (forget(args), ...);
+  }
+  template <class A>
+  bool raised_for(const A& answer) const noexcept {
+    if constexpr (requires { A::decision(); }) settle(int(answer.*A::decision()));
+    for_each_leaf(answer, [](const auto& leaf, Role) {
+      if constexpr (requires { leaf.error; }) {
+        settle(leaf.value), settle(leaf.error);
+      } else if constexpr (std::same_as<std::remove_cvref_t<decltype(leaf)>, double>) {
+        settle(leaf);
+      } else {
+        settle(int(leaf));
+      }
+    });
+    return raised();
+  }
+
+ private:
 #if defined(__SSE2__)
-  RangeFlags() noexcept {
+  static constexpr unsigned mask = 0x08 | 0x10;  // overflow, underflow
+  static void clear() noexcept {
     const unsigned state = _mm_getcsr();
     if ((state & mask) != 0) _mm_setcsr(state & ~mask);
   }
-  bool raised() const noexcept { return (_mm_getcsr() & mask) != 0; }
-
- private:
-  static constexpr unsigned mask = 0x08 | 0x10;  // overflow, underflow
+  static bool raised() noexcept { return (_mm_getcsr() & mask) != 0; }
 #else
-  RangeFlags() noexcept { std::feclearexcept(FE_OVERFLOW | FE_UNDERFLOW); }
-  bool raised() const noexcept { return std::fetestexcept(FE_OVERFLOW | FE_UNDERFLOW) != 0; }
+  static void clear() noexcept { std::feclearexcept(FE_OVERFLOW | FE_UNDERFLOW); }
+  static bool raised() noexcept { return std::fetestexcept(FE_OVERFLOW | FE_UNDERFLOW) != 0; }
 #endif
 };
 
@@ -246,27 +299,27 @@ struct Certified : Plain {
   template <class T, class F, class... Args>
   COLLIDE_IN_ONE_PIECE static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
     using N = Bounded<T>;
-    const detail::RangeFlags range;
+    const detail::RangeFlags range(args...);
     Doubt::any = false;
     auto wide = text(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
-    if (Doubt::any || range.raised()) return false;
+    const bool yes = wide.yes();
+    if (range.raised_for(wide) || Doubt::any) return false;
     const detail::Known known = detail::known<T>(wide);
     if (known == detail::Known::now) {
       convert(wide, answer, [](const N& from, T& to) { to = T(from.value); });
-      keep_apart(wide.yes(), answer);
+      keep_apart(yes, answer);
       return true;
     }
     if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
       if constexpr (detail::has_long_double) {
         if (known == detail::Known::in_long_double) {
-          in_long_double<T>(wide.yes(), answer, text, args...);
+          in_long_double<T>(yes, answer, text, args...);
           return true;
         }
       }
       if (known == detail::Known::in_double_words) {
-        in_double_words<T>(wide.yes(), answer, text, args...);
-        return !range.raised();
+        return in_double_words<T>(yes, answer, text, args...);
       }
     }
     return false;
@@ -277,8 +330,10 @@ struct Certified : Plain {
     longer<T, detail::Longer<T, long double>>(yes, answer, text, args...);
   }
   template <class T, class F, class... Args>
-  [[gnu::noinline]] static void in_double_words(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+  [[gnu::noinline]] static bool in_double_words(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+    const detail::RangeFlags range(args...);
     longer<T, detail::Longer<T, DoubleWord<double>>>(yes, answer, text, args...);
+    return !range.raised_for(answer);
   }
   template <class T, class N, class F, class... Args>
   static void longer(bool yes, auto& answer, F& text, const Args&... args) noexcept {
@@ -290,13 +345,14 @@ struct Certified : Plain {
   template <class T, class F, class... Args>
   [[gnu::noinline]] static bool extended(auto& answer, F& text, const Args&... args) noexcept {
     using N = WideBounded<T>;
-    const detail::RangeFlags range;
+    const detail::RangeFlags range(args...);
     Doubt::any = false;
     auto wide = text(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
-    if (Doubt::any || range.raised() || detail::known<T>(wide) != detail::Known::now) return false;
+    const bool yes = wide.yes();
+    if (range.raised_for(wide) || Doubt::any || detail::known<T>(wide) != detail::Known::now) return false;
     convert(wide, answer, [](const N& from, T& to) { to = T(from.value.high); });
-    keep_apart(wide.yes(), answer);
+    keep_apart(yes, answer);
     return true;
   }
 

@@ -62,11 +62,30 @@ Vec3<T> perpendicular(const Vec3<T>& u) noexcept {
   return unit<Tier>(across);
 }
 
-/// `away` as a unit vector; where it is zero, a unit vector at a right angle to the unit vector `axis`.
+/// n or, where it leads along the motion, -n.
 template <class Tier, class T>
-Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& axis = {}) noexcept {
+Vec3<T> turned_against(const Vec3<T>& n, const Vec3<T>& velocity) noexcept {
+  return Tier::dot(n, velocity) > T(0) ? -n : n;
+}
+
+/// A unit vector at a right angle to the unit vector `axis`, or any where that is zero, that does not lead along the motion.
+template <class Tier, class T>
+Vec3<T> perpendicular_against(const Vec3<T>& axis, const Vec3<T>& velocity) noexcept {
+  return turned_against<Tier>(perpendicular<Tier>(axis), velocity);
+}
+
+/// The unit vector against the motion; any where nothing moves.
+template <class Tier, class T>
+Vec3<T> against(const Vec3<T>& velocity) noexcept {
+  const Vec3<T> n = unit<Tier>(Vec3<T>{} - velocity);
+  return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
+}
+
+/// `away` as a unit vector; where it is zero, a unit vector that does not lead along the motion.
+template <class Tier, class T>
+Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) noexcept {
   const Vec3<T> n = unit<Tier>(away);
-  return Tier::dot(n, n) > T(0) ? n : perpendicular<Tier>(axis);
+  return Tier::dot(n, n) > T(0) ? n : against<Tier>(velocity);
 }
 
 /// The time at which a point outside a ball, `from` away from its center, comes to its surface; negative

@@ -3,8 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/enter_box.hpp>
-#include <collide/frame.hpp>
+#include <collide/point_enters_box.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -26,26 +25,7 @@ Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const 
     return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); },
                       point, velocity, box);
   }
-  using std::abs;
-  const Axes<T> axes = axes_of(box.orientation);
-  const std::array<T, 3> half = components(box.half), low = components(-box.half);
-  const std::array<T, 3> at = into_frame<Tier>(axes, point - box.center), step = into_frame<Tier>(axes, velocity);
-  const auto contact = [&](const T& time, const std::array<T, 3>& where, int axis, const T& side) -> Impact<T> {
-    if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-    return {time, box.center + out_of_frame(axes, where), axes[axis] * side};
-  };
-  bool outside = false;
-  for (int i = 0; i < 3; ++i) outside = outside || abs(at[i]) > half[i];
-  if (!outside) {
-    for (int i = 0; i < 3; ++i) {
-      if (at[i] == half[i] && step[i] <= T(0)) return contact(T(0), at, i, T(1));
-      if (at[i] == low[i] && step[i] >= T(0)) return contact(T(0), at, i, T(-1));
-    }
-    return Impact<T>::miss();
-  }
-  const auto entry = detail::enter_box(at, step, low, half, [&](const T& gap, int i) -> T { return gap / step[i]; });
-  if (entry.axis < 0) return Impact<T>::miss();
-  return contact(entry.time, entry.at, entry.axis, entry.side);
+  return detail::point_enters_box<Tier>(point, velocity, box);
 }
 
 namespace inputs {

@@ -50,7 +50,7 @@ inline bool surely_enters_nowhere(const Vec3<double>& point, const Vec3<double>&
 /// a segment, all of it surface.
 ///
 /// 1. location == point + velocity * time (exactly, in real numbers), at the distance radius from the axis
-/// 2. normal points from the axis to location; for radius 0 it is at a right angle to the axis
+/// 2. normal points from the axis to location; for radius 0 it is at a right angle to the axis, and not along the motion
 ///
 /// Source: in the plane across the axis the endless tube is a circle; where the point enters it beyond an
 /// end, the ball around that end counts.

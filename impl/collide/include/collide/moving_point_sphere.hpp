@@ -17,7 +17,8 @@ namespace collide {
 /// start inside.
 ///
 /// 1. |location - center| == radius, but for a solid start inside
-/// 2. normal == (location - center) / |location - center|; any unit vector at the center
+/// 2. normal == (location - center) / |location - center|; at the center, of a solid or a sphere of radius 0, it is
+///    against the motion
 ///
 /// Source: the discriminant as the distance of the center from the line of motion (Haines, Guenther,
 /// Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, 2019).
@@ -36,7 +37,7 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   const Vec3<T> m = point - sphere.center;
   const T outside = Tier::beyond_radius(m, sphere.radius);
   const bool starts_in = outside <= T(0);
-  if (starts_in && solid) return detail::contact(T(0), point, detail::outward<Tier>(m));
+  if (starts_in && solid) return detail::contact(T(0), point, detail::outward<Tier>(m, velocity));
   const T speed2 = Tier::dot(velocity, velocity);
   if (!(speed2 > T(0))) return Impact<T>::miss();
   const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
@@ -49,7 +50,8 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   // square of the radius loses; this difference loses 1 eps of the way to the closest approach.
   const T time = not_negative(starts_in ? nearest + half_chord : nearest - half_chord);
   const Vec3<T> way = velocity * time;
-  return detail::contact(time, point + way, detail::outward<Tier>(m + way));
+  const Vec3<T> away = sphere.radius > T(0) ? m + way : Vec3<T>{};
+  return detail::contact(time, point + way, detail::outward<Tier>(away, velocity));
 }
 
 namespace inputs {

@@ -4,6 +4,7 @@
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
 #include <collide/frame.hpp>
+#include <collide/point_enters_box.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -82,6 +83,15 @@ struct PointPastBox {
     return not_negative(nearest - sqrt(chord2 / speed2));
   }
   bool inside() const noexcept { return !is_beyond(0) && !is_beyond(1) && !is_beyond(2); }
+  /// The face nearest to a point in the box; of those on which it lies, one that it does not leave.
+  NearestFace<T> nearest_face_met() const noexcept {
+    for (int i = 0; i < 3; ++i) {
+      for (const T side : {T(-1), T(1)}) {
+        if (at[i] == side * half[i] && side * step[i] <= T(0)) return {i, side, T(0)};
+      }
+    }
+    return nearest_face(at, half);
+  }
   /// True while the point comes no nearer: the distance is convex, so it never will.
   bool receding() const noexcept {
     T closing(0);
@@ -112,16 +122,17 @@ struct PointPastBox {
 /// box, the nearest point of its surface.
 ///
 /// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from location to the center, or outward for a center inside
+/// 2. normal points from location to the center, or outward for a center inside; for a center on the surface it is that
+///    of a face, and not along the motion unless that leaves the box
 ///
 /// Source: in the box's frame the squared distance of the center is a convex piecewise quadratic of
-/// time; its first root is found piece by piece (at most seven).
+/// time; its first root is found piece by piece (at most seven). A sphere of radius 0 is a point (moving_point_box).
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto by, const auto&... a) { return moving_sphere_box<decltype(by)>(a...); }, sphere, velocity, box);
   }
-  using std::sqrt, std::abs;
+  if (sphere.radius == T(0)) return detail::point_enters_box<Tier>(sphere.center, velocity, box);
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);
   detail::PointPastBox<Tier, T> path{into_frame<Tier>(axes, sphere.center - box.center),
@@ -134,44 +145,25 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
       away[i] = excess(path.at[i], half[i]);
     }
     if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
-      const NearestFace<T> at_face = nearest_face(path.at, half);
-      const int axis = face >= 0 ? face : at_face.axis;
-      const T side = face >= 0 ? (path.step[axis] > T(0) ? T(-1) : T(1)) : at_face.side;
+      const NearestFace<T> at_face =
+          face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)} : path.nearest_face_met();
       away = {};
-      away[axis] = side;
-      nearest[axis] = side * half[axis];
+      away[at_face.axis] = at_face.side;
+      nearest[at_face.axis] = at_face.side * half[at_face.axis];
     }
     const Vec3<T> outward = unit<Tier>(Vec3<T>{away[0], away[1], away[2]});
     return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, components(outward))};
   };
 
   T closing(0);
-  bool inside = true;
   std::array<T, 3> away;
   for (int i = 0; i < 3; ++i) {
     away[i] = excess(path.at[i], half[i]);
     closing -= away[i] * path.step[i];
-    inside = inside && abs(path.at[i]) < half[i];
   }
   const Vec3<T> from_box{away[0], away[1], away[2]};
-  const bool on_box = from_box == Vec3<T>{};
   const T outside = Tier::beyond_radius(from_box, sphere.radius);
   if (outside < T(0)) return contact(T(0), -1);
-  if (outside == T(0) && on_box) {  // a point on the surface or inside
-    if (inside) return Impact<T>::miss();
-    for (int i = 0; i < 3; ++i) {
-      for (const T side : {T(-1), T(1)}) {
-        if (path.at[i] == side * half[i] && side * path.step[i] <= T(0)) {
-          const int axis = i;
-          path.at[axis] = side * half[axis];
-          std::array<T, 3> normal{};
-          normal[axis] = side;
-          return {T(0), box.center + out_of_frame(axes, path.at), out_of_frame(axes, normal)};
-        }
-      }
-    }
-    return Impact<T>::miss();
-  }
   if (outside == T(0)) return closing >= T(0) ? contact(T(0), -1) : Impact<T>::miss();
   if (!(outside > T(0)) || !(closing > T(0))) return Impact<T>::miss();
 

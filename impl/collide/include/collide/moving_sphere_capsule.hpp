@@ -17,7 +17,8 @@ namespace collide {
 /// capsule, the nearest point of its surface.
 ///
 /// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from the capsule's axis to the center; for a center on the axis it is at a right angle to it
+/// 2. normal points from the capsule's axis to the center; for a center on the axis it is at a right angle to it, and
+///    not along the motion
 ///
 /// Source: the center meets a capsule with both radii. In the plane across the axis the endless tube is a
 /// circle; where the center enters it beyond an end, the ball around that end counts.

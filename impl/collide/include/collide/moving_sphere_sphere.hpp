@@ -16,7 +16,7 @@ namespace collide {
 /// Location is the point of the fixed sphere's surface nearest to the moving center at that time.
 ///
 /// 1. |location - fixed.center| == fixed.radius
-/// 2. normal points from the fixed center to the moving one; any unit vector where they are the same
+/// 2. normal points from the fixed center to the moving one; where they are the same it is against the motion
 ///
 /// Source: a point that meets a ball with both radii.
 template <class Tier = Fast, class T>
@@ -34,7 +34,8 @@ Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
   const T reach = sphere.radius + fixed.radius;
   const Vec3<T> from = sphere.center - fixed.center;
   const auto contact_at = [&](const T& time) {
-    const Vec3<T> normal = detail::outward<Tier>(from + velocity * time);
+    const Vec3<T> away = reach > T(0) ? from + velocity * time : Vec3<T>{};
+    const Vec3<T> normal = detail::outward<Tier>(away, velocity);
     return detail::contact(time, fixed.center + normal * fixed.radius, normal);
   };
   const T apart = Tier::beyond_radius(from, reach);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/contact.hpp>
 #include <collide/contract.hpp>
 #include <collide/edges.hpp>
 #include <collide/frame.hpp>
@@ -156,7 +157,7 @@ struct SpherePastTriangle {
   }
 
   /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
-  /// for a triangle without area, any at right angles to it.
+  /// for a triangle without area, any at right angles to it that does not lead along the motion.
   Vec3<T> normal_at(const TrianglePlace<T>& place, Vec3<T> away) const noexcept {
     if (place.feature == 0) return height < T(0) ? -unit<Tier>(n) : unit<Tier>(n);
     if (place.feature < 4) {  // what rounding left of a part along the edge counts where the rest is small
@@ -166,7 +167,7 @@ struct SpherePastTriangle {
     const bool apart = radius > T(0) && !(away == Vec3<T>{});
     if (apart) return unit<Tier>(away);
     if (n_length > T(0)) return unit<Tier>(n);
-    return across_longest_edge();
+    return turned_against<Tier>(across_longest_edge(), velocity);
   }
   /// A unit vector at right angles to a triangle without area.
   Vec3<T> across_longest_edge() const noexcept {
@@ -321,8 +322,10 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
                                                          const Triangle<T>& triangle, const Shared& shared) noexcept {
   using L = Lanes<T>;
   using limits = std::numeric_limits<T>;
-  // Of lengths: products of eight of them stay in range.
+  // Of lengths: products of eight of them stay in range. Of a normal, squared, in units of the edges' squares: below it is
+  // nothing but rounding.
   constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120), most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
+  constexpr T shortest = limits::epsilon() * limits::epsilon();
   constexpr T least2 = least * least, most2 = most * most, known = T(64) * limits::epsilon();
   const L center = lanes(sphere), along = lanes(velocity), zero = L::all(T(0));
   const CornerLanes<T> t = corner_lanes(triangle);
@@ -340,9 +343,13 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
     sums = sums_with(n);
   }
   const auto [receding, height, n2, speed2] = four(sums);
-  const bool in_range = n2 >= least2 * least2 && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
+  const T both2 = edge2.first() + edge2.template broadcast<2>().first();
+  const bool in_range = n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
   if (!in_range) return shared(sphere, velocity, triangle);
-  if (!(receding <= T(0) && (height >= T(0) || height * height <= radius2 * n2))) return TriangleImpact<T>::miss();
+  // Behind the plane: overlaps it, or touches it and does not leave.
+  const T height2 = height * height, reach2 = radius2 * n2;
+  const bool passes = height >= T(0) || height2 < reach2 || (height2 == reach2 && receding == T(0));
+  if (!(receding <= T(0) && passes)) return TriangleImpact<T>::miss();
   const T n_length = std::sqrt(n2), reach = radius * n_length;
   if (height > reach && receding == T(0)) return TriangleImpact<T>::miss();
 
@@ -406,7 +413,8 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
 /// nearest to the center at that time, `weights` are its barycentric coordinates.
 ///
 /// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from location to the center; where the center is on the triangle it is an outward one
+/// 2. normal points from location to the center; where the center is on the triangle it is an outward one, and not along
+///    the motion
 /// 3. location == weights.x v0 + weights.y v1 + weights.z v2, weights.x + weights.y + weights.z == 1
 ///
 /// Source: the points within the radius of a triangle are a prism over its face, a cylinder about each edge

@@ -23,12 +23,18 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
   const Vec3<T> beside = from_p0 - axis * along;
   /// At a point of the axis, with `away` from it to the center.
   const auto contact_at = [&](const T& time, const Vec3<T>& on_axis, const Vec3<T>& away) {
-    const Vec3<T> normal = reach > T(0) ? outward<Tier>(away, axis) : perpendicular<Tier>(axis);
+    Vec3<T> normal = reach > T(0) ? unit<Tier>(away) : Vec3<T>{};
+    if (!(Tier::dot(normal, normal) > T(0))) normal = perpendicular_against<Tier>(axis, velocity);
     return contact(time, on_axis + normal * capsule.radius, normal);
   };
-  /// The same between the ends, where `away` is at a right angle to the axis but for rounding.
+  /// The same between the ends, where `away` is at a right angle to the axis but for rounding: all of it is rounding where
+  /// more of it leads along the axis than aside.
   const auto contact_beside = [&](const T& time, const T& at, Vec3<T> away) {
-    if constexpr (MachineNumber<T>) away = away - axis * Tier::dot(axis, away);
+    if constexpr (MachineNumber<T>) {
+      const T rounding = Tier::dot(axis, away);
+      away = away - axis * rounding;
+      if (rounding * rounding > Tier::dot(away, away)) away = Vec3<T>{};
+    }
     const Vec3<T> on_axis = at + at <= length ? capsule.p0 + axis * at : capsule.p1 - axis * (length - at);
     return contact_at(time, on_axis, away);
   };

@@ -10,19 +10,21 @@
 
 namespace collide {
 
-/// A ray that is asked about many boxes; made by `prepare_ray`.
+/// A ray that is asked about many boxes; made by `prepare_ray`. One that is not finite starts at -infinity: it meets
+/// nothing.
 template <class T>
 struct PreparedRay {
   Ray<T> ray{};
-  Vec3<T> inverse{};  ///< 1 / direction in each coordinate, at most the largest number; NaN where the ray is not finite
+  Vec3<T> inverse{};  ///< 1 / direction in each coordinate, at most the largest number; +infinity for 0
 };
 
 template <class T>
 PreparedRay<T> prepare_ray(const Ray<T>& ray) noexcept {
   if constexpr (MachineNumber<T>) {
     using limits = std::numeric_limits<T>;
-    if (!all_finite(ray)) return {ray, {limits::quiet_NaN(), limits::quiet_NaN(), limits::quiet_NaN()}};
-    const auto inverse = [](T x) { return x == T(0) ? limits::max() : clamped(T(1) / x, -limits::max(), limits::max()); };
+    constexpr T infinity = limits::infinity();
+    if (!all_finite(ray)) return {{{-infinity, -infinity, -infinity}, {T(1), T(1), T(1)}}, {T(1), T(1), T(1)}};
+    const auto inverse = [](T x) { return x == T(0) ? infinity : clamped(T(1) / x, -limits::max(), limits::max()); };
     return {ray, {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)}};
   } else {
     const auto inverse = [](const T& x) { return x == T(0) ? T(0) : T(T(1) / x); };  // 0 is not used
@@ -33,14 +35,14 @@ PreparedRay<T> prepare_ray(const Ray<T>& ray) noexcept {
 /// A box that is asked about many rays; made by `prepare_aabox`.
 template <class T>
 struct PreparedAABox {
-  AABox<T> aabox{};  ///< its six numbers NaN where one of them is not finite: nothing meets it
+  AABox<T> aabox{};  ///< its six numbers +infinity where one of them is not finite: nothing meets it
 };
 
 template <class T>
 PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
   if constexpr (MachineNumber<T>) {
-    constexpr T no = std::numeric_limits<T>::quiet_NaN();
-    if (!all_finite(aabox)) return {{{no, no, no}, {no, no, no}}};
+    constexpr T infinity = std::numeric_limits<T>::infinity();
+    if (!all_finite(aabox)) return {{{infinity, infinity, infinity}, {infinity, infinity, infinity}}};
   }
   return {aabox};
 }
@@ -65,8 +67,9 @@ Lanes<double> three_of(const Prepared&, const Vec3<double>& other) noexcept { re
 template <class Prepared>
 Lanes<double> last_three_of(const Prepared&, const Vec3<double>& last) noexcept { return lanes(last); }
 
-/// The ray is in the box from the last entry of a pair of faces to the first exit. Along a pair that it is parallel to
-/// it moves so slowly, by 1 / max, that it comes in time to neither face, unless it starts there.
+/// The ray is in the box from the last entry of a pair of faces to the first exit. A pair that it is parallel to it enters
+/// and leaves at an infinite time, of the one sign where it starts beside the pair, of both where it starts between; the
+/// time to a face that it lies in is NaN, and does not count.
 ///
 /// Every time is off by 3 eps of itself, as if the gap were: faces and origin explain that.
 template <class T>
@@ -77,11 +80,13 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
   const L inverse = last_three_of(prepared, prepared.inverse);
   const L low = three_of(box, box.aabox.min), high = last_three_of(box, box.aabox.max);
   const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
-  const P entry = largest_of(smaller(to_low, to_high)), exit = smallest_of(larger(to_low, to_high));
-  const P zero = P::all(T(0)), time = larger(entry, zero);
+  // Of two numbers of which one is NaN, the first. No exit is infinite, so that no infinite entry comes before it.
+  const L entries = larger(L::all(T(0)), smaller(to_low, to_high));
+  const L exits = smaller(L::all(std::numeric_limits<T>::max()), larger(to_high, to_low));
+  const P time = largest_of(entries), exit = smallest_of(exits);
   const bool hit = time.first() <= exit.first();
   const L location = smaller(larger(origin + direction * every(time), low), high) & every(time <= exit);
-  return {first_three(location), hit, (int(hit) & int(entry.first() <= T(0))) != 0};
+  return {first_three(location), hit, (int(hit) & int(time.first() == T(0))) != 0};
 }
 
 }  // namespace detail

@@ -9,8 +9,9 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
-#include <vector>
+#include <optional>
 
+#include <collide/constructible.hpp>
 #include <collide/number.hpp>
 
 namespace collide::detail {
@@ -48,11 +49,8 @@ class BigInterval {
   mpfr_prec_t precision_ = 0;
 };
 
-/// A node of an expression. Its sign is decided by evaluating in intervals of rising precision until zero
-/// lies outside, or until the interval is so small that only zero fits: an expression that is not zero is
-/// at least 2^twos / (u^(degree - 1) l) in magnitude. Source: Burnikel, Funke, Mehlhorn, Schirra, Schmitt, A
-/// Separation Bound for Real Algebraic Expressions (2001); powers of two apart as in Pion, Yap,
-/// Constructive Root Bound for k-Ary Rational Input Numbers (2003).
+/// A node of an expression. Its sign is decided by evaluating in intervals of rising precision; where zero stays within, it
+/// is found exactly, in a tower of square roots.
 struct Expression {
   enum class Kind : std::uint8_t { leaf, sum, difference, product, quotient, root, infinite, invalid };
 
@@ -61,19 +59,11 @@ struct Expression {
   double leaf = 0;
   Expression *a = nullptr, *b = nullptr;
   BigInterval value;
-  double u = 0, l = 0, twos = 0;     // binary logarithms, rounded to be safe
-  std::vector<std::uint32_t> roots;  // the square roots below, and itself: sorted numbers
-  std::uint32_t number = 0;
-
-  int degree_bits() const { return int(roots.size()); }
-  /// log2 of a bound below which only zero lies.
-  double separation() const {
-    const double degree = std::exp2(double(degree_bits()));
-    return twos - (degree - 1) * u - l - 4 - 1e-9 * (std::abs(twos) + degree * u + l);
-  }
+  std::optional<Constructible> exact;
 };
 
-/// The expressions of one evaluation: they live until the outermost one ends.
+/// The expressions of one evaluation, and the roots of those that are known exactly: they live until the outermost one
+/// ends.
 class Expressions {
  public:
   static Expressions& here() {
@@ -85,25 +75,26 @@ class Expressions {
     e.kind = kind;
     e.a = a;
     e.b = b;
-    e.number = std::uint32_t(nodes_.size());
     return e;
   }
-  void clear() { nodes_.clear(); }
+  Roots& roots() { return roots_; }
+  void clear() {
+    nodes_.clear();
+    roots_.clear();
+  }
 
  private:
   std::deque<Expression> nodes_;
+  Roots roots_;
 };
 
 using ExpressionKind = Expression::Kind;
 
+/// Bits of the intervals in which a sign is looked for before it is found exactly.
+inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
+
 inline bool proper(const Expression& e) { return e.kind != ExpressionKind::invalid && e.kind != ExpressionKind::infinite; }
 int sign_of(Expression& e);
-
-/// log2(2^x + 2^y), rounded up.
-inline double log2_sum(double x, double y) {
-  const double most = std::max(x, y), least = std::min(x, y);
-  return most + std::log2(1 + std::exp2(least - most)) + 1e-12 * (std::abs(most) + 1);
-}
 
 inline Expression& leaf_of(double x) {
   if (x != x) return Expressions::here().make(ExpressionKind::invalid);
@@ -115,14 +106,6 @@ inline Expression& leaf_of(double x) {
   Expression& e = Expressions::here().make(ExpressionKind::leaf);
   e.leaf = x;
   e.known_sign = x > 0 ? 1 : x < 0 ? -1 : 0;
-  if (x != 0) {
-    int exponent;
-    double mantissa = std::abs(std::frexp(x, &exponent)) * 0x1p53;  // an integer
-    exponent -= 53;
-    while (mantissa == 2 * std::floor(mantissa / 2)) mantissa /= 2, ++exponent;
-    e.u = std::log2(mantissa) * (1 + 1e-14) + 1e-14;
-    e.twos = exponent;
-  }
   return e;
 }
 
@@ -140,24 +123,13 @@ inline Expression& binary(ExpressionKind kind, Expression& a, Expression& b) {
     if (a.known_sign == 0) return a;
   }
   Expression& e = all.make(kind, &a, &b);
-  if (kind == ExpressionKind::product) {
-    e.u = a.u + b.u, e.l = a.l + b.l, e.twos = a.twos + b.twos;
-    if (a.known_sign != 2 && b.known_sign != 2) e.known_sign = std::int8_t(a.known_sign * b.known_sign);
-  } else if (kind == ExpressionKind::quotient) {
-    e.u = a.u + b.l, e.l = a.l + b.u, e.twos = a.twos - b.twos;
-    if (a.known_sign != 2) e.known_sign = std::int8_t(a.known_sign * b.known_sign);
-  } else {
-    e.twos = std::min(a.twos, b.twos);
-    if (a.known_sign == 0) e.twos = b.twos;
-    const double from_b = b.twos - e.twos + b.u + a.l;
-    e.u = a.known_sign == 0 ? from_b : log2_sum(a.twos - e.twos + a.u + b.l, from_b);
-    e.l = a.l + b.l;
+  if (a.known_sign == 2 || b.known_sign == 2) return e;
+  if (sum || difference) {
     const int sign_b = difference ? -b.known_sign : b.known_sign;
-    if (a.known_sign != 2 && b.known_sign != 2 && (a.known_sign == sign_b || a.known_sign == 0)) {
-      e.known_sign = std::int8_t(sign_b);
-    }
+    if (a.known_sign == sign_b || a.known_sign == 0) e.known_sign = std::int8_t(sign_b);
+  } else {
+    e.known_sign = std::int8_t(a.known_sign * b.known_sign);
   }
-  std::set_union(a.roots.begin(), a.roots.end(), b.roots.begin(), b.roots.end(), std::back_inserter(e.roots));
   return e;
 }
 
@@ -170,12 +142,6 @@ inline Expression& root_of(Expression& a) {
   if (sign < 0) return all.make(ExpressionKind::invalid);
   Expression& e = all.make(ExpressionKind::root, &a);
   e.known_sign = 1;
-  e.twos = std::floor(a.twos / 2);
-  const double u = a.u + (a.twos - 2 * e.twos);
-  e.u = u >= a.l ? (u + a.l) / 2 : u;
-  e.l = u >= a.l ? a.l : (u + a.l) / 2;
-  e.roots = a.roots;
-  e.roots.push_back(e.number);  // numbers rise, so the list stays sorted
   return e;
 }
 
@@ -233,22 +199,34 @@ inline void evaluate(Expression& e, mpfr_prec_t precision) {
   }
 }
 
+/// Of a proper expression.
+inline const Constructible& exactly(Expression& e) {
+  if (e.exact) return *e.exact;
+  const auto found = [&]() -> Constructible {
+    switch (e.kind) {
+      case ExpressionKind::sum: return exactly(*e.a) + exactly(*e.b);
+      case ExpressionKind::difference: return exactly(*e.a) - exactly(*e.b);
+      case ExpressionKind::product: return exactly(*e.a) * exactly(*e.b);
+      case ExpressionKind::quotient: return exactly(*e.a) * inverse(exactly(*e.b));
+      case ExpressionKind::root: return Expressions::here().roots().root_of(exactly(*e.a));
+      default: return Constructible(e.leaf);
+    }
+  };
+  return e.exact.emplace(found());
+}
+
 /// -1, 0 or 1. Of a proper expression.
 inline int sign_of(Expression& e) {
   if (e.known_sign != 2) return e.known_sign;
   if (e.kind == ExpressionKind::product || e.kind == ExpressionKind::quotient) {
     return e.known_sign = std::int8_t(sign_of(*e.a) * sign_of(*e.b));
   }
-  const double separation = e.separation();
-  for (mpfr_prec_t precision = 128;; precision *= 2) {
+  for (mpfr_prec_t precision = least_precision; precision <= most_precision; precision *= 4) {
     evaluate(e, precision);
     const int sign = e.value.sign();
     if (sign != 2) return e.known_sign = std::int8_t(sign);
-    // Both ends within 2^separation: mpfr numbers are below 2^exponent.
-    const double largest = double(std::max(mpfr_zero_p(e.value.low) ? -0x1p60 : double(mpfr_get_exp(e.value.low)),
-                                           mpfr_zero_p(e.value.high) ? -0x1p60 : double(mpfr_get_exp(e.value.high))));
-    if (largest < separation) return e.known_sign = 0;
   }
+  return e.known_sign = std::int8_t(exactly(e).sign());
 }
 
 }  // namespace collide::detail

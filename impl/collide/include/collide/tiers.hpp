@@ -253,4 +253,35 @@ Vec3<T> unit(const Vec3<T>& a) noexcept {
   return a / sqrt(length2);
 }
 
+namespace detail {
+
+/// 1 - |a|^2 to 2^-8 eps, of a vector of at most about unit length.
+///
+/// a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. Squares of h are multiples of 2^-2g, and 2 g + 2 digits
+/// hold their sums: nothing is rounded. What is left of |a|^2 is the sum of l (h + a), each known to 2 u of 2^-g.
+template <MachineNumber T>
+T short_of_unit(const Vec3<T>& a) noexcept {
+  constexpr int digits = std::numeric_limits<T>::digits, g = (digits - 2) / 2;
+  constexpr T round_to = T(3) * T(std::uint64_t{1} << (digits - 2 - g));  // its neighbours are 2^-g apart
+  const auto rounded = [](T x) { return (x + round_to) - round_to; };
+  const Vec3<T> h{rounded(a.x), rounded(a.y), rounded(a.z)}, l = a - h, sum = h + a;
+  return (((T(1) - h.x * h.x) - h.y * h.y) - h.z * h.z) - Plain::dot(l, sum);
+}
+
+}  // namespace detail
+
+/// `a` with the length sqrt(1 - missing), which it has but for some eps; |missing| <= 1/4.
+///
+/// Other directions of the operands may explain the error of a direction, but no error of a length that is 1, whatever the
+/// operands are. So this leaves of it 2^-8 eps, and 1/3 of it times `missing`, which belongs to a length that depends on an
+/// angle, beside the last rounding of each number.
+template <class T>
+Vec3<T> of_length(const Vec3<T>& a, const T& missing = T(0)) noexcept {
+  if constexpr (MachineNumber<T>) {
+    return a + a * ((detail::short_of_unit(a) - missing) / T(2));
+  } else {
+    return a;
+  }
+}
+
 }  // namespace collide

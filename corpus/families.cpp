@@ -1,0 +1,214 @@
+#include "corpus/families.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <stdexcept>
+
+#include "corpus/draft.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Numbers = Draft::Numbers;
+
+/// a + (b - a) * share
+Numbers between(const Numbers& a, const Numbers& b, double share) {
+  return {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share, a[2] + (b[2] - a[2]) * share};
+}
+
+/// How much smaller a small thing is.
+double small_factor(Draft& d) { return d.random.power_of_two(-d.orders(10, 40), -2); }
+
+void shrink_thing(Draft& d, const Thing& thing, double factor) {
+  for (std::size_t v : thing.positions) d.set_vector(v, between(d.vector(thing.positions[0]), d.vector(v), factor));
+  for (std::size_t i : thing.sizes) d.scale(i, factor);
+}
+
+void make_tiny(Draft& d) {
+  const std::size_t chosen = d.random.below(d.plan.things.size() + 1);  // beyond the last: all
+  const double factor = small_factor(d);
+  for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
+    if (i == chosen || chosen == d.plan.things.size()) shrink_thing(d, d.plan.things[i], factor);
+  }
+}
+
+/// Corners: one moves onto the line through two others, but for `share` of its distance.
+void flatten_corners(Draft& d, const Thing& thing, double share) {
+  const std::size_t n = thing.positions.size(), at = d.random.below(n);
+  const auto corner = [&](std::size_t k) { return d.vector(thing.positions[(at + k) % n]); };
+  const Numbers on_line = between(corner(1), corner(2), 0.125 * d.random.between(-2, 10));
+  d.set_vector(thing.positions[at], between(on_line, corner(0), share));
+}
+
+bool is_upright_box(const Draft& d, const Thing& thing) {
+  return thing.positions.size() == 2 && thing.sizes.empty() &&
+         std::find(d.plan.upper.begin(), d.plan.upper.end(), d.plan.vectors[thing.positions[1]].begin) != d.plan.upper.end();
+}
+
+void flatten_upright_box(Draft& d, const Thing& thing, double share) {
+  Numbers high = d.vector(thing.positions[1]);
+  const Numbers low = d.vector(thing.positions[0]);
+  const std::size_t only = d.random.below(4);  // 3: every side
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k == only || only == 3) high[k] = low[k] + (high[k] - low[k]) * share;
+  }
+  d.set_vector(thing.positions[1], high);
+}
+
+void flatten_thing(Draft& d, const Thing& thing, double share) {
+  if (is_upright_box(d, thing)) {
+    flatten_upright_box(d, thing, share);
+  } else if (thing.positions.size() >= 3) {
+    const int corners = d.random.one_in(3) ? 2 : 1;
+    for (int i = 0; i < corners; ++i) flatten_corners(d, thing, share);
+  } else if (thing.positions.size() == 2 && !d.random.one_in(3)) {
+    d.set_vector(thing.positions[1], between(d.vector(thing.positions[0]), d.vector(thing.positions[1]), share));
+  }
+  for (std::size_t i : thing.sizes) {
+    if (d.random.one_in(2)) d.scale(i, share);
+  }
+}
+
+/// A direction like another one, a rotation like another one, but for `share` of their difference.
+void make_parallel(Draft& d, double share) {
+  if (d.plan.directions.size() > 1 && d.random.one_in(2)) {
+    const auto [to, from] = d.two_of(d.plan.directions);
+    d.set_vector(to, between(d.vector(from), d.vector(to), share));
+  }
+  if (d.plan.rotations.size() > 1 && d.random.one_in(2)) {
+    const std::size_t from = d.plan.rotations[0], to = d.plan.rotations[1];
+    for (std::size_t k = 0; k < 4; ++k) d.set(to + k, d[from + k] + (d[to + k] - d[from + k]) * share);
+  }
+}
+
+void make_thin(Draft& d) {
+  const double share = small_factor(d);
+  const std::size_t chosen = d.random.below(d.plan.things.size());
+  for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
+    if (i == chosen || d.random.one_in(2)) flatten_thing(d, d.plan.things[i], share);
+  }
+  make_parallel(d, share);
+}
+
+/// Onto a grid, where corners on a line are so exactly.
+void round_positions(Draft& d) {
+  const double cell = 0.125 * d.unit;
+  for (Role role : {Role::position, Role::size}) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.set(i, std::nearbyint(d[i] / cell) * cell);
+  }
+}
+
+/// The centers of two things, or a corner of one and the center of another, become one point.
+void make_concentric(Draft& d) {
+  if (d.plan.things.size() < 2) return;
+  const Numbers at = d.vector(d.random.pick(d.plan.things[0].positions));
+  const Thing& other = d.plan.things[1];
+  const Numbers from = d.vector(d.random.pick(other.positions));
+  for (std::size_t v : other.positions) {
+    Numbers x = d.vector(v);
+    for (std::size_t k = 0; k < 3; ++k) x[k] += at[k] - from[k];
+    d.set_vector(v, x);
+  }
+}
+
+void make_degenerate(Draft& d) {
+  if (d.random.one_in(2)) round_positions(d);
+  const std::size_t chosen = d.random.below(d.plan.things.size());
+  for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
+    const Thing& thing = d.plan.things[i];
+    if (i != chosen && !d.random.one_in(3)) continue;
+    if (d.random.one_in(4)) shrink_thing(d, thing, 0);
+    else if (thing.positions.size() >= 3 && d.random.one_in(2)) d.set_vector(thing.positions[0], d.vector(thing.positions[d.random.between(1, 2)]));
+    else flatten_thing(d, thing, 0);
+  }
+  make_parallel(d, 0);
+  if (d.random.one_in(4)) make_concentric(d);
+  if (!d.plan.velocities.empty() && d.random.one_in(8)) d.set_vector(d.plan.velocities[0], {0, 0, 0});
+}
+
+void make_far_out(Draft& d) {
+  Numbers offset;
+  for (double& x : offset) x = d.random.uniform(-1, 1) * d.random.power_of_two(3, d.orders(8, 30));
+  for (std::size_t v : d.plan.positions) {
+    const Numbers x = d.vector(v);
+    d.set_vector(v, {x[0] + offset[0], x[1] + offset[1], x[2] + offset[2]});
+  }
+  // A plane stays where it is in the scene.
+  for (std::size_t i : d.plan.numbers[std::size_t(Role::offset)]) {
+    d.set(i, d[i] - (d[i - 3] * offset[0] + d[i - 2] * offset[1] + d[i - 1] * offset[2]));
+  }
+}
+
+/// Scales by powers of two: lengths and velocities together or apart, now and then a direction and a rotation too.
+void make_scaled(Draft& d, int low, int high) {
+  const int of_lengths = d.random.between(low, high);
+  const int of_velocities = d.random.one_in(2) ? of_lengths : d.random.one_in(2) ? 0 : d.random.between(low, high);
+  const int of_directions = d.random.one_in(4) ? d.random.between(low, high) / 2 : 0;
+  const int of_rotations = d.random.one_in(4) ? d.random.between(low, high) : 0;
+  const auto scale = [&](Role role, int exponent) {
+    for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.set(i, std::ldexp(d[i], exponent));
+  };
+  scale(Role::position, of_lengths);
+  scale(Role::size, of_lengths);
+  scale(Role::velocity, of_velocities);
+  scale(Role::direction, of_directions);
+  scale(Role::offset, of_directions + of_lengths);
+  scale(Role::rotation, of_rotations);
+  scale(Role::time, of_lengths - of_velocities);
+}
+
+void apply(Draft& d, Family family) {
+  switch (family) {
+    case Family::scene: return;
+    case Family::tiny: return make_tiny(d);
+    case Family::thin: return make_thin(d);
+    case Family::degenerate: return make_degenerate(d);
+    case Family::far_out: return make_far_out(d);
+    case Family::huge: return make_scaled(d, d.orders(60, 500), d.orders(122, 1018));
+    case Family::minute: return make_scaled(d, -d.orders(140, 1060), -d.orders(60, 500));
+  }
+}
+
+const Plan& plan_of(const Query& query) {
+  static thread_local std::deque<Plan> plans;
+  for (const Plan& p : plans) {
+    if (p.query == &query) return p;
+  }
+  return plans.emplace_back(query);
+}
+
+}  // namespace
+
+std::string_view name_of(Family family) {
+  switch (family) {
+    case Family::scene: return "scene";
+    case Family::tiny: return "tiny";
+    case Family::thin: return "thin";
+    case Family::degenerate: return "degenerate";
+    case Family::far_out: return "far out";
+    case Family::huge: return "huge";
+    case Family::minute: return "minute";
+  }
+  return "?";
+}
+
+Case case_of(Family family, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
+  const Plan& plan = plan_of(query);
+  Random random(Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar) ^ std::uint64_t(family) << 8).bits() ^
+                Random(index).bits());
+  Case c{&query, scalar, std::vector<double>(query.inputs.size()), "family", seed, index, {}};
+  constexpr int attempts = 1000;
+  for (int i = 0; i < attempts; ++i) {
+    Draft draft(plan, scalar, random, c.values);
+    draw_scene(draft);
+    apply(draft, family);
+    draft.repair();
+    const bool finite = std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); });
+    if (finite && !query.broken(c.values)) return c;
+  }
+  throw std::logic_error("families: no valid case of " + std::string(query.name) + " in 1000 attempts");
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,27 @@
+/// Families of cases by their shapes and sizes, in which an oracle's bounds may fail one by one.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "oracles/case.hpp"
+
+namespace nearmiss {
+
+enum class Family {
+  scene,       ///< smooth numbers of moderate size
+  tiny,        ///< a thing is much smaller than the scene
+  thin,        ///< corners nearly on a line, a short axis or side, directions nearly parallel
+  degenerate,  ///< equal corners, corners on a line, sizes of 0, equal centers, parallel directions, no velocity
+  far_out,     ///< everything far from the origin
+  huge,        ///< lengths up to the end of the range
+  minute,      ///< lengths down to subnormal numbers
+};
+inline constexpr Family families[] = {Family::scene,   Family::tiny, Family::thin,  Family::degenerate,
+                                      Family::far_out, Family::huge, Family::minute};
+std::string_view name_of(Family family);
+
+/// The `index`-th case of the family in the stream `seed`: valid, and exact in `scalar`.
+Case case_of(Family family, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index);
+
+}  // namespace nearmiss

@@ -1,0 +1,135 @@
+/// Numbers made of rationals by + - * / and square roots, kept exactly: their signs take arithmetic alone.
+/// Needs GMP (target collide::certified).
+#pragma once
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace collide::detail {
+
+/// A rational, or a + b sqrt(d): a, b and d are rationals or have roots that were taken before sqrt(d).
+///
+/// So the numbers are those of a tower of quadratic extensions of the rationals. Nothing asks whether sqrt(d) lies in the
+/// tower below already: then a number has several forms, and what follows is right of each.
+///
+/// 1. a + b sqrt(d), where a and b have opposite signs, has the sign of a times that of a^2 - b^2 d
+/// 2. 1 / (a + b sqrt(d)) == (a - b sqrt(d)) / (a^2 - b^2 d), or 1 / (2 a) where that divisor is zero
+///
+/// A sign in a tower of n roots asks for signs of numbers of n - 1 roots and twice as many bits: work is bounded by the
+/// bits of the input and the number of different roots, which no query has more than a few of.
+class Constructible {
+ public:
+  Constructible() = default;
+  explicit Constructible(double x) : rational_(x) {}
+  explicit Constructible(mpq_class x) : rational_(std::move(x)) {}
+
+  friend Constructible operator+(const Constructible& x, const Constructible& y) {
+    if (x.height() < y.height()) return y + x;
+    if (x.is_rational()) return Constructible(mpq_class(x.rational_ + y.rational_));
+    if (x.height() > y.height()) return with(x.root(), x.a() + y, x.b());
+    return with(x.root(), x.a() + y.a(), x.b() + y.b());
+  }
+  friend Constructible operator*(const Constructible& x, const Constructible& y) {
+    if (x.height() < y.height()) return y * x;
+    if (x.is_rational()) return Constructible(mpq_class(x.rational_ * y.rational_));
+    if (x.height() > y.height()) return with(x.root(), x.a() * y, x.b() * y);
+    return with(x.root(), x.a() * y.a() + x.b() * y.b() * x.d(), x.a() * y.b() + x.b() * y.a());
+  }
+  friend Constructible operator-(const Constructible& x) {
+    if (x.is_rational()) return Constructible(mpq_class(-x.rational_));
+    return with(x.root(), -x.a(), -x.b());
+  }
+  friend Constructible operator-(const Constructible& x, const Constructible& y) { return x + -y; }
+  /// 1 / x; x is not zero.
+  friend Constructible inverse(const Constructible& x) {
+    if (x.is_rational()) return Constructible(mpq_class(1 / x.rational_));
+    const Constructible norm = x.norm();
+    if (norm.sign() == 0) return inverse(x.a() + x.a());
+    return with(x.root(), x.a(), -x.b()) * inverse(norm);
+  }
+
+  /// -1, 0 or 1.
+  int sign() const {
+    if (is_rational()) return sgn(rational_);
+    const int of_a = a().sign(), of_b = b().sign();
+    if (of_b == 0 || of_a == of_b) return of_a;
+    return of_a == 0 ? of_b : of_a * norm().sign();
+  }
+
+ private:
+  friend class Roots;
+  struct Root;
+  struct Extension;
+
+  /// a + b sqrt(d)
+  static inline Constructible with(const std::shared_ptr<const Root>& root, Constructible a, Constructible b);
+  bool is_rational() const { return extension_ == nullptr; }
+  inline std::uint32_t height() const;
+  inline const std::shared_ptr<const Root>& root() const;
+  inline const Constructible& a() const;
+  inline const Constructible& b() const;
+  inline const Constructible& d() const;
+  /// a^2 - b^2 d
+  Constructible norm() const { return a() * a() - b() * b() * d(); }
+
+  mpq_class rational_;  // where there is no extension
+  std::shared_ptr<const Extension> extension_;
+};
+
+struct Constructible::Root {
+  std::uint32_t height;  // from 1; the roots below have less
+  Constructible square;
+};
+struct Constructible::Extension {
+  std::shared_ptr<const Root> root;
+  Constructible a, b;
+};
+
+inline Constructible Constructible::with(const std::shared_ptr<const Root>& root, Constructible a, Constructible b) {
+  if (b.is_rational() && b.rational_ == 0) return a;
+  Constructible x;
+  x.extension_ = std::make_shared<const Extension>(Extension{root, std::move(a), std::move(b)});
+  return x;
+}
+inline std::uint32_t Constructible::height() const { return is_rational() ? 0 : root()->height; }
+inline const std::shared_ptr<const Constructible::Root>& Constructible::root() const { return extension_->root; }
+inline const Constructible& Constructible::a() const { return extension_->a; }
+inline const Constructible& Constructible::b() const { return extension_->b; }
+inline const Constructible& Constructible::d() const { return extension_->root->square; }
+
+/// The square roots of one evaluation.
+class Roots {
+ public:
+  /// The square root of a positive number. Of a rational one it is a rational times the root of an earlier one, where
+  /// there is such.
+  Constructible root_of(const Constructible& square) {
+    if (square.is_rational()) {
+      if (const auto root = rational_root_of(square.rational_)) return Constructible(*root);
+      for (const auto& earlier : taken_) {
+        if (!earlier->square.is_rational()) continue;
+        if (const auto times = rational_root_of(mpq_class(square.rational_ / earlier->square.rational_))) {
+          return Constructible::with(earlier, {}, Constructible(*times));
+        }
+      }
+    }
+    taken_.push_back(std::make_shared<const Constructible::Root>(Constructible::Root{std::uint32_t(taken_.size() + 1), square}));
+    return Constructible::with(taken_.back(), {}, Constructible(1.0));
+  }
+  void clear() { taken_.clear(); }
+
+ private:
+  static std::optional<mpq_class> rational_root_of(const mpq_class& square) {
+    const mpz_class &over = square.get_num(), &under = square.get_den();
+    if (!mpz_perfect_square_p(over.get_mpz_t()) || !mpz_perfect_square_p(under.get_mpz_t())) return std::nullopt;
+    return mpq_class(mpz_class(sqrt(over)), mpz_class(sqrt(under)));
+  }
+
+  std::vector<std::shared_ptr<const Constructible::Root>> taken_;
+};
+
+}  // namespace collide::detail

@@ -1,0 +1,111 @@
+/// The judge lets no gross lie pass. Answers that are wrong by construction (corpus/lies.hpp), further than a bound times
+/// 2^10, are told to be further than that bound: whatever the shapes and sizes.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/families.hpp"
+#include "corpus/lies.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+class Lies : public testing::TestWithParam<NamedQuery> {
+ protected:
+  const Query& query() const { return *GetParam().query; }
+};
+
+struct Told {
+  int lies = 0, told = 0;
+  std::string first_untold;
+};
+
+void tell(const Case& c, double bound, std::uint64_t salt, Told& sum) {
+  for (const Lie& lie : lies_about(c, widening_of_lies(c, bound), salt)) {
+    const bool told = is_told(c, lie, bound);
+    ++sum.lies;
+    sum.told += told;
+    if (told || !sum.first_untold.empty()) continue;
+    sum.first_untold = fmt::format("{} {} of {}", lie.answer.yes ? "yes" : "no", name_of(lie.topic), case_to_json(c).dump());
+    for (std::size_t i = 0; i < c.query->outputs.size(); ++i) {
+      if (lie.answer.gives(i)) sum.first_untold += fmt::format(", {} = {}", c.query->outputs[i].name, lie.answer.values[i]);
+    }
+  }
+}
+
+/// Of the lies about a class of cases, at both scalars and all bounds. What falls short of all of them is a proof that the
+/// oracle's enclosures do not find, never a false one.
+constexpr double least_share = 0.99;
+
+TEST_P(Lies, AreTold) {
+  constexpr int cases = 120;
+  for (const Family family : families) {
+    Told sum;
+    for (const Scalar scalar : scalars) {
+      for (const double bound : bounds_for_lies(query(), scalar)) {
+        for (std::uint64_t i = 0; i < cases; ++i) tell(case_of(family, query(), scalar, 31, i), bound, i, sum);
+      }
+    }
+    EXPECT_GE(sum.told, least_share * sum.lies) << name_of(family) << ": " << sum.first_untold;
+  }
+}
+
+/// What watches the judge is watched by the exact stage: no lie is right.
+TEST_P(Lies, AreNoExactAnswer) {
+  constexpr int cases = 25;
+  int lies = 0;
+  for (const Family family : families) {
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      const Case c = case_of(family, query(), scalars[i % 2], 32, i);
+      for (const Lie& lie : lies_about(c, widening_of_lies(c, 8), i)) {
+        ASSERT_FALSE(query().oracle.exact(c.values, lie.answer, c.scalar, nullptr).may_match) << case_to_json(c).dump();
+        ++lies;
+      }
+    }
+  }
+  EXPECT_GT(lies, cases) << "hardly any lie is known";
+}
+
+std::vector<NamedQuery> queries_with_lies() {
+  std::vector<NamedQuery> all = every_query();
+  std::erase_if(all, [](const NamedQuery& q) { return !has_lies(*q.query); });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Lies, testing::ValuesIn(queries_with_lies()), testing::PrintToStringParamName());
+
+struct Apart {
+  const char* what;
+  Scalar scalar;
+  std::vector<double> values;
+};
+std::ostream& operator<<(std::ostream& out, const Apart& a) { return out << a.what; }
+
+class SpheresFarFromThinTriangles : public testing::TestWithParam<Apart> {};
+
+/// No input within a part in eight of the largest number overlaps.
+TEST_P(SpheresFarFromThinTriangles, AreSurelyApart) {
+  const Query& query = *find_query("sphere_triangle_overlap");
+  const Case c{&query, GetParam().scalar, GetParam().values, "a sphere and a thin triangle", 0, 0, {}};
+  EXPECT_FALSE(truth_of(c).yes);
+  EXPECT_GE(truth_of(c).margin_at_least * unit_roundoff(c.scalar), 0.125);
+  Answer overlap;
+  overlap.yes = true, overlap.given = 0;
+  EXPECT_TRUE(is_told(c, {Topic::decision, overlap}, 0.125 / unit_roundoff(c.scalar)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, SpheresFarFromThinTriangles,
+    testing::Values(Apart{"two equal corners", Scalar::float64, {0, 100, 0, 0.5, -2, 0, 0, 2, 0, 0, 2, 0, 0}},
+                    Apart{"short legs", Scalar::float32, {0, 0, 5, 1, 0, 0, 0, 0x1p-20, 0, 0, 0, 0x1p-20, 0}},
+                    Apart{"short legs", Scalar::float64, {0, 0, 5, 1, 0, 0, 0, 0x1p-20, 0, 0, 0, 0x1p-20, 0}},
+                    Apart{"nearly on a line", Scalar::float32,
+                          {0, 0, 5, 1, 0, 0, 0, 1 + 0x1p-13, 1, 0, 1, 1 - 0x1p-13, 0}},
+                    Apart{"nearly on a line", Scalar::float64,
+                          {0, 0, 5, 1, 0, 0, 0, 1 + 0x1p-13, 1, 0, 1, 1 - 0x1p-13, 0}}));
+
+}  // namespace
+}  // namespace nearmiss

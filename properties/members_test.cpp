@@ -1,0 +1,175 @@
+/// Each member of an answer is judged by itself, against the nearest right answer, in the ulps that the words say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "oracles/judge.hpp"
+
+namespace nearmiss {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
+
+Case asked(const char* query, std::vector<double> values) {
+  return {find_query(query), Scalar::float64, std::move(values), "members", 0, 0, {}};
+}
+Answer yes(std::vector<double> values) {
+  Answer a;
+  a.yes = true;
+  std::copy(values.begin(), values.end(), a.values.begin());
+  return a;
+}
+/// A ball of radius 1 that flies along x from -10 with speed 2, at the unit box around (0, y, 0).
+Case flight(double y) {
+  return asked("moving_sphere_box", {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1});
+}
+const MemberFinding* found(const Finding& f, Disagreement d) {
+  const auto at = std::find_if(f.members.begin(), f.members.end(), [&](const auto& m) { return m.disagreement == d; });
+  return at == f.members.end() ? nullptr : &*at;
+}
+std::string name_of_headline(const Finding& f) { return std::string(name_of(f.disagreement)); }
+
+TEST(Members, AreAllToldWhateverTheOthersAre) {
+  const Finding f = judge(flight(0), yes({4.5, -1, 0.25, 0, 0, 1, 0}), strict, Detail::full);
+  ASSERT_EQ(f.members.size(), 3u);
+  for (const Disagreement d : {Disagreement::wrong_time, Disagreement::wrong_place, Disagreement::wrong_normal}) {
+    const MemberFinding* m = found(f, d);
+    ASSERT_NE(m, nullptr) << name_of(d);
+    EXPECT_TRUE(m->breaks()) << name_of(d);
+    EXPECT_GT(m->backward.value().above, 0x1p40) << name_of(d);
+  }
+  EXPECT_EQ(found(f, Disagreement::wrong_time)->forward_absolute, 0.5);
+  EXPECT_EQ(found(f, Disagreement::wrong_place)->forward_absolute, 0.25);
+}
+
+TEST(Members, BesideAKnifesEdgeAreWhatIsWrong) {
+  // The ball passes the box by an ulp: a yes is right next door, but nowhere near is the contact at x = 7.
+  const Case c = flight(std::nextafter(2.0, 3.0));
+  const Finding f = judge(c, yes({5, 7, 1, 0, 0, -1, 0}), {{.backward = 16}}, Detail::full);
+  const MemberFinding* decision = found(f, Disagreement::false_hit);
+  ASSERT_NE(decision, nullptr);
+  EXPECT_LE(decision->backward.value().above, 1);
+  EXPECT_FALSE(decision->breaks());
+  EXPECT_EQ(name_of_headline(f), "off the surface");
+  EXPECT_GT(f.headline_member()->backward.value().above, 0x1p40);
+  EXPECT_EQ(f.verdict, Verdict::violates_contract);
+}
+
+TEST(Members, BesideAGrossDecisionAreNotCounted) {
+  const Finding f = judge(flight(5), yes({4, -1, 0, 0, -1, 0, 0}), strict, Detail::full);
+  ASSERT_EQ(f.members.size(), 1u);
+  EXPECT_EQ(name_of_headline(f), "false hit");
+}
+
+TEST(Members, ATimeBeforeTheStartIsAKindOfItsOwn) {
+  // The ball overlaps the box from the start: time 0.
+  const Case c = asked("moving_sphere_box", {-1.5, 0, 0, 1, 2, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1});
+  const Finding f = judge(c, yes({-1.5e-8, -1, 0, 0, -1, 0, 0}), strict, Detail::full);
+  EXPECT_EQ(name_of_headline(f), "negative time");
+  EXPECT_EQ(f.members.size(), 1u);
+  EXPECT_EQ(f.headline_member()->forward_absolute, 1.5e-8);
+}
+
+TEST(Members, OfDifferentTiesAreNoRightAnswerTogether) {
+  // The center of a cube: out through any face, with the contact on that side.
+  const Case c = asked("sphere_box_penetration", {0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1});
+  EXPECT_EQ(judge(c, yes({2, 1, 0, 0, 1, 0, 0}), strict, Detail::full).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(c, yes({2, 0, -1, 0, 0, -1, 0}), strict, Detail::full).verdict, Verdict::agrees);
+  const Finding f = judge(c, yes({2, 1, 0, 0, 0, 1, 0}), strict, Detail::full);
+  EXPECT_EQ(f.verdict, Verdict::violates_contract);
+  EXPECT_EQ(name_of_headline(f), "wrong combination");
+  EXPECT_TRUE(f.members.empty());
+}
+
+TEST(Members, ThatAreNotFiniteHideNoOthers) {
+  const Finding f = judge(flight(0), yes({4.5, -1, NAN, 0, -1, 0, 0}), strict, Detail::full);
+  EXPECT_EQ(name_of_headline(f), "not finite");
+  EXPECT_NE(found(f, Disagreement::wrong_time), nullptr);
+}
+
+TEST(Members, ANormalsLengthAndDirectionAreTwo) {
+  const Finding f = judge(flight(0), yes({4, -1, 0, 0, 0, 1.25, 0}), strict, Detail::full);
+  EXPECT_NE(found(f, Disagreement::not_unit), nullptr);
+  EXPECT_NE(found(f, Disagreement::wrong_normal), nullptr);
+  const Finding length = judge(flight(0), yes({4, -1, 0, 0, -1.25, 0, 0}), strict, Detail::full);
+  EXPECT_EQ(length.members.size(), 1u);
+  EXPECT_EQ(name_of_headline(length), "not unit");
+}
+
+/// Of several right answers the nearest counts, though another has more numbers in common with the given one.
+TEST(NearestAnswer, IsNotTheOneWithTheFewestMismatches) {
+  const Case c = asked("sphere_box_penetration",
+                       {0, 0, 0, 0, 0, 0, 0, 1, 1, 2, -1, 1.0000000000000007, 0, 0.5});
+  const Truth t = truth_of(c);
+  ASSERT_EQ(t.alternatives.size(), 4u);
+  int coincidences = 0;
+  for (const Alternative& a : t.alternatives) {
+    Answer given = yes({});
+    for (std::size_t i = 0; i < a.count; ++i) given.values[i] = a.values[i].low;
+    for (const Alternative& b : t.alternatives) {
+      for (std::size_t i = 1; i < 4; ++i) {  // one number of the normal as another alternative has it
+        const double off = std::abs(b.values[i].low - given.values[i]) / 0x1p-53;
+        if (!(off > 1 && off < 16)) continue;
+        ++coincidences;
+        Answer near = given;
+        near.values[i] = b.values[i].low;
+        EXPECT_LE(judge(c, near, strict, Detail::full).forward_ulps, off + 1);
+      }
+    }
+  }
+  EXPECT_GT(coincidences, 0);
+}
+
+/// In ulps of the normal's largest number, not in twice as many: 10 off across the normal is told as 10.
+TEST(NormalError, IsToldInUlps) {
+  const Case c = asked("sphere_plane_penetration", {0, 0, 0, 1, 3, 4, 0, 0});
+  const double ulp_of_largest = 0x1p-53;
+  for (const double pushed : {0.0, 2.0, 5.0, 8.0, 80.0}) {
+    const double across = pushed * ulp_of_largest;
+    const Finding f = judge(c, yes({1, 0.6 - across, 0.8 + 0.75 * across, 0, -0.6, -0.8, 0}), {}, Detail::full);
+    const MemberFinding* m = found(f, Disagreement::wrong_normal);
+    EXPECT_EQ(m != nullptr, pushed > 1) << pushed;
+    if (m == nullptr) continue;
+    EXPECT_LE(m->forward_ulps, pushed + 0.5);  // 0.6 and 0.8 are rounded
+    EXPECT_GE(m->forward_ulps, pushed - 0.5 - 0.01 * pushed);
+  }
+}
+
+/// A longer normal of the right direction is off in length alone; a shorter distance as given counts as well.
+TEST(NormalError, IsTheLesserOfNumbersAndDirection) {
+  const Case c = asked("sphere_plane_penetration", {0, 0, 0, 1, 3, 4, 0, 0});
+  const Finding longer = judge(c, yes({1, 0.6 * 1.25, 0.8 * 1.25, 0, -0.6, -0.8, 0}), {}, Detail::full);
+  EXPECT_LE(longer.forward_ulps, 1);
+  const Finding as_given = judge(c, yes({1, 0.6 + 0x1p-53, 0.8 - 0x1p-53, 0, -0.6, -0.8, 0}), {}, Detail::full);
+  EXPECT_LE(as_given.forward_ulps, 1.5);
+}
+
+/// A cone's directions have up to three components: a normal whose every number is an ulp off is told as one.
+TEST(NormalError, OfAConeIsOneOfComponents) {
+  // A point on the edge of a box that is turned about (1, 2, 3): the normals there lie across the edge.
+  const Case c = asked("moving_point_box", {0, 1, 1, 0, -1, -1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1});
+  const double d = 0x1p-50;  // 4 ulps of 0.70710678
+  const Finding f = judge(c, yes({0, 0, 1, 1, d, 0.70710678118654757, 0.70710678118654757}), {}, Detail::full);
+  EXPECT_LE(f.forward_ulps, 8 + 0.5);
+  EXPECT_GE(f.forward_ulps, 8 - 0.5);
+}
+
+/// An enclosure without bounds accepts every number next door; an infinite one is wrong here.
+TEST(InfiniteNumbers, AreNoneWhereTheExactOneIsOrdinary) {
+  const Case c = asked("sphere_sphere_penetration", {-1e200, 0, 0, 1, 1e200, 0, 0, 1});
+  Answer apart = yes({-infinity, 0, 0, 0, 0, 0, 0});
+  apart.yes = false;
+  for (const double allowed : {4.0, 1e4, 1e9}) {
+    const Finding f = judge(c, apart, {{.backward = allowed}, false}, Detail::verdict);
+    EXPECT_EQ(f.verdict, Verdict::exceeds_measure) << allowed;
+    EXPECT_EQ(name_of_headline(f), "not finite") << allowed;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,104 @@
+/// A judge that contradicts itself is found out by every engine: no finding comes of it, and the exit code is 3.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "oracles/confirmed.hpp"
+#include "reports/replay.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* words =
+    "collide-fast-double: the judge contradicts itself about sphere_sphere_overlap: at first \"";
+
+/// The command line with tests/contradicting_oracle.cpp in it.
+Ran contradicting(std::vector<std::string> arguments, const TemporaryFolder& folder) {
+  for (const char* more : {"--query", "sphere_sphere_overlap", "--subject", "collide-fast-double", "--seed", "1", "--out"}) {
+    arguments.emplace_back(more);
+  }
+  arguments.push_back((folder / "r").string());
+  return run_program(NEARMISS_CONTRADICTING, arguments);
+}
+
+/// Of the file that the engine wrote: it is valid, and every kept case is a file with both words in it.
+void check(const TemporaryFolder& folder, const json& written, const std::string& schema) {
+  EXPECT_EQ(complaints(written, schema), "");
+  const json& errors = written.at("internal_errors");
+  ASSERT_GT(errors.at("count"), 0u);
+  ASSERT_EQ(errors.at("kept").size(), std::min<std::size_t>(errors.at("count").get<std::size_t>(), 8));
+  for (const json& kept : errors.at("kept")) {
+    EXPECT_NE(kept.at("words").get<std::string>().find("; in full \"agrees\""), std::string::npos) << kept;
+    const Case c = read_case_or_report(folder / "r" / kept.at("file").get<std::string>());
+    EXPECT_EQ(c.query->name, "sphere_sphere_overlap");
+    EXPECT_GT(c.values[0], 0);
+  }
+}
+
+std::size_t lines_with(const std::string& what, const std::string& text) {
+  std::size_t lines = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++lines;
+  return lines;
+}
+
+TEST(InternalErrors, EndARunWithBothWordsAndItsFindings) {
+  const TemporaryFolder folder;
+  const Ran ran = contradicting({"run", "--cases", "300"}, folder);
+  EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
+  EXPECT_EQ(lines_with(words, ran.err), 8u) << ran.err;
+  EXPECT_NE(ran.out.find(" internal errors, see "), std::string::npos) << ran.out;
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  check(folder, index, "run.schema.json");
+  EXPECT_EQ(index["state"], "finished");
+  EXPECT_EQ(index["cases"].get<std::uint64_t>() + index["internal_errors"]["count"].get<std::uint64_t>(), 300u);
+  EXPECT_GT(index["findings"], 0u);
+  for (const json& r : index["reports"]) {
+    EXPECT_LE(read_case_or_report(folder / "r" / r["file"].get<std::string>()).values[0], 0) << r;
+  }
+}
+
+TEST(InternalErrors, EndRelationsAndExtremes) {
+  const TemporaryFolder related, swept;
+  const Ran relations = contradicting({"relations", "--cases", "5000"}, related);
+  EXPECT_EQ(relations.exit_code, InternalError::exit_code) << relations.err;
+  EXPECT_NE(relations.err.find(words), std::string::npos) << relations.err;
+  check(related, json::parse(read_file(related / "r" / "relations.json")), "relations.schema.json");
+  const Ran extremes = contradicting({"extremes", "--cases", "1"}, swept);
+  EXPECT_EQ(extremes.exit_code, InternalError::exit_code) << extremes.err;
+  check(swept, json::parse(read_file(swept / "r" / "extremes.json")), "extremes.schema.json");
+}
+
+/// Stored cases come first in a night, and take a second.
+TEST(InternalErrors, EndANight) {
+  const TemporaryFolder folder;
+  const Ran ran = run_program(NEARMISS_CONTRADICTING, {"nightly", "--minutes", "0.1", "--out", (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
+  EXPECT_NE(ran.err.find("the judge contradicts itself about sphere_sphere_overlap"), std::string::npos) << ran.err;
+}
+
+TEST(InternalErrors, ReplayAgain) {
+  const TemporaryFolder folder;
+  contradicting({"run", "--cases", "20"}, folder);
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  const std::string file = (folder / "r" / index["internal_errors"]["kept"][0]["file"].get<std::string>()).string();
+  const Ran again = run_program(NEARMISS_CONTRADICTING, {"replay", "--subject", "collide-fast-double", file});
+  EXPECT_EQ(again.exit_code, InternalError::exit_code);
+  EXPECT_EQ(lines_with("\n", again.err), 1u) << again.err;
+  EXPECT_NE(again.err.find("at first \""), std::string::npos) << again.err;
+  EXPECT_EQ(nearmiss({"replay", "--subject", "collide-fast-double", file}).exit_code, 0);
+}
+
+TEST(InternalErrors, AreToldInTheManuals) {
+  for (const char* command : {"run", "nightly", "relations", "extremes", "replay", "import"}) {
+    EXPECT_NE(nearmiss({"help", command}).out.find("An internal error: the judge contradicts itself."), std::string::npos)
+        << command;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
