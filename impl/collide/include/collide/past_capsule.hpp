@@ -4,6 +4,8 @@
 #include <collide/contact.hpp>
 #include <collide/shapes.hpp>
 
+#include <limits>
+
 namespace collide::detail {
 
 /// The first contact of a ball of `radius` at `center`, moving by `velocity` per unit of time, with the solid
@@ -21,22 +23,28 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
   const T length = Tier::dot(axis, between);
   const T along = Tier::dot(axis, from_p0);
   const Vec3<T> beside = from_p0 - axis * along;
-  /// At a point of the axis, with `away` from it to the center.
-  const auto contact_at = [&](const T& time, const Vec3<T>& on_axis, const Vec3<T>& away) {
-    Vec3<T> normal = reach > T(0) ? unit<Tier>(away) : Vec3<T>{};
+  /// At a point of the axis, with the unit vector from it to the center; 0 where nothing leads there.
+  const auto contact_along = [&](const T& time, const Vec3<T>& on_axis, Vec3<T> normal) {
     if (!(Tier::dot(normal, normal) > T(0))) normal = perpendicular_against<Tier>(axis, velocity);
     return contact(time, on_axis + normal * capsule.radius, normal);
   };
-  /// The same between the ends, where `away` is at a right angle to the axis but for rounding: all of it is rounding where
-  /// more of it leads along the axis than aside.
-  const auto contact_beside = [&](const T& time, const T& at, Vec3<T> away) {
+  /// At a point of the axis, with `away` from it to the center.
+  const auto contact_at = [&](const T& time, const Vec3<T>& on_axis, const Vec3<T>& away) {
+    return contact_along(time, on_axis, reach > T(0) ? unit<Tier>(away) : Vec3<T>{});
+  };
+  /// The same between the ends, where `away` is at a right angle to the axis but for rounding. That is taken out of its
+  /// direction, for `away` itself may be a few subnormal numbers; all of it is rounding where more of it leads along the
+  /// axis than aside.
+  const auto contact_beside = [&](const T& time, const T& at, const Vec3<T>& away) {
+    Vec3<T> normal = reach > T(0) ? unit<Tier>(away) : Vec3<T>{};
     if constexpr (MachineNumber<T>) {
-      const T rounding = Tier::dot(axis, away);
-      away = away - axis * rounding;
-      if (rounding * rounding > Tier::dot(away, away)) away = Vec3<T>{};
+      const T rounding = Tier::dot(axis, normal), rounding2 = rounding * rounding;
+      normal = normal - axis * rounding;
+      if (rounding2 > T(0.5)) normal = Vec3<T>{};
+      else if (rounding2 > std::numeric_limits<T>::epsilon() / T(8)) normal = unit<Tier>(normal);
     }
     const Vec3<T> on_axis = at + at <= length ? capsule.p0 + axis * at : capsule.p1 - axis * (length - at);
-    return contact_at(time, on_axis, away);
+    return contact_along(time, on_axis, normal);
   };
 
   const bool before = along < T(0), beyond = along > length;
