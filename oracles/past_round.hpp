@@ -200,13 +200,16 @@ struct RoundPast {
     const N discriminant = length2 * (a * square(m.reach()) - square(inner(d, outer(from, m.step))));
     const N outside = norm2(from_d) - square(m.reach()) * length2;
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
-    if (!earlier_root(a, closing, outside, root(discriminant), time)) return;
+    const N half = root(discriminant);
+    // Does it surely touch the line between the ends? What `time` has been narrowed by assumes that it does, and is left out.
+    N of_line = any_time<N>();
+    const bool touches_line = !may_be_at_most_zero(closing) && !may_be_negative(discriminant) &&
+                              earlier_root(a, closing, outside, half, of_line);
+    if (touches_line && surely_beside(of_line, from)) reaches_by(of_line, roots);
+    if (!earlier_root(a, closing, outside, half, time)) return;
     Vector<N> center;
     if (!place_of(time, from, center)) return;
-    const Vector<N> from_second = minus(center, d);
-    if (!may_belong_to_tube(center, from_second)) return;
-    const bool surely_beside = !may_be_negative(inner(d, center)) && !may_be_positive(inner(d, from_second));
-    if (surely_beside && !may_be_at_most_zero(closing) && !may_be_negative(discriminant)) reaches_by(time, roots);
+    if (!may_belong_to_tube(center, minus(center, d))) return;
     const N s = share(center);
     RoundContact<N> c{time, plus(m.end[0], times(d, s)), minus(center, times(d, s)), Part::tube};
     if (!narrow_to_reach(c.away)) return;
@@ -214,6 +217,15 @@ struct RoundPast {
       if (!may_be_zero(length2) && !narrow_about_middle(c, s)) return;
     }
     roots.list.push_back(c);
+  }
+  /// `from_first` moved on by a time that has an end: surely between the ends?
+  bool surely_beside(const N& time, const Vector<N>& from_first) const {
+    if constexpr (is_enclosure<N>) {
+      if (!(time.sup() < std::numeric_limits<double>::infinity())) return false;
+      const Vector<N> center = plus(from_first, times(m.step, time));
+      return !may_be_negative(inner(d, center)) && !may_be_positive(inner(d, minus(center, d)));
+    }
+    return false;  // exact roots are compared
   }
   static void reaches_by(const N& time, Roots& roots) {
     if constexpr (is_enclosure<N>) roots.surely_by = std::min(roots.surely_by, time.sup());

@@ -11,6 +11,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/families.hpp"
 #include "corpus/generator.hpp"
+#include "corpus/store.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -80,6 +81,12 @@ TEST_P(Enclosures, ContainTheExactAnswerOfEveryInputWithinTheWidening) {
     checked += answers_contained(generate(query(), Scalar::float64, 11, std::uint64_t(i)), k, std::uint64_t(i));
   }
   EXPECT_GT(checked, cases_per_query / 2);
+}
+
+TEST_P(Enclosures, OfStoredCasesContainTheExactAnswers) {
+  int checked = 0;
+  for (const StoredCase& stored : stored_cases(query())) checked += answers_contained(stored.question, 0, 0);
+  EXPECT_GT(checked, 0);
 }
 
 /// Cases of each family; CI asks about few, the nightly job about NEARMISS_FAMILY_CASES.

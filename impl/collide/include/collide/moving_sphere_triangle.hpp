@@ -73,9 +73,10 @@ struct SpherePastTriangle {
         const Vec3<T> w = point - v[0];
         const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], w - n * (Tier::dot(n, w) / n2));
         const T rest = T(1) - foot.base_weight - foot.apex_weight;
-        // Far beyond a tip the sides of the edges that meet there are nothing but rounding.
-        if (!(larger(rest, larger(foot.base_weight, foot.apex_weight)) <= T(1))) return false;
-        const T apex = not_negative(foot.apex_weight), base = clamped(foot.base_weight, T(0), T(1) - apex);
+        // Far beyond a tip the sides of the edges that meet there are nothing but rounding. At the tip the weights are.
+        constexpr T most = T(1) + T(16) * std::numeric_limits<T>::epsilon();
+        if (!(larger(rest, larger(foot.base_weight, foot.apex_weight)) <= most)) return false;
+        const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
         place.weights = {T(1) - apex - base, base, apex};
         return true;
       }
@@ -208,11 +209,27 @@ struct SpherePastTriangle {
     }
   }
 
+  bool nears_front() const noexcept { return n_length > T(0) && approach > T(0) && height > T(0); }
+  /// When the sphere touches the plane from its front.
+  T face_time() const noexcept { return not_negative(height - radius * n_length) / approach; }
+
+  /// Where face and edge meet, rounding may leave a contact to neither: at `first` the sphere is then deeper in the face than
+  /// it is apart from the boundary at the time of the plane. In that case, true with the latter contact.
+  bool passed_between(const T& first, T& time, TrianglePlace<T>& place, Vec3<T>& away) const noexcept {
+    if (!nears_front()) return false;
+    const T later = smaller(first, height / approach), left = (height - approach * later) / n_length;
+    if (!(left < radius) || !in_face(center + velocity * later, place)) return false;
+    time = face_time();
+    const Vec3<T> at = center + velocity * time;
+    if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
+    return Tier::dot(away, away) - radius * radius < radius * radius - left * left;
+  }
+
   /// The first contact of a sphere that starts apart.
   TriangleImpact<T> moving() const noexcept {
     TrianglePlace<T> place;
-    if (n_length > T(0) && approach > T(0) && height > T(0)) {
-      const T time = not_negative(height - radius * n_length) / approach;
+    if (nears_front()) {
+      const T time = face_time();
       const Vec3<T> at = center + velocity * time;
       if (in_face(at, place)) {
         place.point = at - n * (radius / n_length);
@@ -240,10 +257,13 @@ struct SpherePastTriangle {
       const T reach = Tier::dot(w + velocity * time, along);
       if (reach >= T(0) && reach <= most) first = time;
     }
+    Vec3<T> away;
+    if constexpr (MachineNumber<T>) {
+      if (T time; passed_between(first, time, place, away)) return contact(time, place, away);
+    }
     if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
     // Which feature is nearest then: times that differ by a square do not tell.
     const Vec3<T> at = center + velocity * first;
-    Vec3<T> away;
     if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
     return contact(first, place, away);
   }

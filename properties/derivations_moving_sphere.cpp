@@ -1,14 +1,9 @@
 /// Derivations for spheres that move past triangles, rectangles and boxes: the motion is cut wherever the
 /// nearest feature may change, and each piece has the quadratic of the feature nearest at its middle.
-#include "properties/lattice.hpp"
+#include "properties/derivation.hpp"
 
-namespace nearmiss::lattice {
+namespace nearmiss::derived {
 namespace {
-
-V along(const V& p, const V& v, const Q& t) { return {p[0] + v[0] * t, p[1] + v[1] * t, p[2] + v[2] * t}; }
-Q square_of(const V& a) { return dot(a, a); }
-/// What 512 bits leave of a zero is zero.
-double rounded(const mpf_class& x) { return abs(x) < 1e-100 ? 0.0 : x.get_d(); }
 
 /// The nearest point of a triangle, with its weights, and the directions at whose right angles the
 /// distance counts: none for a vertex (all of it), one for an edge, two for the face.
@@ -22,7 +17,7 @@ Nearest nearest_of(const std::array<V, 3>& c, const V& p) {
   Nearest best{c[0], {1, 0, 0}, {}};
   const auto consider = [&](const V& weights, const std::vector<V>& within) {
     V x{0, 0, 0};
-    for (int i = 0; i < 3; ++i) x = along(x, c[i], weights[i]);
+    for (int i = 0; i < 3; ++i) x = add(x, c[i], weights[i]);
     if (square_of(sub(x, p)) < square_of(sub(best.point, p))) best = {x, weights, within};
   };
   for (int i = 0; i < 3; ++i) {
@@ -45,20 +40,23 @@ Nearest nearest_of(const std::array<V, 3>& c, const V& p) {
     const V w = sub(p, c[0]);
     const Q aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
     const Q s = (dot(w, a) * bb - dot(w, b) * ab) / det, t = (dot(w, b) * aa - dot(w, a) * ab) / det;
-    if (s > 0 && t > 0 && s + t < 1) consider({1 - s - t, s, t}, {a, along(b, a, -ab / aa)});
+    if (s > 0 && t > 0 && s + t < 1) consider({1 - s - t, s, t}, {a, add(b, a, -ab / aa)});
   }
   return best;
 }
 
 struct Hit {
   bool yes = false;
-  mpf_class time{0, 512};
+  R time{0};
+  std::optional<Q> rational{};  ///< the time, where it is
   V before{};  ///< a center in the same piece, for the feature
+
+  static Hit at(const Q& time, const V& before) { return {true, real(time), time, before}; }
 };
 
 /// What is left of x at right angles to the directions.
 V across(V x, const std::vector<V>& directions) {
-  for (const V& d : directions) x = along(x, d, -dot(x, d) / square_of(d));
+  for (const V& d : directions) x = add(x, d, -dot(x, d) / square_of(d));
   return x;
 }
 
@@ -70,9 +68,7 @@ Hit first_hit(const V& p, const Q& r, const V& v, const std::array<V, 3>& c) {
   const Nearest start = nearest_of(c, p);
   const V away = sub(p, start.point);
   const Q outside = square_of(away) - r * r;
-  Hit now;
-  now.yes = true;
-  now.before = p;
+  const Hit now = Hit::at(0, p);
   if (outside < 0) return now;
   if (outside == 0) return dot(away, v) <= 0 ? now : Hit{};
   // The nearest feature changes only where the center crosses one of these planes: through the edges along
@@ -92,27 +88,71 @@ Hit first_hit(const V& p, const Q& r, const V& v, const std::array<V, 3>& c) {
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     const bool last = k + 1 == cuts.size();
     const Q from = cuts[k], middle = last ? Q(from + 1) : Q((from + cuts[k + 1]) / 2);
-    const Nearest feature = nearest_of(c, along(p, v, middle));
+    const Nearest feature = nearest_of(c, add(p, v, middle));
     const V w = across(sub(p, feature.point), feature.within), u = across(v, feature.within);
     const Q qa = square_of(u), qb = dot(u, w), qc = square_of(w) - r * r, d = qb * qb - qa * qc;
-    Hit hit;
-    hit.yes = true;
-    hit.before = along(p, v, middle);
+    const V before = add(p, v, middle);
     if (qa == 0) {
       if (qc > 0) continue;
-      hit.time = mpf_class(from, 512);
-      return hit;
+      return Hit::at(from, before);
     }
     if (d < 0) continue;
     const auto root_beyond = [&](const Q& t) { const Q x = -qb - qa * t; return x >= 0 ? cmp(Q(x * x), d) : -1; };
     if (root_beyond(from) < 0 || (!last && root_beyond(cuts[k + 1]) > 0)) continue;
-    hit.time = (mpf_class(-qb, 512) - sqrt(mpf_class(d, 512))) / mpf_class(qa, 512);
-    return hit;
+    if (d == 0) return Hit::at(-qb / qa, before);
+    return {true, root_of(qa, qb, d), {}, before};
   }
   return {};
 }
 
-/// Time, location, normal and, of a triangle with area, weights; fewer where several are right.
+/// The weights of a place on a triangle with area: (n x the opposite edge) . (place - its start) over n^2.
+VR weights_of(const VR& place, const std::array<V, 3>& c, const V& n) {
+  VR weights;
+  for (int i = 0; i < 3; ++i) {
+    const V& start = c[(i + 1) % 3];
+    const V in = cross(n, sub(c[(i + 2) % 3], start));
+    weights[i] = 0;
+    for (int k = 0; k < 3; ++k) weights[i] += real(in[k]) * (place[k] - real(start[k]));
+    weights[i] /= real(square_of(n));
+  }
+  return weights;
+}
+
+/// Time, location, normal; where the center is on the triangle any normal of its cone against the motion.
+struct Contact {
+  Reference reference;
+  VR location;
+};
+Contact contact_of(const Hit& hit, const V& p, const Q& radius, const V& v, const std::array<V, 3>& c, const Choice& choose) {
+  if (hit.rational) {
+    const V center = add(p, v, *hit.rational);
+    const Nearest nearest = nearest_of(c, center);
+    if (radius == 0 || nearest.point == center) {
+      Contact contact{yes(*hit.rational, nearest.point), real(nearest.point)};
+      std::vector<V> against{v};
+      for (const V& corner : c) against.push_back(sub(corner, nearest.point));
+      if (const auto normal = choose.in_cone(nearest.within, against)) contact.reference.give_unit(*normal);
+      return contact;
+    }
+  }
+  // The feature's point moves along with the center: it is linear in time, taken from two times.
+  const Nearest feature = nearest_of(c, hit.before);
+  const V rate = sub(v, across(v, feature.within)), from = sub(p, across(sub(p, feature.point), feature.within));
+  VR location, away;
+  R distance2(0);
+  for (int k = 0; k < 3; ++k) {
+    location[k] = real(from[k]) + hit.time * real(rate[k]);
+    away[k] = real(p[k]) + hit.time * real(v[k]) - location[k];
+    distance2 += away[k] * away[k];
+  }
+  const R distance = sqrt(distance2);
+  for (R& x : away) x /= distance;
+  return {yes(hit.time, location, away), location};
+}
+
+constexpr std::size_t with_normal = 7;
+
+/// Time, location, normal and, of a triangle with area, weights.
 Reference reference_moving_sphere_triangle(Reader r) {
   const V p = r.vector();
   const Q radius = r.number();
@@ -120,49 +160,29 @@ Reference reference_moving_sphere_triangle(Reader r) {
   const std::array<V, 3> c{r.vector(), r.vector(), r.vector()};
   const Hit hit = first_hit(p, radius, v, c);
   if (!hit.yes) return no();
-  // The feature's point moves along with the center: its weights are linear in time, taken from two times.
-  const Nearest feature = nearest_of(c, hit.before);
-  const auto at = [&](const Q& x, const Q& slope) {
-    return mpf_class(mpf_class(x, 512) + hit.time * mpf_class(slope, 512));
-  };
-  V rate = v;
-  const V beside = across(v, feature.within);
-  for (int k = 0; k < 3; ++k) rate[k] -= beside[k];  // of the nearest point
-  const V from = sub(p, across(sub(p, feature.point), feature.within));
-  Reference reference{true, {hit.time.get_d()}};
-  std::array<mpf_class, 3> location, away;
-  mpf_class distance2(0, 512);
-  for (int k = 0; k < 3; ++k) {
-    location[k] = at(from[k], rate[k]);
-    away[k] = at(p[k], v[k]) - location[k];
-    distance2 += away[k] * away[k];
-    reference.values.push_back(rounded(location[k]));
-  }
+  Contact contact = contact_of(hit, p, radius, v, c, r.choose);
   const V n = cross(sub(c[1], c[0]), sub(c[2], c[0]));
-  if (distance2 == 0 || radius == 0) return reference;  // any normal of a cone
-  const mpf_class distance = sqrt(distance2);
-  for (int k = 0; k < 3; ++k) reference.values.push_back(rounded(away[k] / distance));
-  if (square_of(n) == 0) return reference;
-  for (int i = 0; i < 3; ++i) {  // (n x the opposite edge) . (location - its start) over n^2
-    const V in = cross(n, sub(c[(i + 2) % 3], c[(i + 1) % 3]));
-    mpf_class weight(0, 512);
-    for (int k = 0; k < 3; ++k) weight += mpf_class(in[k], 512) * (location[k] - mpf_class(c[(i + 1) % 3][k], 512));
-    weight /= mpf_class(square_of(n), 512);
-    reference.values.push_back(rounded(weight));
+  if (contact.reference.values.size() == with_normal && square_of(n) != 0) {
+    contact.reference.give(weights_of(contact.location, c, n));
   }
-  return reference;
+  return contact.reference;
 }
 
-/// The earlier of both triangles' times.
+/// The earlier of both triangles' times; of equal ones either.
 Reference reference_moving_sphere_rectangle(Reader r) {
   const V p = r.vector();
   const Q radius = r.number();
   const V v = r.vector();
   const std::array<V, 4> c{r.vector(), r.vector(), r.vector(), r.vector()};
-  const Hit one = first_hit(p, radius, v, {c[0], c[1], c[2]}), two = first_hit(p, radius, v, {c[0], c[2], c[3]});
+  const std::array<V, 3> triangle1{c[0], c[1], c[2]}, triangle2{c[0], c[2], c[3]};
+  const Hit one = first_hit(p, radius, v, triangle1), two = first_hit(p, radius, v, triangle2);
   if (!one.yes && !two.yes) return no();
-  const bool first = one.yes && (!two.yes || one.time <= two.time);
-  return yes((first ? one : two).time.get_d());
+  const R between = one.yes && two.yes ? R(one.time - two.time) : R(one.yes ? -1 : 1);
+  const bool tie = is_zero(R(between / (1 + one.time)));
+  const bool first = tie ? r.choose.below(2) == 0 : between < 0;
+  if (tie && !r.choose.is_free()) return yes(one.time);
+  return first ? contact_of(one, p, radius, v, triangle1, r.choose).reference
+               : contact_of(two, p, radius, v, triangle2, r.choose).reference;
 }
 
 /// The least distance of each piece between the crossings of the face planes.
@@ -204,11 +224,11 @@ Reference reference_moving_sphere_passes_box(Reader r) {
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(
-    MovingSpheres, OracleOnLattice,
-    testing::Values(std::tuple{"moving_sphere_triangle", &reference_moving_sphere_triangle},
-                    std::tuple{"moving_sphere_rectangle", &reference_moving_sphere_rectangle},
-                    std::tuple{"moving_sphere_passes_box", &reference_moving_sphere_passes_box}),
-    [](const auto& test) { return std::string(std::get<0>(test.param)); });
+std::span<const Derived> of_moving_spheres() {
+  static constexpr Derived all[] = {{"moving_sphere_triangle", &reference_moving_sphere_triangle},
+                                    {"moving_sphere_rectangle", &reference_moving_sphere_rectangle},
+                                    {"moving_sphere_passes_box", &reference_moving_sphere_passes_box}};
+  return all;
+}
 
-}  // namespace nearmiss::lattice
+}  // namespace nearmiss::derived

@@ -1,0 +1,408 @@
+/// Derivations of the queries about moving points, and of moving spheres that are points beside something
+/// larger: candidate times, tried one after the other, and pieces of the motion.
+#include "properties/derivation.hpp"
+
+namespace nearmiss::derived {
+namespace {
+
+/// Time, place, and n as a unit vector.
+Reference hit(const Q& t, const V& x, const V& n) {
+  Reference reference = yes(t, x);
+  reference.give_unit(n);
+  return reference;
+}
+/// The same with a normal that may be any of a cone; without one where none was drawn.
+Reference hit(const Q& t, const V& x, const std::optional<V>& n) { return n ? hit(t, x, *n) : yes(t, x); }
+
+/// The parameter at which the heights at times 0 and 1 interpolate to zero.
+Reference reference_moving_point_plane(Reader r) {
+  const V p = r.vector(), v = r.vector(), n = r.vector();
+  const Q d = r.number();
+  const Q now = dot(n, p) + d, later = dot(n, add(p, v, 1)) + d;
+  if (now < 0 || later >= now) return no();
+  const Q t = now / (now - later);
+  return hit(t, add(p, v, t), n);
+}
+
+/// Cramer's rule for p + v t = v0 + x (v1 - v0) + y (v2 - v0); the time, empty for a miss.
+std::optional<Q> time_at_front(const V& p, const V& v, const V& v0, const V& v1, const V& v2) {
+  const V e1 = sub(v1, v0), e2 = sub(v2, v0), s = sub(p, v0);
+  const Q volume = -dot(v, cross(e1, e2));
+  if (volume <= 0) return std::nullopt;
+  const Q t = dot(s, cross(e1, e2)) / volume;
+  const Q x = -dot(v, cross(s, e2)) / volume, y = -dot(v, cross(e1, s)) / volume;
+  if (t < 0 || x < 0 || y < 0 || x + y > 1) return std::nullopt;
+  return t;
+}
+
+/// The hit point against the planes through the edges.
+Reference reference_moving_point_triangle(Reader r) {
+  const V p = r.vector(), v = r.vector();
+  const std::array<V, 3> corner{r.vector(), r.vector(), r.vector()};
+  const V n = cross(sub(corner[1], corner[0]), sub(corner[2], corner[0]));
+  const Q toward = dot(n, v), height = dot(n, sub(p, corner[0]));
+  if (toward >= 0 || height < 0) return no();
+  const Q t = height / -toward;
+  const V x = add(p, v, t);
+  for (int i = 0; i < 3; ++i) {
+    if (dot(n, cross(sub(corner[(i + 1) % 3], corner[i]), sub(x, corner[i]))) < 0) return no();
+  }
+  return hit(t, x, n);
+}
+
+Reference reference_moving_point_triangle_prepared(Reader r) {
+  const V p = r.vector(), v = r.vector(), v0 = r.vector(), v1 = r.vector(), v2 = r.vector();
+  const std::optional<Q> t = time_at_front(p, v, v0, v1, v2);
+  return t ? hit(*t, add(p, v, *t), cross(sub(v1, v0), sub(v2, v0))) : no();
+}
+
+Reference reference_moving_point_rectangle(Reader r) {
+  const V p = r.vector(), v = r.vector(), v0 = r.vector(), v1 = r.vector(), v2 = r.vector(), v3 = r.vector();
+  const std::optional<Q> first = time_at_front(p, v, v0, v1, v2), second = time_at_front(p, v, v0, v2, v3);
+  if (!first && !second) return no();
+  const bool tie = first && second && *first == *second;
+  const bool use_first = tie ? r.choose.below(2) == 0 : first && (!second || *first < *second);
+  const Q t = use_first ? *first : *second;
+  return hit(t, add(p, v, t), use_first ? cross(sub(v1, v0), sub(v2, v0)) : cross(sub(v2, v0), sub(v3, v0)));
+}
+
+/// The first t >= 0 at which the point is in [low, high]: 0 or a crossing of a face plane.
+std::optional<Q> time_in_box(const V& p, const V& v, const V& low, const V& high) {
+  std::vector<Q> times{0};
+  for (int i = 0; i < 3; ++i) {
+    for (const Q& plane : {low[i], high[i]}) {
+      if (v[i] != 0 && (plane - p[i]) / v[i] > 0) times.push_back((plane - p[i]) / v[i]);
+    }
+  }
+  std::sort(times.begin(), times.end());
+  for (const Q& t : times) {
+    const V x = add(p, v, t);
+    bool in = true;
+    for (int i = 0; i < 3; ++i) in = in && low[i] <= x[i] && x[i] <= high[i];
+    if (in) return t;
+  }
+  return std::nullopt;
+}
+
+Reference reference_moving_point_aabox(Reader r) {
+  const V p = r.vector(), v = r.vector(), low = r.vector(), high = r.vector();
+  const std::optional<Q> t = time_in_box(p, v, low, high);
+  Reference missed = no();
+  missed.give(double(t && *t == 0));
+  if (!t) return missed;
+  if (*t == 0) return missed.give(p), missed;
+  const V x = add(p, v, *t);
+  std::vector<V> normals;  // of the faces on which the point is then, through which it enters or along which it goes
+  for (int i = 0; i < 3; ++i) {
+    for (const int side : {-1, 1}) {
+      V n{0, 0, 0};
+      n[i] = side;
+      if (x[i] == (side < 0 ? low : high)[i] && side * v[i] <= 0) normals.push_back(n);
+    }
+  }
+  return yes(0.0, x, *t, r.choose.among(normals));
+}
+
+Reference reference_ray_aabox(Reader r) {
+  const V p = r.vector(), v = r.vector(), low = r.vector(), high = r.vector();
+  const std::optional<Q> t = time_in_box(p, v, low, high);
+  if (!t) return {false, {0}};
+  return yes(double(*t == 0), add(p, v, *t));
+}
+
+/// A direction out of the box where `local` is on its surface, not with the motion.
+std::optional<V> out_of(const RefBox& box, const V& local, const V& motion, const Choice& choose) {
+  std::vector<V> along, against;
+  bool may_lead_with_it = true;
+  for (int i = 0; i < 3; ++i) {
+    const int side = sgn(local[i]);
+    const V out = scaled(box.axes[i], side);
+    if (abs(local[i]) < box.half[i]) along.push_back(box.axes[i]);
+    else if (box.half[i] > 0) against.push_back(scaled(out, -1)), may_lead_with_it = may_lead_with_it && dot(out, motion) > 0;
+    else may_lead_with_it = false;
+  }
+  if (!may_lead_with_it) against.push_back(motion);  // else all normals do, of a sphere with a size
+  return choose.in_cone(along, against);
+}
+
+Reference point_meets_box(const V& p, const V& v, const RefBox& box, const Choice& choose) {
+  const V s = box.local(sub(p, box.center)), w = box.local(v);
+  const std::optional<Q> t = time_in_box(s, w, {-box.half[0], -box.half[1], -box.half[2]}, box.half);
+  if (!t) return no();
+  if (*t == 0) {  // on the surface, and a moment later not away from one of its planes
+    bool stays = false;
+    for (int i = 0; i < 3; ++i) stays = stays || (abs(s[i]) == box.half[i] && (box.half[i] == 0 || s[i] * w[i] <= 0));
+    if (!stays) return no();
+  }
+  return hit(*t, add(p, v, *t), out_of(box, add(s, w, *t), v, choose));
+}
+
+Reference reference_moving_point_box(Reader r) {
+  const V p = r.vector(), v = r.vector();
+  return point_meets_box(p, v, RefBox(r), r.choose);
+}
+
+/// Where a sphere begins in touch with the box, `s` and `w` in the box's frame.
+Reference contact_at_start(const V& p, const V& v, const RefBox& box, const Choice& choose) {
+  const V s = box.local(sub(p, box.center));
+  V out;
+  Q inside = box.half[0] - abs(s[0]);
+  for (int i = 0; i < 3; ++i) out[i] = excess(s[i], box.half[i]), inside = std::min(inside, Q(box.half[i] - abs(s[i])));
+  if (square_of(out) > 0) return hit(0, add(box.center, box.world(sub(s, out))), box.world(out));
+  if (inside == 0) return hit(0, p, out_of(box, s, v, choose));
+  std::vector<V> faces;
+  for (int i = 0; i < 3; ++i) {
+    for (const int side : {1, -1}) {
+      if (box.half[i] - side * s[i] == inside) faces.push_back(scaled(box.axes[i], side));
+    }
+  }
+  if (faces.size() > 1 && !choose.is_free()) return yes(0.0);
+  const V normal = choose.among(faces);
+  return hit(0, add(p, normal, inside), normal);
+}
+
+/// Time of impact, piece by piece between the crossings of the face planes.
+Reference reference_moving_sphere_box(Reader r) {
+  const V p = r.vector();
+  const Q radius = r.number();
+  const V v = r.vector();
+  const RefBox box(r);
+  if (radius == 0) return point_meets_box(p, v, box, r.choose);
+  const V s = box.local(sub(p, box.center)), w = box.local(v);
+  Q outside = -radius * radius, slope = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Q e = excess(s[i], box.half[i]);
+    outside += e * e;
+    slope += e * w[i];
+  }
+  if (outside < 0 || (outside == 0 && slope <= 0)) return contact_at_start(p, v, box, r.choose);
+  if (outside == 0) return no();
+  /// With the sides of the box beyond which the center is then.
+  const auto contact = [&](const R& t, const std::array<int, 3>& sides) {
+    VR on_box, away;
+    for (int i = 0; i < 3; ++i) {
+      const R x = real(s[i]) + real(w[i]) * t;
+      on_box[i] = sides[i] == 0 ? x : real(sides[i] * box.half[i]);
+      away[i] = R(x - on_box[i]) / real(radius);
+    }
+    VR place = box.world(on_box);
+    for (int i = 0; i < 3; ++i) place[i] += real(box.center[i]);
+    return yes(t, place, box.world(away));
+  };
+  std::vector<Q> crossings{0};
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] == 0) continue;
+    for (const int side : {-1, 1}) {
+      if (const Q t = (side * box.half[i] - s[i]) / w[i]; t > 0) crossings.push_back(t);
+    }
+  }
+  std::sort(crossings.begin(), crossings.end());
+  for (std::size_t k = 0; k < crossings.size(); ++k) {
+    const bool last = k + 1 == crossings.size();
+    const Q from = crossings[k], middle = last ? Q(from + 1) : Q((from + crossings[k + 1]) / 2);
+    Q a = 0, b = 0, c = -radius * radius;
+    std::array<int, 3> sides{0, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+      const Q x = s[i] + w[i] * middle;
+      if (abs(x) <= box.half[i]) continue;
+      const Q e = x > 0 ? Q(s[i] - box.half[i]) : Q(s[i] + box.half[i]);
+      sides[i] = sgn(x);
+      a += w[i] * w[i], b += w[i] * e, c += e * e;
+    }
+    if (a == 0) {
+      if (c <= 0) return contact(real(from), sides);
+      continue;
+    }
+    const Q d = b * b - a * c;
+    if (d < 0) continue;
+    // Is the root within [from, to]? (-b - a t)^2 against d, on the falling branch.
+    const auto root_beyond = [&](const Q& t) { const Q x = -b - a * t; return x >= 0 ? cmp(Q(x * x), d) : -1; };
+    if (root_beyond(from) >= 0 && (last || root_beyond(crossings[k + 1]) <= 0)) {
+      return contact(root_of(a, b, d), sides);
+    }
+  }
+  return no();
+}
+
+/// The part of x - a beyond the segment from a along d, at a right angle to it or from an end.
+V from_segment(const V& x, const V& a, const V& d) {
+  const V m = sub(x, a);
+  const Q dd = square_of(d);
+  return add(m, d, dd == 0 ? Q(0) : -std::clamp(Q(dot(m, d) / dd), Q(0), Q(1)));
+}
+
+/// A contact of a center that is `away` from the axis.
+Reference round_contact(const R& t, const VR& center, const VR& away, const Q& radius) {
+  const R l = sqrt(R(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]));
+  VR normal, place;
+  for (int i = 0; i < 3; ++i) normal[i] = away[i] / l, place[i] = center[i] - away[i] + normal[i] * real(radius);
+  return yes(t, place, normal);
+}
+
+/// Points within `radius` of the segment from a along d.
+struct Tube {
+  V a, d;
+  Q radius;
+};
+
+/// A contact of a center on the axis: the normal leads out of it at a right angle, or from an end away.
+Reference contact_on_axis(const Q& t, const V& center, const V& v, const Tube& tube, const Choice& choose) {
+  std::vector<V> along, against;
+  if (square_of(tube.d) > 0) {
+    if (center == tube.a) against.push_back(tube.d);
+    else if (center == add(tube.a, tube.d)) against.push_back(scaled(tube.d, -1));
+    else along.push_back(tube.d);
+  }
+  if (tube.radius == 0) against.push_back(v);
+  const std::optional<V> normal = choose.in_cone(along, against);
+  if (!normal) return yes(t);
+  const R l = length(*normal);
+  VR place;
+  for (int i = 0; i < 3; ++i) place[i] = real(center[i]) + real(tube.radius * (*normal)[i]) / l;
+  Reference reference = yes(t, place);
+  reference.give_unit(*normal);
+  return reference;
+}
+
+/// A ball of radius `own` against the tube: the squared distance from its axis is one quadratic before the motion passes
+/// an end, one between them, one after.
+Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, const Choice& choose) {
+  const V& d = tube.d;
+  const Q reach = own + tube.radius, vd = dot(v, d);
+  const auto contact = [&](const Q& t) {
+    const V center = add(p, v, t), away = from_segment(center, tube.a, d);
+    if (square_of(away) == 0) return contact_on_axis(t, center, v, tube, choose);
+    return round_contact(real(t), real(center), real(away), tube.radius);
+  };
+  const V away = from_segment(p, tube.a, d);
+  const Q outside = square_of(away) - reach * reach;
+  if (outside < 0 ? own == 0 : outside == 0 && dot(away, v) > 0) return no();
+  if (outside <= 0) return contact(0);
+  std::vector<Q> bends{0};
+  if (vd != 0) {
+    for (const V& end : {tube.a, add(tube.a, d)}) {
+      if (const Q t = dot(sub(end, p), d) / vd; t > 0) bends.push_back(t);
+    }
+  }
+  std::sort(bends.begin(), bends.end());
+  bends.erase(std::unique(bends.begin(), bends.end()), bends.end());
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    const bool last = k + 1 == bends.size();
+    const Q from = bends[k], middle = last ? Q(from + 1) : Q((from + bends[k + 1]) / 2);
+    // The distance vector is linear on the piece: known from two of its values.
+    const V e0 = from_segment(add(p, v, from), tube.a, d), em = from_segment(add(p, v, middle), tube.a, d);
+    const V step = scaled(sub(em, e0), 1 / (middle - from));
+    const Q a = square_of(step), b = dot(e0, step), c = square_of(e0) - reach * reach;
+    if (c == 0) return contact(from);
+    if (a == 0 || b >= 0) continue;
+    const Q disc = b * b - a * c;
+    if (disc < 0) continue;
+    if (!last) {  // the root lies on this piece: (-b - a t)^2 <= disc on the falling branch, or beyond it
+      const Q x = -b - a * (bends[k + 1] - from);
+      if (x > 0 && x * x > disc) continue;
+    }
+    if (disc == 0) return contact(from - b / a);
+    const R later = root_of(a, b, disc), t = real(from) + later;
+    VR center, apart;
+    for (int i = 0; i < 3; ++i) center[i] = real(p[i]) + real(v[i]) * t, apart[i] = real(e0[i]) + real(step[i]) * later;
+    return round_contact(t, center, apart, tube.radius);
+  }
+  return no();
+}
+
+Reference reference_moving_point_capsule(Reader r) {
+  const V p = r.vector(), v = r.vector(), p0 = r.vector(), p1 = r.vector();
+  return past_tube(p, 0, v, {p0, sub(p1, p0), r.number()}, r.choose);
+}
+
+Reference reference_moving_sphere_capsule(Reader r) {
+  const V p = r.vector();
+  const Q own = r.number();
+  const V v = r.vector(), p0 = r.vector(), p1 = r.vector();
+  return past_tube(p, own, v, {p0, sub(p1, p0), r.number()}, r.choose);
+}
+
+Reference reference_moving_sphere_sphere(Reader r) {
+  const V p = r.vector();
+  const Q own = r.number();
+  const V v = r.vector(), center = r.vector();
+  return past_tube(p, own, v, {center, {0, 0, 0}, r.number()}, r.choose);
+}
+
+/// Heights times |n|: h against r |n| by squares.
+Reference reference_moving_sphere_plane(Reader r) {
+  const V c = r.vector();
+  const Q radius = r.number();
+  const V v = r.vector(), n = r.vector();
+  const Q d = r.number();
+  const Q h = dot(n, c) + d, speed = dot(n, v), nn = square_of(n), reach2 = radius * radius * nn;
+  if (speed > 0 || (h < 0 && h * h > reach2)) return no();
+  if (h * h <= reach2) return hit(0, add(c, n, -h / nn), h <= 0 && r.choose.below(2) == 1 ? scaled(n, -1) : n);
+  if (speed == 0) return no();
+  const R t = (real(h) - sqrt(real(reach2))) / real(-speed);
+  VR place;
+  for (int i = 0; i < 3; ++i) place[i] = real(c[i]) + real(v[i]) * t - real(n[i] * radius) / length(n);
+  Reference reference = yes(t, place);
+  reference.give_unit(n);
+  return reference;
+}
+
+/// From outside the first root, from inside the second.
+Reference reference_moving_point_sphere(Reader r) {
+  const V p = r.vector(), v = r.vector(), center = r.vector();
+  const Q radius = r.number();
+  const bool solid = r.number() != 0;
+  const V m = sub(p, center);
+  const Q a = square_of(v), b = dot(m, v), c = square_of(m) - radius * radius, d = b * b - a * c;
+  if (c <= 0 && solid) {
+    if (square_of(m) > 0) return hit(0, p, m);
+    return hit(0, p, r.choose.in_cone({}, {}));
+  }
+  if (a == 0) return no();
+  const bool leaves = c <= 0;
+  if (!leaves && (b >= 0 || d < 0)) return no();
+  if (radius == 0) return hit(-b / a, center, r.choose.in_cone({}, leaves ? std::vector<V>{} : std::vector<V>{v}));
+  const R t = root_of(a, b, d, leaves ? +1 : -1);
+  VR place, normal;
+  for (int i = 0; i < 3; ++i) {
+    place[i] = real(p[i]) + real(v[i]) * t;
+    normal[i] = R(place[i] - real(center[i])) / real(radius);
+  }
+  return yes(t, place, normal);
+}
+
+/// The least distance of the centers up to the limit.
+Reference reference_moving_sphere_passes_sphere(Reader r) {
+  const V p = r.vector();
+  const Q own = r.number();
+  const V v = r.vector(), center = r.vector();
+  const Q reach = own + r.number(), limit = r.number();
+  const bool forever = r.number() != 0;
+  Q t = dot(v, v) == 0 ? Q(0) : Q(dot(sub(center, p), v) / dot(v, v));
+  if (!forever && t > limit) t = limit;
+  if (t < 0) t = 0;
+  const V m = sub(add(p, v, t), center);
+  return {dot(m, m) <= reach * reach, {}};
+}
+
+}  // namespace
+
+std::span<const Derived> of_moving_points() {
+  static constexpr Derived all[] = {{"moving_point_plane", &reference_moving_point_plane},
+                                    {"moving_point_triangle_prepared", &reference_moving_point_triangle_prepared},
+                                    {"moving_point_rectangle", &reference_moving_point_rectangle},
+                                    {"moving_point_capsule", &reference_moving_point_capsule},
+                                    {"moving_point_aabox", &reference_moving_point_aabox},
+                                    {"ray_aabox", &reference_ray_aabox},
+                                    {"moving_point_box", &reference_moving_point_box},
+                                    {"moving_sphere_plane", &reference_moving_sphere_plane},
+                                    {"moving_sphere_sphere", &reference_moving_sphere_sphere},
+                                    {"moving_sphere_capsule", &reference_moving_sphere_capsule},
+                                    {"moving_sphere_passes_sphere", &reference_moving_sphere_passes_sphere},
+                                    {"moving_sphere_box", &reference_moving_sphere_box},
+                                    {"moving_point_sphere", &reference_moving_point_sphere},
+                                    {"moving_point_triangle", &reference_moving_point_triangle}};
+  return all;
+}
+
+}  // namespace nearmiss::derived
