@@ -803,10 +803,10 @@ std::string_view name_of(Topic topic) {
   return "?";
 }
 
-std::vector<double> widening_of_lies(const Case& c, double backward) {
-  std::vector<double> wide = widening(*c.query, c.values, c.scalar, lies_beyond * backward);
+std::vector<double> widening_of_lies(const Case& c, double backward, double beyond) {
+  std::vector<double> wide = widening(*c.query, c.values, c.scalar, beyond * backward);
   const std::vector<double> bound = widening(*c.query, c.values, c.scalar, backward);
-  for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = std::max(wide[i], lies_beyond * bound[i]);
+  for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = std::max(wide[i], beyond * bound[i]);
   return wide;
 }
 

@@ -27,11 +27,11 @@ struct Lie {
 /// where the bounds do not tell, and for a query that they do not know. `salt` chooses by how much a number is wrong.
 std::vector<Lie> lies_about(const Case& c, std::span<const double> widening, std::uint64_t salt);
 
-/// How many times further than a bound on the backward error a lie about it is.
+/// How many times further than a bound on the backward error a gross lie about it is.
 inline constexpr double lies_beyond = 0x1p10;
-/// The widening for lies about such a bound. A bound that is nothing in subnormal numbers moves them by one; a lie is then
+/// The widening for lies that are so many times further off than such a bound. A bound that is nothing in subnormal numbers moves them by one; a lie is then
 /// beyond as many times that.
-std::vector<double> widening_of_lies(const Case& c, double backward);
+std::vector<double> widening_of_lies(const Case& c, double backward, double beyond = lies_beyond);
 
 /// Bounds that are held against lies about the query: what the tier `Fast` of that scalar promises, and in double one that
 /// is many bits wide.

@@ -322,6 +322,7 @@ class SphereAndTriangle {
     Window window = near_;
     window.clip(times_not_positive(N(-inner(w, e_[i])), N(-inner(v_, e_[i]))));
     window.clip(times_not_positive(N(inner(w, e_[i]) - e2_[i]), N(inner(v_, e_[i]))));
+    if constexpr (is_enclosure<N>) window.clip(times_near_edge(i, r_));
     if (window.empty()) return;
     const auto of_line = root_time(outer(w, e_[i]), outer(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), Window{}, surely);
     if (!of_line) return;
@@ -337,6 +338,12 @@ class SphereAndTriangle {
     Place place = on_edge(i, minus(x, corner_[i]));
     Vector<N> away = minus(x, place.point);
     if (edge_about_middle(i, time, place, away)) add_root(time, place, away, false);
+  }
+  /// Within reach of an edge the center is no further from the edge's start than both together: the line of a short edge, of
+  /// which hardly the direction is known, passes near much that the edge does not.
+  Window times_near_edge(int i, const N& reach) const {
+    const Vector<N> w = from_corner(i);
+    return times_within(w, v_, square(N(reach + root(e2_[i]))), moment2(w));
   }
   bool surely_between(int i, const Vector<N>& x) const {
     const N along = inner(minus(x, corner_[i]), e_[i]);
@@ -402,7 +409,7 @@ class SphereAndTriangle {
   void tiny_edge_root(int i) {
     if constexpr (is_enclosure<N>) {
       const Vector<N> w = from_corner(i);
-      Window times = times_within(w, v_, square(N(r_ + N(root(e2_[i]).sup()))), moment2(w));
+      Window times = times_near_edge(i, r_);
       times.clip(near_);
       if (times.empty()) return;
       const N time(times.from, times.to);
@@ -462,12 +469,13 @@ class SphereAndTriangle {
       const int l = longest();
       const Vector<N> w = from_corner(l), other = from_corner((l + 1) % 3);
       const N reach = r_ + N(reach_from_longest_edge());
-      if (may_be_zero(e2_[l])) return times_within(w, v_, square(N(reach + root(e2_[l]))), moment2(w));
+      if (may_be_zero(e2_[l])) return times_near_edge(l, reach);
       times = times_within(w, v_, square(reach), moment2(w));
       times.include(times_within(other, v_, square(reach), moment2(other)));
       Window beside = times_within(outer(w, e_[l]), outer(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
       beside.clip(times_not_positive(N(-inner(w, e_[l])), N(-inner(v_, e_[l]))));
       beside.clip(times_not_positive(N(inner(w, e_[l]) - e2_[l]), N(inner(v_, e_[l]))));
+      beside.clip(times_near_edge(l, reach));
       times.include(beside);
     }
     return times;

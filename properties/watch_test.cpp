@@ -151,6 +151,22 @@ TEST_P(Watch, NothingIsProvedAgainstWhatIsRight) {
   EXPECT_TRUE(yes > asked / 100 && yes < asked) << yes << " of " << asked;
 }
 
+/// The watch has teeth: a judge that told 64 times too much would be seen, for every query.
+TEST_P(Watch, SeesAJudgeThatTellsTooMuch) {
+  constexpr double too_much = 64;
+  constexpr int cases = 4000;
+  int seen = 0;
+  for (std::uint64_t index = 0; index < cases && seen == 0; ++index) {
+    const Case there = draw(index);
+    const std::optional<Answer> exact = answer_of(query(), there.scalar, right_answer(there));
+    const double k = any_rung();
+    if (!exact || k == 0) continue;
+    const Finding f = judge(moved(there, too_much * k), *exact, collide::Contract{.backward = k, .unit = 8}, Detail::verdict);
+    seen += !false_word(f, k).empty();
+  }
+  EXPECT_GT(seen, 0);
+}
+
 double next_to(double x, int way, Scalar s) {
   if (way == 0) return x;
   return s == Scalar::float32 ? double(std::nextafter(float(x), way * HUGE_VALF)) : std::nextafter(x, way * HUGE_VAL);
