@@ -668,7 +668,9 @@ void box_box_penetration(Inputs in, Liar& out) {
   const std::size_t k = out.below(3);
   const Point e = direction(k), back = scaled(e, -1);
   constexpr std::size_t contact = 5;  // behind the axis
-  out.within(Topic::place, contact + k, std::min(-a.reach(back), -b.reach(back)) - slack, std::max(a.reach(e), b.reach(e)) + slack,
+  // Half the depth away from a point of a box: beside a larger box that may be in neither.
+  const Real off = (most + slack) / 2 + slack;
+  out.within(Topic::place, contact + k, std::min(-a.reach(back), -b.reach(back)) - off, std::max(a.reach(e), b.reach(e)) + off,
              std::max(bodies::length(a.center) + a.size(), bodies::length(b.center) + b.size()));
 }
 

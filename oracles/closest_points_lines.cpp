@@ -17,14 +17,19 @@ std::vector<Form> forms_of(const collide::Line<Interval>& line) {
   return forms;
 }
 
-/// Of lines that may be parallel no more is known than that each point lies on its line.
+/// Points of which little is known but that each lies on its line.
 template <class Out>
-void any_points(const collide::inputs::closest_points_lines<Interval>& q, Out& out) {
+void points_on_lines(const collide::inputs::closest_points_lines<Interval>& q, const collide::ClosestPoints<Interval>& points,
+                     Out& out) {
   constexpr std::size_t point1 = 0, point2 = 3;
   const Bounds on1 = ulps_from(forms_of(q.line1), point1, out), on2 = ulps_from(forms_of(q.line2), point2, out);
+  out.yes(points, FromSet{{{point1, on1}, {point2, on2}}, {std::max(on1.low, on2.low), HUGE_VAL}});
+}
+template <class Out>
+void any_points(const collide::inputs::closest_points_lines<Interval>& q, Out& out) {
   const Interval any(-HUGE_VAL, HUGE_VAL);
   const collide::Vec3<Interval> anywhere{any, any, any};
-  out.yes({anywhere, anywhere}, FromSet{{{point1, on1}, {point2, on2}}, {std::max(on1.low, on2.low), HUGE_VAL}});
+  points_on_lines(q, {anywhere, anywhere}, out);
 }
 
 template <class N, class Out>
@@ -45,8 +50,12 @@ void closest_points_lines(const collide::inputs::closest_points_lines<N>& q, Out
   const Vector<N> normal = outer(d1, d2);
   const N numerator1 = meet(N(inner(outer(between, d2), normal)), N(along1 * length2 - along2 * cosine));
   const N numerator2 = meet(N(inner(outer(between, d1), normal)), N(along1 * cosine - along2 * length1));
-  out.yes({answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
-           answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))});
+  const collide::ClosestPoints<N> points{answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
+                                         answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))};
+  if constexpr (is_enclosure<N>) {  // lines that may be nearly parallel
+    if (determinant.sup() > (1 + 0x1p-10) * determinant.inf()) return points_on_lines(q, points, out);
+  }
+  out.yes(points);
 }
 
 template <class N>

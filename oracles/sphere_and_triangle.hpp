@@ -256,6 +256,9 @@ class SphereAndTriangle {
       if (surely_has_area()) tighter2 = meet(tighter2, N(square(inner(n_, from_corner(0))) / n2_));
       from(*foot, tighter2, true);
     }
+    if constexpr (is_enclosure<N>) {  // where a part may have no length, little is known of what is nearest
+      if (may_start_apart && surely_overlaps_at_start()) return false;
+    }
     return may_start_apart;
   }
 
@@ -331,7 +334,8 @@ class SphereAndTriangle {
       // Is the line surely touched between the edge's ends? The window assumes that it is, so it comes afterwards.
       const bool bounded = time.sup() < std::numeric_limits<double>::infinity();
       if (surely && bounded && surely_between(i, at(time))) surely_by_ = std::min(surely_by_, time.sup());
-      if (!narrow(time, N(window.from, window.to))) return;
+      window.clip({0, surely_by_});
+      if (window.empty() || !narrow(time, N(window.from, window.to))) return;
     }
     const Vector<N> x = at(time);
     if (!may_be_at_edge(i, x)) return;
@@ -411,6 +415,7 @@ class SphereAndTriangle {
       const Vector<N> w = from_corner(i);
       Window times = times_near_edge(i, r_);
       times.clip(near_);
+      times.clip({0, surely_by_});
       if (times.empty()) return;
       const N time(times.from, times.to);
       const Place place = on_edge(i, w);
@@ -481,16 +486,35 @@ class SphereAndTriangle {
     return times;
   }
 
+  /// The same of the place that a sphere at x touches: near it is a place on the longest edge, in reach of x. False where
+  /// there is none.
+  bool narrow_to_longest_edge(const Vector<N>& x, Vector<N>& place) const {
+    if constexpr (is_enclosure<N>) {
+      const int l = longest();
+      if (may_be_zero(e2_[l])) return true;
+      const double off = reach_from_longest_edge();
+      const Vector<N> w = minus(corner_[l], x);
+      Window along = times_within(w, e_[l], square(N(r_ + N(off))), norm2(outer(w, e_[l])));
+      along.clip({0, 1});
+      if (along.empty()) return false;
+      for (int k = 0; k < 3; ++k) {
+        if (!narrow(place[k], N(corner_[l][k] + e_[l][k] * N(along.from, along.to) + N(-off, off)))) return false;
+      }
+    }
+    return true;
+  }
+
   /// A face that may have no area.
   void thin_face_root() {
     if constexpr (is_enclosure<N>) {
       Window times = times_near_longest_edge();
       times.clip(near_);
+      times.clip({0, surely_by_});
       if (times.empty()) return;
       const N time(times.from, times.to);
       const Vector<N> x = at(time);
-      const std::optional<Place> place = in_face(x);
-      if (place) add_root(time, *place, minus(x, place->point), false);
+      std::optional<Place> place = in_face(x);
+      if (place && narrow_to_longest_edge(x, place->point)) add_root(time, *place, minus(x, place->point), false);
     }
   }
 
@@ -565,12 +589,25 @@ class SphereAndTriangle {
     consider(1 - along, along);
     return best;
   }
-  bool surely_overlaps() const {
+  Doubles middles() const {
     Doubles d;
     for (int k = 0; k < 3; ++k) {
       d.p[k] = middle(p_[k]), d.v[k] = middle(v_[k]);
       for (int i = 0; i < 3; ++i) d.c[i][k] = middle(corner_[i][k]);
     }
+    return d;
+  }
+  /// How far the center is at that time beyond the radius, squared, from the place with those weights of corners 1 and 2.
+  N beyond(double time, const std::array<double, 2>& weights) const {
+    const Vector<N> q = plus(corner_[0], plus(times(e_[0], N(weights[0])), times(minus(corner_[2], corner_[0]), N(weights[1]))));
+    return norm2(minus(at(N(time)), q)) - square(r_);
+  }
+  bool surely_overlaps_at_start() const {
+    const Doubles d = middles();
+    return !may_be_at_least_zero(beyond(0, nearest_weights(d, d.p)));
+  }
+  bool surely_overlaps() const {
+    const Doubles d = middles();
     double from = near_.from, to = near_.to < Window{}.to ? near_.to : near_.from;
     const auto weights_at = [&](double t) {
       const double x[3] = {d.p[0] + d.v[0] * t, d.p[1] + d.v[1] * t, d.p[2] + d.v[2] * t};
@@ -587,9 +624,7 @@ class SphereAndTriangle {
       }
       (slope < 0 ? from : to) = t;
     }
-    const auto [s, u] = weights_at(from);
-    const Vector<N> q = plus(corner_[0], plus(times(e_[0], N(s)), times(minus(corner_[2], corner_[0]), N(u))));
-    return !may_be_positive(N(norm2(minus(at(N(from)), q)) - square(r_)));
+    return !may_be_positive(beyond(from, weights_at(from)));
   }
 
   Vector<N> p_;

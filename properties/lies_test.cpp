@@ -37,8 +37,9 @@ void tell(const Case& c, double bound, double beyond, std::uint64_t salt, Told& 
 }
 
 /// Of the lies about a class of cases, at both scalars and all bounds. What falls short of all of them is a proof that the
-/// oracle's enclosures do not find, never a false one.
-constexpr double least_share = 0.99;
+/// oracle's enclosures do not find, never a false one. Of the gross ones 99.9 % are told (benchmarks/oracle_power, which asks
+/// about many more); of the few here one may be missing.
+constexpr int may_be_missing = 1;
 constexpr double least_share_not_gross = 0.98;
 
 TEST_P(Lies, AreTold) {
@@ -50,7 +51,7 @@ TEST_P(Lies, AreTold) {
         for (std::uint64_t i = 0; i < cases; ++i) tell(case_of(family, query(), scalar, 31, i), bound, lies_beyond, i, sum);
       }
     }
-    EXPECT_GE(sum.told, least_share * sum.lies) << name_of(family) << ": " << sum.first_untold;
+    EXPECT_GE(sum.told + may_be_missing, sum.lies) << name_of(family) << ": " << sum.first_untold;
   }
 }
 

@@ -19,7 +19,11 @@ namespace fs = std::filesystem;
 
 /// Those that ask about other cases with another seed.
 constexpr std::string_view with_seeds =
-    "*EveryTier.AnswersKeepTheirContract*:*EveryTierRelated*:*CertifiedPostconditions*:*CertifiedTier*";
+    "*EveryTier.AnswersKeepTheirContract*:*EveryTierRelated*:*CertifiedPostconditions*:*CertifiedTier*:*Watch*";
+
+/// Where there is time for it, in seconds, the watch of the judge asks about ten times as many answers to each query.
+constexpr double time_for_long_watch = 3 * 3600;
+constexpr std::string_view long_watch = "NEARMISS_WATCH_ANSWERS=1000000";
 
 /// "[       OK ] NAME (12 ms)", or FAILED in place of OK, as GoogleTest prints it while it runs.
 void count(const fs::path& log, PropertyOutcome& o) {
@@ -53,6 +57,7 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
     std::vector<std::string> environment = telling_of_added(budget.plugins);
     environment.push_back(fmt::format("NEARMISS_SEED={}", seed));
     environment.push_back(fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()));
+    if (budget.seconds >= time_for_long_watch) environment.emplace_back(long_watch);
     environment.push_back(fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed));
     // GoogleTest takes seeds of its order up to 99999.
     Child child({program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle", "--gtest_color=no",

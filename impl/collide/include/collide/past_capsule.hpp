@@ -47,7 +47,8 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
     return contact_along(time, on_axis, normal);
   };
 
-  const bool before = along < T(0), beyond = along > length;
+  // Seen from the end itself: beside it, rounding of the length is more than what leads along the axis.
+  const bool before = along < T(0), beyond = along > length && !(Tier::dot(axis, from_p1) < T(0));
   const Vec3<T> nearest = before ? from_p0 : beyond ? from_p1 : beside;
   const T apart = Tier::beyond_radius(nearest, reach);
   if (!(apart > T(0))) {
