@@ -52,8 +52,8 @@ void closest_points_lines(const collide::inputs::closest_points_lines<N>& q, Out
   const N numerator2 = meet(N(inner(outer(between, d1), normal)), N(along1 * cosine - along2 * length1));
   const collide::ClosestPoints<N> points{answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
                                          answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))};
-  if constexpr (is_enclosure<N>) {  // lines that may be nearly parallel
-    if (determinant.sup() > (1 + 0x1p-10) * determinant.inf()) return points_on_lines(q, points, out);
+  if constexpr (is_enclosure<N>) {  // more is known of a place that is little known along its line
+    if (determinant.sup() > (1 + 0x1p-40) * determinant.inf()) return points_on_lines(q, points, out);
   }
   out.yes(points);
 }

@@ -80,6 +80,11 @@ Derivation derivation_of(const Query& query) {
   }
   return nullptr;
 }
+std::vector<NamedQuery> derived_queries() {
+  std::vector<NamedQuery> all = every_query();
+  std::erase_if(all, [](const NamedQuery& q) { return derivation_of(*q.query) == nullptr; });
+  return all;
+}
 
 Case lattice_case(const Query& query, Scalar scalar, int range, std::mt19937_64& random) {
   const auto below = [&](int n) { return int(random() % std::uint64_t(n)); };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracles/case.hpp"
+#include "properties/support.hpp"
 
 namespace nearmiss::derived {
 
@@ -142,6 +143,8 @@ std::span<const Derived> of_moving_spheres();
 
 /// Null where the query has none.
 Derivation derivation_of(const Query& query);
+/// The queries that have one.
+std::vector<NamedQuery> derived_queries();
 
 /// A valid case of integers up to `range`, sizes from 0 to 2, half of the quaternions axis-aligned.
 Case lattice_case(const Query& query, Scalar scalar, int range, std::mt19937_64& random);

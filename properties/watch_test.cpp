@@ -269,7 +269,7 @@ TEST_P(Watch, WhatIsWrongIsTold) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Watch, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Every, Watch, testing::ValuesIn(derived::derived_queries()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -80,7 +80,7 @@ std::map<std::string, std::set<std::string>> tests_by_query() {
 }
 
 /// The independent derivations are written for some queries; nothing makes them run for a new one.
-bool written_by_query(const std::string& test) { return test.starts_with("OracleOnLattice."); }
+bool written_by_query(const std::string& test) { return test.starts_with("OracleOnLattice.") || test.starts_with("Watch."); }
 
 TEST(List, NamesThePropertiesThatRunForEveryQuery) {
   const auto tests = tests_by_query();
