@@ -437,6 +437,28 @@ TEST(Replay, JudgesEveryStoredCase) {
   }
 }
 
+/// What a report of the first version said of a finding is not read again; its case is.
+TEST(Replay, ReadsAReportOfTheFirstVersion) {
+  const TemporaryFolder folder;
+  const std::string report = folder.file("report.json", R"({
+    "schema": 1, "id": "0123456789ab", "headline": "old", "explanation": "old", "kind": "decision",
+    "query": "sphere_sphere_overlap", "scalar": "double",
+    "inputs": {"sphere1": {"center": [0, 0, 0], "radius": 1}, "sphere2": {"center": [3, 0, 0], "radius": 1}},
+    "origin": {"from": "generator", "seed": 1, "index": 2, "moves": []},
+    "subject": {"name": "collide-fast-double", "version": "0.1.0", "scalar": "double"},
+    "answer": {"status": "answered", "yes": true, "values": {}},
+    "finding": {"verdict": "violates contract", "disagreement": "false hit", "clause": "backward error at most 16 epsilon",
+                "backward": {"above_epsilon": 1024, "relative": 1.1e-13, "epsilon": 1.1e-16, "moved": {}},
+                "forward": null, "unit_error_epsilon": 0}})");
+  const Ran ran = nearmiss({"replay", "--json", "-s", "collide-fast-double", report});
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  const json now = json::parse(ran.out);
+  ASSERT_EQ(now.size(), 1u);
+  EXPECT_EQ(now[0]["schema"], 2);
+  EXPECT_EQ(now[0]["finding"]["verdict"], "agrees");
+  EXPECT_EQ(now[0]["inputs"], json::parse(read_file(report))["inputs"]);
+}
+
 TEST(Import, ComparesTheShippedSample) {
   const TemporaryFolder folder;
   const Ran ran = nearmiss({"import", "nyu-ccd", (corpus_folder() / "nyu-ccd" / "sample.csv").string(), "--out",

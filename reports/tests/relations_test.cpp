@@ -125,6 +125,27 @@ TEST(RelationReport, SaysThatAContradictionBreaksNoPromise) {
   EXPECT_EQ(j["relation"]["breaks_contract"], false);
 }
 
+Answer says(bool yes) {
+  Answer a;
+  a.yes = yes, a.given = 0;
+  return a;
+}
+
+/// Sees the point in no rectangle and in every triangle.
+TEST(RelationReport, CountsItsAnswers) {
+  const Subject s{"triangular", "1", Scalar::float64, false,
+                  {{"point_in_rectangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(false); }},
+                   {"point_in_triangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(true); }}}};
+  const Case inside{find_query("point_in_rectangle"), Scalar::float64, {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, 0, 0, 1, 3, 1, 0}, "test", 0, 0, {}};
+  const RelationFinding f = *examine(*find_relation("two-triangles"), inside, 0, s, [&](const Case& c) {
+    return s.offering(c.query->name).answer(c.values);
+  });
+  Workers workers;
+  const RelationReport r = report_of({find_relation("two-triangles"), 0, false}, f, s, workers);
+  EXPECT_EQ(r.breach, Breach::contradiction);
+  EXPECT_NE(explanation(r).find("None of the 3 answers is proved to break its contract."), std::string::npos) << explanation(r);
+}
+
 TEST(RelationReport, SaysWhichAnswerBreaksItsContract) {
   const RelationReport r = swapped(biased({.exact_decisions = true}));
   EXPECT_EQ(r.breach, Breach::contract);
