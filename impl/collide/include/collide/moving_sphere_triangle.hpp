@@ -245,9 +245,9 @@ struct SpherePastTriangle {
       Vec3<T> along = edge[i];
       T most;
       if constexpr (MachineNumber<T>) {
-        most = length(components(edge[i]));
+        along = unit<Tier>(edge[i]);  // also of a subnormal edge, whose length has few digits
+        most = Tier::dot(along, edge[i]);
         if (!(most > T(0))) continue;
-        along = edge[i] / most;
       } else {
         most = Tier::dot(along, along);
         if (!(most > T(0))) continue;
