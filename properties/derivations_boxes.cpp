@@ -68,7 +68,7 @@ Reference reference_box_box_parallel_axis(Reader r) {
   return no();
 }
 
-/// |D| - |a| - |b| in 512 bits, zero by the squares.
+/// |D| <= |a| + |b|, squared twice.
 Reference reference_box_box_conservative(Reader r) {
   const RefBox a(r), b(r);
   const V d = sub(b.center, a.center);

@@ -73,7 +73,8 @@ struct SpherePastTriangle {
         const Vec3<T> w = point - v[0];
         const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], w - n * (Tier::dot(n, w) / n2));
         const T rest = T(1) - foot.base_weight - foot.apex_weight;
-        // Far beyond a tip the sides of the edges that meet there are nothing but rounding. At the tip the weights are.
+        // Far beyond a tip the sides of the edges that meet there are nothing but rounding. At the tip the weights are: a
+        // place that is taken for one on the face is beyond the tip by at most 16 eps of an edge, 32 eps of G.
         constexpr T most = T(1) + T(16) * std::numeric_limits<T>::epsilon();
         if (!(larger(rest, larger(foot.base_weight, foot.apex_weight)) <= most)) return false;
         const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
