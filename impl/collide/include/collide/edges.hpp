@@ -82,6 +82,12 @@ int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 
   return as_near(best, other) ? best : other;
 }
 
+template <class T>
+T largest_abs(const Vec3<T>& x) noexcept {
+  using std::abs;
+  return larger(larger(abs(x.x), abs(x.y)), abs(x.z));
+}
+
 /// Where the perpendicular from a point onto the plane of a triangle meets it. The triangle has the corners
 /// 0, base and apex; the point w, like both, is seen from the first corner.
 template <class T>

@@ -22,12 +22,6 @@ T sum_of_abs(const Vec3<T>& x) noexcept {
   return abs(x.x) + abs(x.y) + abs(x.z);
 }
 
-template <class T>
-T largest_abs(const Vec3<T>& x) noexcept {
-  using std::abs;
-  return larger(larger(abs(x.x), abs(x.y)), abs(x.z));
-}
-
 /// Whether a place is on the triangle, but for rounding, all seen from the moving point.
 ///
 /// Coordinates seen from there are at most 2 G, G the largest position, so what is let through lies within 16 eps of

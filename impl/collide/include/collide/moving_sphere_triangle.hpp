@@ -71,13 +71,14 @@ struct SpherePastTriangle {
       if (!(sum <= T(2) * n2 && sum >= n2 / T(2))) return false;
       if (is_thin(n2, Tier::dot(edge[0], edge[0]), Tier::dot(edge[2], edge[2]))) {
         const Vec3<T> w = point - v[0];
-        const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], w - n * (Tier::dot(n, w) / n2));
-        const T rest = T(1) - foot.base_weight - foot.apex_weight;
-        // Far beyond a tip the sides of the edges that meet there are nothing but rounding. At the tip the weights are: a
-        // place that is taken for one on the face is beyond the tip by at most 16 eps of an edge, 32 eps of G.
-        constexpr T most = T(1) + T(16) * std::numeric_limits<T>::epsilon();
-        if (!(larger(rest, larger(foot.base_weight, foot.apex_weight)) <= most)) return false;
+        const Vec3<T> on_plane = w - n * (Tier::dot(n, w) / n2);
+        const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], on_plane);
         const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
+        // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where the
+        // corners lie on a line. A place that is taken for one on the face is where its weights put it, but for 16 eps of the
+        // edges and of the way to it: 64 eps of G.
+        const T most = T(16) * std::numeric_limits<T>::epsilon() * (largest_abs(w) + largest_abs(edge[0]) + largest_abs(edge[2]));
+        if (!(largest_abs(edge[0] * base - edge[2] * apex - on_plane) <= most)) return false;
         place.weights = {T(1) - apex - base, base, apex};
         return true;
       }
