@@ -1,6 +1,7 @@
 /// The command line does what its manual says.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -425,6 +426,28 @@ TEST(Replay, ShowsInputsTruthAndEverySubject) {
     EXPECT_NE(ran.out.find(part), std::string::npos) << ran.out;
   }
   for (const Subject& s : subjects()) EXPECT_NE(ran.out.find(s.name), std::string::npos) << ran.out;
+}
+
+/// Two libraries with the same names for other things: each computes in its own numbers, in one run.
+TEST(Replay, AsksBothBuildsOfBullet) {
+  if (find_subject("bullet") == nullptr || find_subject("bullet-float") == nullptr) {
+    GTEST_SKIP() << "one of the two is not part of this build";
+  }
+  const TemporaryFolder folder;
+  const std::string file = folder.file("case.json", R"({"query": "sphere_sphere_penetration", "scalar": "float", "inputs":
+    {"sphere1": {"center": [0, 0, 0], "radius": 1}, "sphere2": {"center": [1, 0.5, 0.25], "radius": 1}}})");
+  const Ran ran = nearmiss({"replay", "--json", "-s", "bullet", "-s", "bullet-float", file});
+  ASSERT_LE(ran.exit_code, 1) << ran.err;
+  const json reports = json::parse(ran.out);
+  ASSERT_EQ(reports.size(), 2u);
+  for (const json& r : reports) {
+    const bool in_float = r["subject"]["name"] == "bullet-float";
+    EXPECT_EQ(r["subject"]["scalar"], in_float ? "float" : "double");
+    ASSERT_EQ(r["answer"]["status"], "answered") << r["answer"];
+    const double depth = r["answer"]["values"]["depth"].get<double>();
+    EXPECT_NEAR(depth, 2 - std::sqrt(1.3125), 1e-6);
+    EXPECT_EQ(double(float(depth)) == depth, in_float) << "the root of 1.3125 is neither a float nor a double";
+  }
 }
 
 TEST(Replay, JudgesEveryStoredCase) {
