@@ -191,15 +191,16 @@ struct SpherePastTriangle {
 
   /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
   /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
-  /// Squares of w, u and the radius are multiplied by `scale2`.
-  T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1)) const noexcept {
+  /// Squares of w, u and the radius are multiplied by `scale2`. `touches`: it is known that the radius is reached.
+  T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1), [[maybe_unused]] bool touches = false) const noexcept {
     using std::sqrt;
     const T closing = -Tier::dot(w, u);
     if (!(closing > T(0))) return T(-1);
     const T speed2 = Tier::dot(u, u);
     const Vec3<T> moment = Tier::cross(w, u);
     if constexpr (MachineNumber<T>) {
-      const T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
+      T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
+      if (touches && chord2 < T(0)) chord2 = T(0);
       if (!(chord2 >= T(0))) return T(-1);
       // No later than the time of the least distance, which counts where rounding is all that closes in.
       return smaller(not_negative(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2)), closing / speed2);
@@ -239,10 +240,13 @@ struct SpherePastTriangle {
       }
     }
     T first = std::numeric_limits<T>::infinity();
+    std::array<T, 3> at_vertex_time;
+    for (int i = 0; i < 3; ++i) {
+      at_vertex_time[i] = first_time(center - v[i], velocity);
+      if (at_vertex_time[i] >= T(0) && at_vertex_time[i] < first) first = at_vertex_time[i];
+    }
     for (int i = 0; i < 3; ++i) {
       const Vec3<T> w = center - v[i];
-      const T at_vertex_time = first_time(w, velocity);
-      if (at_vertex_time >= T(0) && at_vertex_time < first) first = at_vertex_time;
       // A unit direction keeps float and double in range; where range is no matter, it would be one more root.
       Vec3<T> along = edge[i];
       T most;
@@ -254,7 +258,9 @@ struct SpherePastTriangle {
         most = Tier::dot(along, along);
         if (!(most > T(0))) continue;
       }
-      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), most);
+      // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
+      const bool touches = at_vertex_time[i] >= T(0) || at_vertex_time[(i + 1) % 3] >= T(0);
+      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), most, touches);
       if (!(time >= T(0) && time < first)) continue;
       const T reach = Tier::dot(w + velocity * time, along);
       if (reach >= T(0) && reach <= most) first = time;
@@ -391,9 +397,11 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across), moment = cross(from, u);
   const L r2 = L::all(radius2), u2 = L::all(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
   if (any_of_three(across2 * L::all(T(256)) < edge2 * u2)) return shared(sphere, velocity, triangle);
-  const L line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
-  const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2, line_chord2);
-  const L corner_chord2 = r2 * u2 - dot(moment, moment);
+  const L corner_chord2 = r2 * u2 - dot(moment, moment), line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
+  // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
+  const L at_ends = (zero <= corner_chord2) | (zero <= yzx(corner_chord2));
+  const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2,
+                                      select(at_ends, larger(line_chord2, zero), line_chord2));
   const L corner_times = touching_times(zero - dot(from, u), u2, from2 - r2, corner_chord2);
   const L along_edge = dot(from, edge), moves_along = dot(u, edge);
   const L reached = along_edge + moves_along * line_times;
