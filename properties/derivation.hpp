@@ -52,8 +52,8 @@ class Choice {
   explicit Choice(std::mt19937_64& random) : random_(&random) {}
 
   bool is_free() const { return random_ != nullptr; }
-  /// 0 to n - 1.
-  int below(int n) const { return random_ == nullptr ? 0 : int((*random_)() % std::uint64_t(n)); }
+  /// 0 to n - 1. Where that leaves no choice, no random number is taken.
+  int below(int n) const { return random_ == nullptr || n == 1 ? 0 : int((*random_)() % std::uint64_t(n)); }
   template <class T>
   const T& among(const std::vector<T>& all) const { return all[std::size_t(below(int(all.size())))]; }
   /// 0 to 1, often one of both.

@@ -220,7 +220,8 @@ std::size_t across(const Layout::Part& part, const Answer& a) {
 }
 
 TEST_P(Watch, WhatIsWrongIsTold) {
-  constexpr int draws = 6;
+  // An edge of a cone of normals, which only impacts have, is drawn one time in six: forty are the same once in 10^31 cases.
+  const int draws = query().kind == Kind::impact ? 40 : 6;
   constexpr double least = 16, told_at_least = 7;  // an ulp of what is pushed may be two of what is exact
   const int wanted = answers_per_query() / 8;
   int asked = 0, by_part[32] = {};
@@ -228,8 +229,10 @@ TEST_P(Watch, WhatIsWrongIsTold) {
   for (std::uint64_t index = 0; asked < wanted; ++index) {
     ASSERT_LT(index, 8u * std::uint64_t(wanted)) << "hardly any case has an answer in range";
     const Case c = draw(index);
-    std::vector<Reference> all;
-    for (int i = 0; i < draws; ++i) all.push_back(right_answer(c));
+    const std::mt19937_64 before = random_;
+    std::vector<Reference> all{right_answer(c)};
+    const bool has_choice = random_ != before;  // else this is the only one
+    for (int i = 1; has_choice && i < draws; ++i) all.push_back(right_answer(c));
     const std::optional<Answer> exact = answer_of(query(), c.scalar, all.front());
     if (!exact) continue;
     const collide::Contract promise{.forward = told_at_least, .exact_decisions = true};
