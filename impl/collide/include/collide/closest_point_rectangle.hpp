@@ -29,7 +29,7 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
   const detail::FaceFoot<T> face1 = detail::foot_on_face<Tier>(diagonal, v1 - v0, w);
   const detail::FaceFoot<T> face2 = detail::foot_on_face<Tier>(diagonal, v3 - v0, w);
   if (face1.inside && face2.inside) {
-    // Both feet are equally far along the diagonal.
+    // Both feet are equally far along the diagonal, and their distances from it may differ by less than squares tell.
     const Vec3<T> out1 = face1.height * face1.apex_weight, out2 = face2.height * face2.apex_weight;
     const bool first = detail::further_by<Tier>(out1, out2, w - diagonal * face1.base_share) >= T(0);
     return {v0 + (first ? face1 : face2).from_start(diagonal)};

@@ -75,8 +75,8 @@ struct SpherePastTriangle {
         const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], on_plane);
         const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
         // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where the
-        // corners lie on a line. A place that is taken for one on the face is where its weights put it, but for 16 eps of the
-        // edges and of the way to it: 64 eps of G.
+        // corners lie on a line. A place that is taken for one on the face is where its weights put it, but for 32 u (the unit
+        // roundoff) of two edges and of the way to it.
         const T most = T(16) * std::numeric_limits<T>::epsilon() * (largest_abs(w) + largest_abs(edge[0]) + largest_abs(edge[2]));
         if (!(largest_abs(edge[0] * base - edge[2] * apex - on_plane) <= most)) return false;
         place.weights = {T(1) - apex - base, base, apex};
