@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
@@ -30,19 +31,25 @@ int answers_per_query() {
 
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
 
-/// An answer with the first numbers of the reference; empty where a number is beyond the scalar's range.
+double largest_of(Scalar s) { return s == Scalar::float32 ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max(); }
+
+/// An answer with the first numbers of the reference; empty where a number is beyond the scalar's range, and where a time is
+/// at its end: a time beyond the largest number is a miss, and the reference, which is truncated, does not tell it from one
+/// that is not.
 std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Reference& reference) {
   Answer a;
   a.yes = reference.yes;
   a.given = 0;
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
+    if (query.outputs[i].role == Role::time && reference.values[i] >= largest_of(scalar)) {
+      if (reference.values[i] == largest_of(scalar)) return std::nullopt;
+      Answer miss;
+      miss.given = 0;
+      return miss;
+    }
     a.values[i] = rounded_to(scalar, reference.values[i]);
+    if (!std::isfinite(a.values[i])) return std::nullopt;
     a.given |= std::uint64_t{1} << i;
-    if (std::isfinite(a.values[i])) continue;
-    if (query.outputs[i].role != Role::time) return std::nullopt;
-    Answer miss;  // so late that it is one
-    miss.given = 0;
-    return miss;
   }
   return a;
 }
