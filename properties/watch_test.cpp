@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
@@ -31,8 +30,6 @@ int answers_per_query() {
 
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
 
-double largest_of(Scalar s) { return s == Scalar::float32 ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max(); }
-
 /// An answer with the first numbers of the reference; empty where a number is beyond the scalar's range, and where a time is
 /// at its end: a time beyond the largest number is a miss, and the reference, which is truncated, does not tell it from one
 /// that is not.
@@ -41,8 +38,8 @@ std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Referen
   a.yes = reference.yes;
   a.given = 0;
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
-    if (query.outputs[i].role == Role::time && reference.values[i] >= largest_of(scalar)) {
-      if (reference.values[i] == largest_of(scalar)) return std::nullopt;
+    if (query.outputs[i].role == Role::time && reference.values[i] >= largest_finite(scalar)) {
+      if (reference.values[i] == largest_finite(scalar)) return std::nullopt;
       Answer miss;
       miss.given = 0;
       return miss;

@@ -78,9 +78,9 @@ struct SpherePastTriangle {
         const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], on_plane);
         const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
         // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where the
-        // corners lie on a line. A place that is taken for one on the face is where its weights put it, but for 32 u (the unit
-        // roundoff) of the longest of two edges and the way to it. None of them has a number beyond 2 G (G the largest
-        // position), so the place is off by no more than 64 u of G, half of what is promised.
+        // corners lie on a line. A place is taken for one on the face where its weights put it, but for 32 u (the unit
+        // roundoff) of the longest of two edges and the way to it: 64 u of the largest position, or of the center's where its
+        // velocity took it further, to which the velocity's own error is added. Half of what is promised.
         const T longest = std::max({largest_abs(w), largest_abs(edge[0]), largest_abs(edge[2])});
         const T most = T(16) * std::numeric_limits<T>::epsilon() * longest;
         if (!(largest_abs(edge[0] * base - edge[2] * apex - on_plane) <= most)) return false;
