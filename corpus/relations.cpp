@@ -48,6 +48,15 @@ Answer without(Answer a, std::size_t output) {
   return a;
 }
 
+/// Sets output `i` to output `from` of another answer, times `factor`; it is given where that is.
+void carry(Answer& a, std::size_t i, const Answer& own, std::size_t from, double factor = 1) {
+  a.values[i] = factor * own.values[from];
+  a.given = (a.given & ~(std::uint64_t{1} << i)) | (own.given >> from & 1u) << i;
+}
+
+/// A subject's number as one of few things that are counted from 0; -1 where it is none.
+int as_index(double x) { return x >= 0 && x < 15 && x == std::floor(x) ? int(x) : -1; }
+
 Agreement compare(const Query& query, const Answer& a, const Answer& b) {
   if (a.status != b.status || a.status != Answer::Status::answered) return Agreement::same;  // nothing to compare
   if (a.yes != b.yes) return Agreement::decisions_differ;
@@ -285,19 +294,19 @@ std::optional<Partners> moved_by(const Case& c, const SignedPermutation& m) {
     Answer a = own;
     const auto& out = query.outputs;
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const double* at = &own.values[i];
       if (query.name == "box_box_separating_axis") {  // a cross product may change its sign
         a = without(a, i);
       } else if (out[i].name.starts_with("corners.")) {  // in another order
         a = without(a, i);
       } else if (vector_at(out, i) && (out[i].role != Role::weight || query.kind == Kind::direction)) {
-        apply(m, at, &a.values[i], true);
+        for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + m.from[k], m.sign[k]);
       } else if (vector_at(out, i) && m.turns_over() && weights_of_corners) {
-        std::swap(a.values[i + 1], a.values[i + 2]);
+        carry(a, i + 1, own, i + 2);
+        carry(a, i + 2, own, i + 1);
       } else if (out[i].name == "edge") {
         if (m.turns_over()) a.values[i] = 2 - own.values[i];
       } else if (out[i].role == Role::index && query.name != "box_box_parallel_axis") {
-        a.values[i] = m.box_axis(int(own.values[i]));
+        if (const int axis = as_index(own.values[i]); axis >= 0) a.values[i] = m.box_axis(axis);
       }
     }
     return a;
@@ -481,7 +490,11 @@ std::optional<Partners> rotated(const Case& c, std::uint64_t seed) {
       std::optional<double> x = own.values[i];
       if (role == Role::position) {
         const std::size_t k = std::size_t(last(query.outputs[i].name)[0] - 'x');
-        x = exact_combination(r.rows[k], &own.values[i - k], scalar);
+        if (own.gives(i - k) && own.gives(i - k + 1) && own.gives(i - k + 2)) {
+          x = exact_combination(r.rows[k], &own.values[i - k], scalar);
+        } else {
+          x = std::nullopt;
+        }
       } else if (role == Role::depth) {
         x = exact_product(r.factor, own.values[i], scalar);
       } else if (role == Role::normal) {
@@ -516,9 +529,9 @@ std::optional<Partners> turned_corners(const Case& c, std::uint64_t) {
     Answer a = own;
     for (std::size_t i = 0; i < query.outputs.size(); ++i) {
       if (vector_at(query.outputs, i) && query.outputs[i].role == Role::weight) {
-        for (std::size_t k = 0; k < 3; ++k) a.values[i + k] = own.values[i + (k + 1) % 3];
+        for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + (k + 1) % 3);
       } else if (query.outputs[i].name == "edge") {
-        a.values[i] = double((int(own.values[i]) + 2) % 3);
+        if (const int edge = as_index(own.values[i]); edge >= 0) a.values[i] = double((edge + 2) % 3);
       }
     }
     return a;
@@ -541,7 +554,8 @@ std::optional<Partners> reversed_corners(const Case& c, std::uint64_t) {
     Answer a = own;
     for (std::size_t i = 0; i < query.outputs.size(); ++i) {
       if (query.outputs[i].name == "edge") a.values[i] = 2 - own.values[i];
-      if (query.outputs[i].name == "weights.y") std::swap(a.values[i], a.values[i + 1]);
+      if (query.outputs[i].name == "weights.y") carry(a, i, own, i + 1);
+      if (query.outputs[i].name == "weights.z") carry(a, i, own, i - 1);
     }
     return a;
   });
@@ -589,11 +603,13 @@ std::optional<Partners> swapped(const Case& c, std::uint64_t) {
     const std::size_t point2 = index_of(out, "point2.x");
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (out[i].name.starts_with("point1.")) {
-        std::swap(a.values[i], a.values[point2 + i - index_of(out, "point1.x")]);
+        const std::size_t twin = point2 + i - index_of(out, "point1.x");
+        carry(a, i, own, twin);
+        carry(a, twin, own, i);
       } else if (out[i].role == Role::normal) {
         a.values[i] = -own.values[i];
       } else if (out[i].role == Role::index) {
-        a.values[i] = swapped_box_axis(int(own.values[i]));
+        if (const int axis = as_index(own.values[i]); axis >= 0) a.values[i] = swapped_box_axis(axis);
       } else if (out[i].name.starts_with("contact.") && query.name == "sphere_sphere_penetration") {
         a = without(a, i);  // of the other sphere
       } else if (query.name == "box_box_separating_axis") {
@@ -668,9 +684,11 @@ std::optional<Partners> later_start(const Case& c, std::uint64_t seed) {
   Partners partners = ordered({*other}, [=](const Answer& own, std::span<const Answer> others) {
     const Answer& shifted = others[0];
     if (!own.yes) return shifted.yes ? Agreement::decisions_differ : Agreement::same;
+    if (!own.gives(time)) return Agreement::same;
     const double t = own.values[time];
     if (t <= shift + slack(scalar, t, shift)) return Agreement::same;  // it may start after the contact
     if (!shifted.yes) return Agreement::decisions_differ;
+    if (!shifted.gives(time)) return Agreement::same;
     const double s = shifted.values[time];
     return std::abs((t - shift) - s) <= slack(scalar, t, s) ? Agreement::same : Agreement::numbers_differ;
   });
@@ -710,6 +728,7 @@ bool grows(const Case& c) {
 Agreement not_later_nor_shallower(const Query& query, Scalar scalar, const Answer& small, const Answer& large) {
   if (small.yes && !large.yes) return Agreement::decisions_differ;
   for (std::size_t i = 0; i < query.outputs.size() && small.yes; ++i) {
+    if (!small.gives(i) || !large.gives(i)) continue;
     const double a = small.values[i], b = large.values[i];
     const Role role = query.outputs[i].role;
     if (role == Role::time && b > a + slack(scalar, a, b)) return Agreement::numbers_differ;
@@ -790,7 +809,7 @@ Partners same_answer(const Case& c, Case other, std::initializer_list<std::strin
       if (at == from.outputs.size() || excepted) {
         a = without(a, i);
       } else {
-        a.values[i] = own.values[at];
+        carry(a, i, own, at);
       }
     }
     return a;
@@ -822,6 +841,7 @@ Partners hit_at_the_same_time(const Case& c, Case other, bool or_earlier = false
   return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
     if (!own.yes) return Agreement::same;
     if (!others[0].yes) return Agreement::decisions_differ;
+    if (!own.gives(ours) || !others[0].gives(theirs)) return Agreement::same;
     const double t = own.values[ours], s = others[0].values[theirs];
     const bool alike = or_earlier ? s <= t + slack(scalar, s, t) : std::abs(s - t) <= slack(scalar, s, t);
     return alike ? Agreement::same : Agreement::numbers_differ;
@@ -899,6 +919,7 @@ std::optional<Partners> contained_ball(const Case& c, std::uint64_t) {
     if (!others[0].yes) return Agreement::same;
     if (!own.yes) return Agreement::decisions_differ;
     if (!impact) return Agreement::same;
+    if (!own.gives(ours) || !others[0].gives(theirs)) return Agreement::same;
     const double outer = own.values[ours], inner = others[0].values[theirs];
     return outer <= inner + slack(scalar, outer, inner) ? Agreement::same : Agreement::numbers_differ;
   });
@@ -930,7 +951,8 @@ std::optional<Partners> two_triangles(const Case& c, std::uint64_t) {
                                     {"triangle.v2", "rectangle.v3"}})},
                  [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
                    if (own.yes != (others[0].yes || others[1].yes)) return Agreement::decisions_differ;
-                   if (!own.yes) return Agreement::same;
+                   const auto tells = [theirs](const Answer& a) { return !a.yes || a.gives(theirs); };
+                   if (!own.yes || !own.gives(ours) || !tells(others[0]) || !tells(others[1])) return Agreement::same;
                    const double t = own.values[ours], a = others[0].values[theirs], b = others[1].values[theirs];
                    const double first = others[0].yes && (!others[1].yes || a < b) ? a : b;
                    return std::abs(t - first) <= slack(scalar, t, first) ? Agreement::same : Agreement::numbers_differ;

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/draft.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/store.hpp"
 #include "oracles/confirmed.hpp"
@@ -213,6 +215,33 @@ TEST_P(RelatedTruths, KeepEveryRelationOfTheirDecisions) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, RelatedTruths, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+/// A subject that leaves out some numbers of its answers, others of each; 1e308 and NaN stand in their place.
+class ForgetfulSubject : public testing::TestWithParam<NamedQuery> {};
+
+TEST_P(ForgetfulSubject, MakesNobodyContradictThemselves) {
+  const Query& query = *GetParam().query;
+  const Subject& subject = *find_subject("collide-certified-double");
+  Random random(stream(23));  // of what is left out
+  const auto forgetful = [&](const Case& c) {
+    Answer a = asked_here(subject, c);
+    a.given = random.bits();
+    for (std::size_t i = 0; i < Answer::capacity; ++i) {
+      if (!a.gives(i)) a.values[i] = random.one_in(2) ? 1e308 : std::numeric_limits<double>::quiet_NaN();
+    }
+    return a;
+  };
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Case c = generate(query, Scalar::float64, stream(23), i);
+    for (const Relation& r : relations()) {
+      const auto found = examine(r, c, i, subject, forgetful, true);
+      ASSERT_TRUE(!found || found->oracle.empty()) << r.name << ": " << found->oracle << "\n" << case_to_json(c).dump();
+      ASSERT_TRUE(!found || found->breach != Breach::bits) << r.name << ": " << found->broken << "\n" << case_to_json(c).dump();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ForgetfulSubject, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 TEST(Relations, EachApplyToManyCasesOfSomeQuery) {
   constexpr std::uint64_t cases = 400;

@@ -8,7 +8,7 @@ namespace nearmiss {
 namespace {
 
 /// Each runs for every query of the catalogue.
-constexpr std::array<std::string_view, 46> for_every_query = {
+constexpr std::array<std::string_view, 47> for_every_query = {
     "EveryTier.AnswersKeepTheirContract",
     "EveryTier.PromisesSomethingAboutMostCases",
     "EveryTierRelated.KeepsEveryRelationOfItsAnswers",
@@ -46,6 +46,7 @@ constexpr std::array<std::string_view, 46> for_every_query = {
     "Oracles.ExcludeOnNoRungWhatTheExactStageFinds",
     "Oracles.ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases",
     "RelatedTruths.KeepEveryRelationOfTheirDecisions",
+    "ForgetfulSubject.MakesNobodyContradictThemselves",
     "Shrinking.KeepsTheTruthAndStaysValidAndExact",
     "StoredCases.HoldAtLeastSixSeeds",
     "StoredCases.SayWhatTheyAreAbout",
