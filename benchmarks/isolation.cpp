@@ -1,10 +1,11 @@
 /// What isolation costs: writes docs/isolation.md to standard output.
 ///
-///   isolation_cost [--pairs=N] [--subject=NAME] [QUERY ...]
+///   isolation_cost [--pairs=N] [--subject=NAME] [--command=COMMAND ...] [QUERY ...]
 ///
-/// Times the same work with the subject in a worker process and in this one, in turns, and tells the medians of the
-/// ratios of processor time (of both processes) and of wall time. Exit code 1 where a run takes more than 20 % more
-/// processor time: wall time says as much of what else a machine does.
+/// Times the same work with the subject in its host and in this process, in turns, and tells the medians of the
+/// ratios of processor time (of both processes) and of wall time; then what a case costs that goes to a program over
+/// pipes, for each COMMAND (docs/protocol.md). Exit code 1 where a run takes more than 20 % more processor time: wall time
+/// says as much of what else a machine does.
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -12,17 +13,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
-#include <stdexcept>
 #include <thread>
 
 #include "benchmarks/machine.hpp"
 #include "corpus/generator.hpp"
+#include "oracles/hosts.hpp"
 #include "oracles/judge.hpp"
 #include "reports/tally.hpp"
+#include "reports/text.hpp"
 #include "reports/workers.hpp"
 
 namespace nearmiss {
@@ -43,36 +43,20 @@ double seconds_of(clockid_t clock) {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-/// Of the one child that this process has, which is the worker.
-clockid_t processor_clock_of_child() {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::string stat;
-    std::getline(std::ifstream(entry.path() / "stat"), stat);  // "PID (NAME) STATE PARENT ..."
-    std::istringstream rest(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
-    std::string state;
-    pid_t parent = 0;
-    clockid_t clock{};
-    if (rest >> state >> parent && parent == getpid() && clock_getcpuclockid(std::stoi(name), &clock) == 0) return clock;
-  }
-  throw std::runtime_error("the worker process is not found in /proc");
-}
-
 /// The work of a run on one query and subject.
 class Measured {
  public:
-  Measured(const Query& query, const Subject& subject, Workers& workers)
+  /// `here` and `hosted` are the same subject, whose functions are in this process, and in a host.
+  Measured(const Query& query, const Subject& here, const Subject& hosted, Workers& workers)
       : query_(query),
-        subject_(subject),
-        offering_(subject.offering(query.name)),
+        subject_(hosted),
+        offering_(here.offering(query.name)),
         workers_(workers),
-        tally_{&query, &subject} {
+        tally_{&query, &hosted} {
     cases_.resize(batch_size);
     next_.resize(batch_size);
     generate_batch(0, cases_);
     workers_.ask(subject_, cases_.front());  // starts the process
-    clock_of_worker_ = processor_clock_of_child();
     direct_.resize(batch_size);
   }
 
@@ -108,7 +92,7 @@ class Measured {
 
  private:
   Spent spent() const {
-    return {seconds_of(CLOCK_PROCESS_CPUTIME_ID) + seconds_of(clock_of_worker_), seconds_of(CLOCK_MONOTONIC)};
+    return {seconds_of(CLOCK_PROCESS_CPUTIME_ID) + workers_.processor_seconds(subject_), seconds_of(CLOCK_MONOTONIC)};
   }
   Spent measured(const auto& work) const {
     const Spent before = spent();
@@ -131,7 +115,6 @@ class Measured {
   const Offering& offering_;
   Workers& workers_;
   Tally tally_;
-  clockid_t clock_of_worker_{};
   std::vector<Case> cases_, next_;
   std::vector<Answer> direct_;
 };
@@ -174,7 +157,28 @@ std::string load() {
   return one_minute;
 }
 
-int measure(const std::vector<const Query*>& queries, const Subject& subject, int pairs) {
+/// What a case costs that goes to a program over pipes, processor time of both and wall time; medians.
+void measure_program(const Subject& program, int rounds) {
+  Workers workers;
+  for (const Offering& o : program.offerings) {
+    if (o.answer == nullptr) continue;
+    Measured measured(*find_query(o.query), program, program, workers);
+    std::vector<double> processor, wall;
+    measured.ask(true);  // at first a program gets few cases at once
+    for (int i = 0; i < rounds; ++i) {
+      const Spent spent = measured.ask(true);
+      processor.push_back(spent.processor);
+      wall.push_back(spent.wall);
+    }
+    const double cases = double(batches * batch_size);
+    fmt::print("| `{}` | {} | `{}` | {:.0f} | {:.0f} |\n", program.name,
+               program.host->batches == HostProgram::Batches::json ? "JSON" : "binary", o.query, 1e9 * median(processor) / cases,
+               1e9 * median(wall) / cases);
+  }
+}
+
+int measure(const std::vector<const Query*>& queries, const Subject& subject, const Subject& hosted, int pairs,
+            const std::string& command_line) {
   Workers workers;
   std::vector<Costs> all;
   for (const Query* q : queries) {
@@ -183,17 +187,21 @@ int measure(const std::vector<const Query*>& queries, const Subject& subject, in
   // Round after round, so that what else the machine does for some seconds is spread over all queries.
   for (int round = 0; round < pairs; ++round) {
     for (Costs& c : all) {
-      Measured measured(*c.query, subject, workers);
+      Measured measured(*c.query, subject, hosted, workers);
       c.run.add_pair(round, [&](bool isolated) { return measured.run(isolated); });
       c.ask.add_pair(round, [&](bool isolated) { return measured.ask(isolated); });
     }
   }
   fmt::print(R"(# What isolation costs
 
-Written by `build/release/benchmarks/isolation_cost > docs/isolation.md`; the same command makes it anew.
+Written by this command, which makes it anew:
 
-Every subject is asked in a process of its own, so that a crash or an endless loop costs one case and not the run. Here
-`{}` gets the same cases in a process of its own and in the caller's, {} times each in turns, {} batches
+```sh
+{}
+```
+
+Every subject is asked in a process of its own, its host, so that a crash or an endless loop costs one case and not the run. Here
+`{}` gets the same cases in its host and in the caller's process, {} times each in turns, {} batches
 of {} cases. A *run* generates, asks and judges, as `nearmiss run` does: it makes the next cases while the subject
 answers. *Asking* is that part of it alone: what handing a case over and back adds to an answer of some nanoseconds.
 Times are medians of processor time for one case without isolation, and costs the medians of the ratios, of processor
@@ -204,7 +212,7 @@ long a process waits for its turn on a machine that others use: this one, of {} 
 
 | query | run, ns | processor | wall | asking, ns | processor | wall |
 |---|--:|--:|--:|--:|--:|--:|
-)", subject.name, pairs, batches, batch_size, percent(most_cost).substr(1), std::thread::hardware_concurrency(), load(),
+)", command_line, subject.name, pairs, batches, batch_size, percent(most_cost).substr(1), std::thread::hardware_concurrency(), load(),
              benchmarks::processor());
   double worst = 0;
   for (const Costs& c : all) {
@@ -229,24 +237,51 @@ int complain(const std::string& what) {
 int main(int argc, char** argv) {
   using namespace nearmiss;
   std::vector<const Query*> queries;
-  const Subject* subject = find_subject("collide-fast-float");
+  std::vector<std::string> commands;
+  std::string name = "collide-fast-float", command_line = "build/release/benchmarks/isolation_cost";
   int pairs = 31;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
+    command_line += fmt::format(" {}", shell_quoted(argument));
     if (argument.starts_with("--pairs=")) {
       pairs = std::atoi(argv[i] + 8);
       if (pairs <= 0) return complain("--pairs must be a positive number");
     } else if (argument.starts_with("--subject=")) {
-      subject = find_subject(argument.substr(10));
-      if (subject == nullptr) return complain(argument.substr(10) + " is no subject of this build");
+      name = argument.substr(10);
+    } else if (argument.starts_with("--command=")) {
+      commands.push_back(argument.substr(10));
     } else if (find_query(argument) != nullptr) {
       queries.push_back(find_query(argument));
     } else {
       return complain(argument + " is no query of the catalogue");
     }
   }
+  command_line += " > docs/isolation.md";
   if (queries.empty()) {
     for (const Query& q : catalogue()) queries.push_back(&q);
   }
-  return measure(queries, *subject, pairs);
+  try {
+    const Subject* subject = find_subject(name);
+    if (subject == nullptr) return complain(name + " is no subject of this build");
+    const std::vector<Subject> hosted = nearmiss::hosted({{name, NEARMISS_HOSTS "/" + name}});
+    const int code = measure(queries, *subject, hosted.front(), pairs, command_line);
+    if (commands.empty()) return code;
+    fmt::print(R"(
+## Programs over pipes
+
+A case that goes to any other program ([protocol.md](protocol.md)) and its answer, which does next to nothing, so that this
+is what the pipes cost: medians of {} times {} batches of {} cases, nanoseconds of processor time of both processes, and of
+wall time.
+
+| program | batches | query | processor, ns | wall, ns |
+|---|---|---|--:|--:|
+)", pairs, batches, batch_size);
+    for (const std::string& command : commands) load_command(command);
+    for (const Subject& s : subjects()) {
+      if (!s.command.empty()) measure_program(s, pairs);
+    }
+    return code;
+  } catch (const BadSubject& e) {
+    return complain(e.what());
+  }
 }

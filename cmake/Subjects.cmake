@@ -3,8 +3,9 @@
 #   HEADER    the adapter's header: beside the file that calls this, or from the top of this project
 #   ADAPTER   the adapter's type, qualified
 #   LIBRARIES what the header needs. Their compile options and definitions are for this adapter alone
-#   ISOLATED  loaded at run time with shared libraries of its own, apart from all others: for a library whose names another
-#             subject's library has as well, such as another version of it. Not in builds with sanitizers or libFuzzer
+#   ISOLATED  never linked into a program with other subjects: for a library whose names another subject's library has as
+#             well, such as another version of it. Fuzz targets and property tests, which ask subjects in their own process,
+#             are without it
 #
 # Your own library is added by a CMake file of yours, which calls this and is named to CMake by
 # -DNEARMISS_ADD=FILE; docs/bring-your-own.md shows it. Everything else follows: list, run, replay, nightly, fuzz
@@ -22,29 +23,17 @@ function(nearmiss_add_subject name header adapter)
   elseif(NOT EXISTS ${header} AND NOT EXISTS ${PROJECT_SOURCE_DIR}/${header})
     message(FATAL_ERROR "nearmiss_add_subject: ${name}: there is no header ${header}, neither in ${CMAKE_CURRENT_LIST_DIR} nor in ${PROJECT_SOURCE_DIR}")
   endif()
-  if(arg_ISOLATED AND (NEARMISS_SANITIZE OR NEARMISS_LIBFUZZER))
-    message(STATUS "The subject ${name} is left out: what is loaded apart has no access to the runtime of sanitizers")
-    return()
-  endif()
-  set(definition "Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }")
-  set(includes "#include \"oracles/bind.hpp\"")
-  if(arg_ISOLATED)
-    string(APPEND includes "\n#include \"impl/subject/contained.hpp\"")
-    set(definition "extern \"C\" const Subject* nearmiss_isolated_subject() {
-  static const Subject subject = bind<Contained<${adapter}>>(\"${name}\");
-  return &subject;
-}")
-  endif()
   set(source ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
   file(GENERATE OUTPUT ${source} CONTENT
 "// Written by CMake: ${name}.
 #include \"${header}\"
-${includes}
+#include \"oracles/bind.hpp\"
 namespace nearmiss {
-${definition}
+Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
 }
 ")
   set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECTS ${identifier})
+  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME ${name})
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES ${arg_LIBRARIES})
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED ${arg_ISOLATED})
   if(NEARMISS_READS_ADDED)
@@ -52,66 +41,110 @@ ${definition}
   endif()
 endfunction()
 
-# Writes the source `file` that lists subjects. A program that compiles one of its own links no other subject.
-function(nearmiss_write_subjects file)  # SUBJECT ...
-  set(subjects ${ARGN})
-  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
-  foreach(s IN LISTS subjects)
-    string(APPEND text "Subject subject_${s}();\n")
-  endforeach()
-  string(APPEND text "std::vector<Subject> built_in_subjects() {\n  return {\n")
-  foreach(s IN LISTS subjects)
-    string(APPEND text "      subject_${s}(),\n")
-  endforeach()
+# The names of the subjects that NEARMISS_ADD added, as C++.
+function(nearmiss_added_subjects variable)
   get_property(added GLOBAL PROPERTY NEARMISS_ADDED_SUBJECTS)
   list(TRANSFORM added REPLACE "(.+)" "\"\\1\"")
   list(JOIN added ", " added)
-  string(APPEND text "  };\n}\nstd::vector<std::string> added_subjects() { return {${added}}; }\n}\n")
-  file(GENERATE OUTPUT ${file} CONTENT "${text}")
+  set(${variable} "std::vector<std::string> added_subjects() { return {${added}}; }\n" PARENT_SCOPE)
 endfunction()
 
-# Compiles a subject's adapter by itself, so that nobody else sees what its libraries ask of a compiler, and adds it to
-# nearmiss_subjects.
+# Writes the source `file` that lists subjects whose functions the program itself has. A program that compiles one of its
+# own links no other subject.
+function(nearmiss_write_subjects file)  # SUBJECT ...
+  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
+  foreach(s IN LISTS ARGN)
+    string(APPEND text "Subject subject_${s}();\n")
+  endforeach()
+  string(APPEND text "std::vector<Subject> built_in_subjects() {\n  return {\n")
+  foreach(s IN LISTS ARGN)
+    string(APPEND text "      subject_${s}(),\n")
+  endforeach()
+  nearmiss_added_subjects(added)
+  file(GENERATE OUTPUT ${file} CONTENT "${text}  };\n}\n${added}}\n")
+endfunction()
+
+# Writes the source `file` that lists the same subjects as programs of their own.
+function(nearmiss_write_hosts file)  # SUBJECT ...
+  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"oracles/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
+  foreach(s IN LISTS ARGN)
+    get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_NAME)
+    string(APPEND text "      {\"${name}\", \"$<TARGET_FILE:nearmiss_host_${s}>\"},\n")
+  endforeach()
+  nearmiss_added_subjects(added)
+  file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${added}}\n")
+endfunction()
+
+# Compiles a subject's adapter by itself, so that nobody else sees what its libraries ask of a compiler; makes the program
+# that is its host, and adds it to nearmiss_subjects for those who ask it in their own process.
 function(nearmiss_compile_subject identifier)
+  get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME)
   get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES)
   get_property(isolated GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED)
   set(target nearmiss_subject_${identifier})
-  set(source ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
-  if(isolated)
-    add_library(${target} MODULE ${source})
-    set(loader ${NEARMISS_GENERATED}/subjects/${identifier}_loader.cpp)
-    file(GENERATE OUTPUT ${loader} CONTENT
-"// Written by CMake.
-#include \"impl/subject/isolated.hpp\"
-namespace nearmiss {
-Subject subject_${identifier}() { return isolated_subject(\"$<TARGET_FILE:${target}>\"); }
-}
-")
-    target_sources(nearmiss_subjects PRIVATE ${loader})
-    add_dependencies(nearmiss_subjects ${target})
-  else()
-    add_library(${target} OBJECT ${source})
+  add_library(${target} OBJECT ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
+  target_link_libraries(${target} PRIVATE nearmiss_flags collide ${libraries})
+  target_include_directories(${target} PRIVATE ${NEARMISS_GENERATED})
+  if(NOT isolated)
     target_sources(nearmiss_subjects PRIVATE $<TARGET_OBJECTS:${target}>)
     foreach(library IN LISTS libraries)
       target_link_libraries(nearmiss_subjects INTERFACE $<LINK_ONLY:${library}>)
     endforeach()
   endif()
-  target_link_libraries(${target} PRIVATE nearmiss_flags collide ${libraries})
-  target_include_directories(${target} PRIVATE ${NEARMISS_GENERATED})
+  set(main ${NEARMISS_GENERATED}/hosts/${identifier}.cpp)
+  file(GENERATE OUTPUT ${main} CONTENT
+"// Written by CMake: the host of ${name}.
+#include <unistd.h>
+#include \"impl/host/serve.hpp\"
+namespace nearmiss {
+Subject subject_${identifier}();
+}
+int main() { _exit(nearmiss::host_of(nearmiss::subject_${identifier})); }
+")
+  add_executable(nearmiss_host_${identifier} ${main} $<TARGET_OBJECTS:${target}>)
+  target_link_libraries(nearmiss_host_${identifier} PRIVATE nearmiss_host)
+  foreach(library IN LISTS libraries)
+    target_link_libraries(nearmiss_host_${identifier} PRIVATE $<LINK_ONLY:${library}>)
+  endforeach()
+  set_target_properties(nearmiss_host_${identifier} PROPERTIES
+    OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${NEARMISS_HOSTS})
 endfunction()
 
-# Writes the list of all subjects and makes the library that holds them.
+# Makes the hosts of all subjects, the library that holds the subjects, and nearmiss_hosts for the programs that ask hosts.
 function(nearmiss_finish_subjects)
+  find_package(nlohmann_json REQUIRED)
+  set(NEARMISS_HOSTS ${PROJECT_BINARY_DIR}/hosts)
   get_property(subjects GLOBAL PROPERTY NEARMISS_SUBJECTS)
-  nearmiss_write_subjects(${NEARMISS_GENERATED}/subjects/all.cpp ${subjects})
-  add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp
-    ${PROJECT_SOURCE_DIR}/impl/subject/isolated.cpp ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp
-    ${PROJECT_SOURCE_DIR}/impl/subject/worker.cpp)
-  target_link_libraries(nearmiss_subjects PUBLIC nearmiss_flags collide PRIVATE ${CMAKE_DL_LIBS})
+  # What a host is made of, apart from its subject.
+  add_library(nearmiss_host STATIC ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp)
+  target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nlohmann_json::nlohmann_json)
+  target_include_directories(nearmiss_host PUBLIC ${NEARMISS_GENERATED})
+  add_executable(nearmiss_host_of_plugins ${PROJECT_SOURCE_DIR}/impl/host/plugin_host.cpp)
+  target_link_libraries(nearmiss_host_of_plugins PRIVATE nearmiss_host ${CMAKE_DL_LIBS})
+  set_target_properties(nearmiss_host_of_plugins PROPERTIES OUTPUT_NAME plugin RUNTIME_OUTPUT_DIRECTORY ${NEARMISS_HOSTS})
+  set(in_process "")
+  foreach(s IN LISTS subjects)
+    get_property(isolated GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_ISOLATED)
+    if(NOT isolated)
+      list(APPEND in_process ${s})
+    endif()
+  endforeach()
+  nearmiss_write_subjects(${NEARMISS_GENERATED}/subjects/all.cpp ${in_process})
+  nearmiss_write_hosts(${NEARMISS_GENERATED}/subjects/hosts.cpp ${subjects})
+  add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp
+    ${PROJECT_SOURCE_DIR}/impl/host/keeper.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
+    ${PROJECT_SOURCE_DIR}/impl/host/worker.cpp ${PROJECT_SOURCE_DIR}/impl/subject/printable.cpp)
+  target_link_libraries(nearmiss_subjects PUBLIC nearmiss_flags collide nearmiss_host PRIVATE nlohmann_json::nlohmann_json)
   target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
+  add_library(nearmiss_hosts OBJECT ${NEARMISS_GENERATED}/subjects/hosts.cpp)
+  target_link_libraries(nearmiss_hosts PUBLIC nearmiss_flags collide)
+  target_link_options(nearmiss_hosts INTERFACE -Wl,--as-needed)  # the libraries of subjects in process are not wanted
   foreach(s IN LISTS subjects)
     nearmiss_compile_subject(${s})
+    add_dependencies(nearmiss_hosts nearmiss_host_${s})
   endforeach()
+  add_dependencies(nearmiss_subjects nearmiss_host_of_plugins)
+  set(NEARMISS_HOSTS ${NEARMISS_HOSTS} PARENT_SCOPE)
 endfunction()
 
 # Reads the files of NEARMISS_ADD; each adds subjects.

@@ -45,12 +45,7 @@ class RowReader {
   }
   /// False at the end of the file.
   bool next(Row& row) {
-    if (!std::getline(in_, line_)) {
-      if (in_.bad() || !in_.eof()) fail("the rest cannot be read");
-      return false;
-    }
-    ++number_;
-    if (!line_.empty() && line_.back() == '\r') line_.pop_back();
+    if (!read_line()) return false;
     parse(row);
     return true;
   }
@@ -59,8 +54,30 @@ class RowReader {
   [[noreturn]] void fail(std::string_view what) const { throw BadInput(fmt::format("{}: {}", where(number_), what)); }
 
  private:
-  static constexpr std::size_t columns = 7;
+  static constexpr std::size_t columns = 7, most_of_a_line = std::size_t{1} << 16;
 
+  /// The next line, without what ends it. False at the end of the file.
+  bool read_line() {
+    line_.clear();
+    ++number_;
+    for (int c = in_.get(); c != '\n'; c = in_.get()) {
+      if (c == std::ifstream::traits_type::eof()) {
+        if (in_.bad()) fail("the rest cannot be read");
+        if (!line_.empty()) break;
+        --number_;  // there is no such line
+        return false;
+      }
+      line_ += char(c);
+      if (c == '\0') fail("a byte is 0: this is no text, or a text in UTF-16, which must be UTF-8 here");
+      if (line_.size() > most_of_a_line) fail("a line has more than 65,536 bytes");
+    }
+    if (number_ == 1 && (line_.starts_with("\xFF\xFE") || line_.starts_with("\xFE\xFF"))) {
+      fail("this is a text in UTF-16, which must be UTF-8 here");
+    }
+    if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // some write it before UTF-8
+    if (!line_.empty() && line_.back() == '\r') line_.pop_back();
+    return true;
+  }
   void parse(Row& row) {
     std::array<std::string, columns> cells;
     std::size_t count = 0;

@@ -4,6 +4,7 @@
 /// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas; "added": those of NEARMISS_ADD that
 ///                         offer this query
 /// NEARMISS_PLUGINS        files of plugins to ask where they offer this query, separated by colons
+/// NEARMISS_COMMANDS       command lines of programs to ask where they offer this query, one on each line
 /// NEARMISS_FUZZ_REPORTS   a folder: each violation becomes a case file there, and the target goes on
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@
 #include "impl/subject/added.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/confirmed.hpp"
-#include "oracles/plugin.hpp"
+#include "oracles/hosts.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -56,8 +57,8 @@ std::vector<std::string> named_in_environment() {
 /// told on standard error, for whoever started this.
 std::vector<const Subject*> asked_subjects() {
   try {
-    load_plugins_of_environment();
-  } catch (const BadPlugin& e) {
+    load_subjects_of_environment();
+  } catch (const BadSubject& e) {
     cannot_run(e.what());
   }
   std::vector<const Subject*> asked;
@@ -67,7 +68,7 @@ std::vector<const Subject*> asked_subjects() {
   };
   for (const Subject& s : subjects()) {
     const bool chosen =
-        s.name.starts_with("collide-") || !s.plugin.empty() || (has(names, "added") && has(added, s.name));
+        s.name.starts_with("collide-") || s.host != nullptr || (has(names, "added") && has(added, s.name));
     if (chosen && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
   }
   for (const std::string& name : names) {

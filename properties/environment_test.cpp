@@ -9,7 +9,7 @@
 #include "corpus/generator.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "impl/subject/subject.hpp"
-#include "impl/subject/worker.hpp"
+#include "impl/host/worker.hpp"
 #include "oracles/environment.hpp"
 #include "oracles/judge.hpp"
 

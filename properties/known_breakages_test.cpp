@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "impl/subject/worker.hpp"
+#include "impl/host/worker.hpp"
 
 namespace nearmiss {
 namespace {
@@ -51,7 +51,7 @@ class KnownBreakage : public testing::TestWithParam<Known> {};
 
 TEST_P(KnownBreakage, CostsOneCase) {
   const Known& known = GetParam();
-  Worker worker({.seconds_per_case = 0.5});
+  Worker worker({.patience = 0.5});
   const Offering offering{"distance", Offer::answers, "", {}, ask_fcl};
   const std::vector<double> inputs{double(known.question), known.at, two_balls, 3};
   const std::vector<Answer> answers = worker.ask(offering, inputs, 2);

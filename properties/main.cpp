@@ -5,15 +5,15 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "oracles/plugin.hpp"
+#include "oracles/hosts.hpp"
 
 int main(int argc, char** argv) try {
   constexpr int keep_what_is_set = 0;
   ::setenv("RC_PARAMS", "seed=1 max_success=200 noshrink=1", keep_what_is_set);
-  nearmiss::load_plugins_of_environment();
+  nearmiss::load_subjects_of_environment();
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
-} catch (const nearmiss::BadPlugin& e) {
+} catch (const nearmiss::BadSubject& e) {
   std::fprintf(stderr, "nearmiss_properties: %s\n", e.what());
   return 2;
 }

@@ -5,7 +5,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
-#include "impl/subject/worker.hpp"
+#include "impl/host/worker.hpp"
 #include "oracles/confirmed.hpp"
 #include "properties/support.hpp"
 

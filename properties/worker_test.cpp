@@ -1,21 +1,27 @@
 /// A subject may do anything in a worker: it costs one case, and the reason is told.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sched.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
-#include "impl/subject/worker.hpp"
+#include "impl/host/serve.hpp"
+#include "impl/host/worker.hpp"
 
 namespace nearmiss {
 namespace {
@@ -43,7 +49,7 @@ Answer misbehave(std::span<const double> inputs) {
 
 Offering offering() { return {"misbehave", Offer::answers, "", {}, misbehave}; }
 
-WorkerLimits limits() { return {.seconds_per_case = 0.5, .bytes = std::size_t{256} << 20}; }
+WorkerLimits limits() { return {.patience = 0.5, .bytes = std::size_t{256} << 20}; }
 
 class WorkerSurvives : public testing::TestWithParam<std::tuple<const char*, Misdeed, const char*>> {};
 
@@ -69,8 +75,8 @@ INSTANTIATE_TEST_SUITE_P(Misdeeds, WorkerSurvives,
                                          std::tuple{"crash", crashes, "signal 11"},
                                          std::tuple{"exception", throws, "no contact found"},
                                          std::tuple{"foreign_exception", throws_an_int, "no std::exception"},
-                                         std::tuple{"hang", hangs, "no answer within 0.5"},
-                                         std::tuple{"sleep", sleeps, "no answer within 0.5"},
+                                         std::tuple{"hang", hangs, "no answer within 0.500 s of processor time"},
+                                         std::tuple{"sleep", sleeps, "no answer within 2.500 s"},
                                          std::tuple{"memory", eats_memory, "memory limit"},
                                          std::tuple{"exit", exits, "exit code 3"}),
                          [](const auto& test) { return std::string(std::get<0>(test.param)); });
@@ -139,94 +145,236 @@ TEST(Worker, HasPatienceWithASubjectThatWaitsForItsTurn) {
   EXPECT_GT(Clock::now() - begin, std::chrono::seconds(1)) << "the machine was not busy: this shows nothing";
 }
 
-/// A pipe whose end is seen when every process that has it has ended.
+/// A pipe with a name, whose end is seen when every process that has opened it has ended.
 class Lifeline {
  public:
   Lifeline() {
-    if (pipe(ends_) != 0) throw std::runtime_error("pipe");
+    if (mkdtemp(folder_.data()) == nullptr || mkfifo(name().c_str(), 0600) != 0) throw std::runtime_error("a named pipe");
+    file_ = open(name().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    current = name();
   }
   ~Lifeline() {
-    close(ends_[0]);
-    if (ends_[1] >= 0) close(ends_[1]);
+    close(file_);
+    unlink(name().c_str());
+    rmdir(folder_.c_str());
   }
-  int writing_end() const { return ends_[1]; }
-  void let_go() { close(std::exchange(ends_[1], -1)); }
+  Lifeline(const Lifeline&) = delete;
+  Lifeline& operator=(const Lifeline&) = delete;
+
   bool says_something_within(int seconds) {
     char said = 0;
-    return ready_within(seconds) && read(ends_[0], &said, 1) == 1;
+    return ready_within(seconds) && read(file_, &said, 1) == 1;
   }
   bool ends_within(int seconds) {
     char said = 0;
     while (ready_within(seconds)) {
-      if (read(ends_[0], &said, 1) == 0) return true;
+      if (read(file_, &said, 1) == 0) return true;
     }
     return false;
   }
+  /// The name of the one that is there: a subject, which is a copy of this process, has no other way to it.
+  static inline std::string current;
 
  private:
+  std::string name() const { return folder_ + "/pipe"; }
   bool ready_within(int seconds) {
-    pollfd p{ends_[0], POLLIN, 0};
+    pollfd p{file_, POLLIN, 0};
     return poll(&p, 1, 1000 * seconds) == 1;
   }
-  int ends_[2];
+  std::string folder_ = "/tmp/nearmiss-lifeline-XXXXXX";
+  int file_ = -1;
 };
 
-/// Starts a process that would live for a minute, says so on the lifeline, then does what the first input says.
+enum Leaving { in_its_group, in_its_own_session, twice_removed };
+
+/// Starts a process that would live for a minute and holds the lifeline, says so, then does what the first input says.
 Answer leave_something_behind(std::span<const double> inputs) {
+  const auto leaving = Leaving(int(inputs[1]));
+  const int lifeline = open(Lifeline::current.c_str(), O_WRONLY);
   if (fork() == 0) {
+    if (leaving != in_its_group) setsid();
+    if (leaving == twice_removed && fork() != 0) _exit(0);
     for (unsigned left = 60; left > 0;) left = sleep(left);
     _exit(0);
   }
-  if (write(int(inputs[1]), "x", 1) != 1) throw std::runtime_error("the lifeline is broken");
+  if (write(lifeline, "x", 1) != 1) throw std::runtime_error("the lifeline is broken");
+  close(lifeline);
   return misbehave(inputs);
 }
 
 Offering leaving() { return {"leaving", Offer::answers, "", {}, leave_something_behind}; }
 
-TEST(Worker, EndsWhatASubjectThatHangsHadStarted) {
+/// What a subject starts: in its group, or wherever it hides. In a namespace of its own, and without one.
+class WhatASubjectStarted : public testing::TestWithParam<std::tuple<Leaving, bool>> {
+ protected:
+  double how() const { return double(std::get<0>(GetParam())); }
+  WorkerLimits patient(double seconds) const { return {.patience = seconds, .pid_namespace = std::get<1>(GetParam())}; }
+};
+
+TEST_P(WhatASubjectStarted, EndsWhenTheSubjectHangs) {
   Lifeline lifeline;
-  Worker worker(limits());
-  const auto answers = worker.ask(leaving(), std::vector<double>{hangs, double(lifeline.writing_end())}, 2);
-  EXPECT_EQ(answers[0].reason(), "no answer within 0.500 s");
-  lifeline.let_go();
+  Worker worker(patient(0.5));
+  const auto answers = worker.ask(leaving(), std::vector<double>{hangs, how()}, 2);
+  EXPECT_EQ(answers[0].reason(), "no answer within 0.500 s of processor time");
+  EXPECT_TRUE(answers[0].late);
   EXPECT_TRUE(lifeline.says_something_within(0));
   EXPECT_TRUE(lifeline.ends_within(5));
 }
 
-TEST(Worker, EndsWhatASubjectThatCrashesHadStartedAndTellsOfTheCrash) {
+TEST_P(WhatASubjectStarted, EndsWhenTheSubjectCrashesAndTheCrashIsTold) {
   Lifeline lifeline;
-  Worker worker({.seconds_per_case = 60});
-  const auto answers = worker.ask(leaving(), std::vector<double>{aborts, double(lifeline.writing_end())}, 2);
+  Worker worker(patient(60));
+  const auto answers = worker.ask(leaving(), std::vector<double>{aborts, how()}, 2);
   EXPECT_NE(answers[0].reason().find("signal 6"), std::string_view::npos) << answers[0].reason();
-  lifeline.let_go();
+  EXPECT_FALSE(answers[0].late);
+  EXPECT_EQ(worker.output(0), "subject: assertion depth > 0 failed\n");
   EXPECT_TRUE(lifeline.ends_within(5));
 }
 
-TEST(Worker, EndsWithAllThatTheSubjectHadStarted) {
+TEST_P(WhatASubjectStarted, EndsWithTheWorker) {
   Lifeline lifeline;
   {
-    Worker worker(limits());
-    const auto answers = worker.ask(leaving(), std::vector<double>{none, double(lifeline.writing_end())}, 2);
+    Worker worker(patient(60));
+    const auto answers = worker.ask(leaving(), std::vector<double>{none, how()}, 2);
     EXPECT_EQ(answers[0].status, Answer::Status::answered);
-    lifeline.let_go();
     EXPECT_TRUE(lifeline.says_something_within(5));
   }
   EXPECT_TRUE(lifeline.ends_within(5));
 }
 
-TEST(Worker, EndsWithAllThatTheSubjectHadStartedWhenItsParentIsKilled) {
+TEST_P(WhatASubjectStarted, EndsWhenTheJudgeIsKilled) {
   Lifeline lifeline;
-  const pid_t parent = fork();
-  if (parent == 0) {
-    Worker worker({.seconds_per_case = 3600});
-    worker.ask(leaving(), std::vector<double>{hangs, double(lifeline.writing_end())}, 2);
+  const pid_t judge = fork();
+  if (judge == 0) {
+    Worker worker(patient(3600));
+    worker.ask(leaving(), std::vector<double>{hangs, how()}, 2);
     _exit(0);
   }
-  lifeline.let_go();
   EXPECT_TRUE(lifeline.says_something_within(10));
-  kill(parent, SIGKILL);
-  waitpid(parent, nullptr, 0);
+  kill(judge, SIGKILL);
+  waitpid(judge, nullptr, 0);
   EXPECT_TRUE(lifeline.ends_within(5));
+}
+
+std::string how_it_left(const testing::TestParamInfo<std::tuple<Leaving, bool>>& test) {
+  constexpr const char* names[] = {"in_its_group", "in_its_own_session", "twice_removed"};
+  return std::string(names[std::get<0>(test.param)]) + (std::get<1>(test.param) ? "_of_a_namespace" : "");
+}
+INSTANTIATE_TEST_SUITE_P(Anywhere, WhatASubjectStarted,
+                         testing::Combine(testing::Values(in_its_group, in_its_own_session, twice_removed), testing::Bool()),
+                         how_it_left);
+
+/// The names of the open files of this process, as a number with a bit for each; of whoever counts, none.
+Answer count_files(std::span<const double>) {
+  Answer a;
+  for (int file = 0; file < 1000; ++file) {
+    if (fcntl(file, F_GETFD) != -1) a.values[std::size_t(std::min(file, 39))] = 1;
+  }
+  return a;
+}
+
+TEST(Worker, HasNoFilesButItsOwn) {
+  const int secret = open("/dev/null", O_RDONLY);  // not to be closed by exec
+  const int far = fcntl(secret, F_DUPFD, 700);
+  Worker worker(limits()), other(limits());
+  const Offering counting{"counting", Offer::answers, "", {}, count_files};
+  for (Worker* w : {&worker, &other}) {
+    const Answer a = w->ask(counting, std::vector<double>{0}, 1).front();
+    for (int file = 0; file < 40; ++file) EXPECT_EQ(a.values[std::size_t(file)], file < 5 ? 1 : 0) << file;
+  }
+  close(secret), close(far);
+}
+
+TEST(Worker, HasItsOwnSessionAndAnEmptyInput) {
+  Worker worker(limits());
+  const AnswerFunction look = [](std::span<const double>) {
+    Answer a;
+    char byte = 0;
+    a.values[0] = getsid(0) == getpid();
+    a.values[1] = double(read(STDIN_FILENO, &byte, 1));
+    a.values[2] = getppid() > 1 ? 0 : double(getppid());
+    return a;
+  };
+  const Answer a = worker.ask({"look", Offer::answers, "", {}, look}, std::vector<double>{0}, 1).front();
+  EXPECT_EQ(a.values[0], 1);
+  EXPECT_EQ(a.values[1], 0);
+}
+
+TEST(Worker, KeepsWhatASubjectWroteBeforeItBroke) {
+  Worker worker(limits());
+  const AnswerFunction talk = [](std::span<const double>) -> Answer {
+    std::puts("to standard output");
+    std::fflush(stdout);
+    std::fputs("and to standard error\n", stderr);
+    std::abort();
+  };
+  const auto answers = worker.ask({"talk", Offer::answers, "", {}, talk}, std::vector<double>{0}, 1);
+  EXPECT_EQ(answers[0].reason(), "killed by signal 6 (Aborted): and to standard error");
+  EXPECT_EQ(worker.output(0), "to standard output\nand to standard error\n");
+}
+
+TEST(Worker, GivesUpABatchOfWhichManyAreLate) {
+  Worker worker({.patience = 0.02});
+  const std::vector<double> inputs(64, double(hangs));
+  const auto answers = worker.ask(offering(), inputs, 2);
+  EXPECT_EQ(answers.size(), Worker::most_late);
+  for (const Answer& a : answers) EXPECT_TRUE(a.late);
+}
+
+TEST(Worker, StopsWaitingWhenItIsTold) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  Worker worker({.patience = 3600}, nullptr, [&] { return Clock::now() < begin + std::chrono::milliseconds(300); });
+  const auto answers = worker.ask(offering(), std::vector<double>{none, 1, sleeps, 2, none, 3}, 2);
+  EXPECT_LT(Clock::now() - begin, std::chrono::milliseconds(1300));
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_EQ(answers[0].values[0], 1);
+}
+
+/// The host's side in a thread in place of a process, so that a sanitizer sees both: answers are taken while others are
+/// written, each whole.
+TEST(Wire, CarriesAnswersWholeWhileOthersAreWritten) {
+  constexpr int rounds = 20;
+  const auto asked = std::make_unique<wire::Asked>();
+  const auto answered = std::make_unique<wire::Answered>();
+  int to_host[2], to_judge[2];
+  ASSERT_EQ(pipe(to_host) | pipe(to_judge), 0);
+  const AnswerFunction halves = [](std::span<const double> inputs) {
+    if (std::fmod(inputs[0], 7) == 3) return Answer::without(Answer::Status::cannot_answer, "the third of seven");
+    Answer a;
+    a.count = std::uint8_t(1 + int(inputs[0]) % 3);
+    for (std::size_t i = 0; i < a.count; ++i) a.values[i] = inputs[0] / 2;
+    return a;
+  };
+  std::thread host([&] { serve(to_host[0], to_judge[1], *asked, *answered, {}); });
+  std::vector<Answer> answers(wire::capacity);
+  for (int round = 0; round < rounds; ++round) {
+    asked->answer = halves;
+    asked->inputs = 1, asked->first = 0, asked->count = wire::capacity;
+    for (std::size_t i = 0; i < wire::capacity; ++i) asked->values[i] = double(round) * 10'000 + double(i);
+    answered->done.store(0, std::memory_order_relaxed);
+    ASSERT_EQ(write(to_host[1], "g", 1), 1);
+    std::size_t got = 0, numbers = 0;
+    while (got < wire::capacity) {
+      const std::size_t done = answered->done.load(std::memory_order_acquire);
+      ASSERT_TRUE(wire::take(*answered, got, done, numbers, 0, answers.data()));
+    }
+    char byte = 0;
+    ASSERT_EQ(read(to_judge[0], &byte, 1), 1);
+    for (std::size_t i = 0; i < wire::capacity; ++i) {
+      const double x = asked->values[i];
+      if (std::fmod(x, 7) == 3) {
+        ASSERT_EQ(answers[i].reason(), "the third of seven");
+      } else {
+        ASSERT_EQ(answers[i].count, 1 + int(x) % 3);
+        ASSERT_EQ(answers[i].values[answers[i].count - 1u], x / 2);
+        ASSERT_EQ(answers[i].reason(), "");
+      }
+    }
+  }
+  close(to_host[1]);
+  host.join();
+  for (const int file : {to_host[0], to_judge[0], to_judge[1]}) close(file);
 }
 
 }  // namespace

@@ -101,7 +101,12 @@ std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Jso
 }  // namespace
 
 Extremes::Extremes(ExtremesSettings settings)
-    : settings_(std::move(settings)), workers_(WorkerLimits{.seconds_per_case = settings_.patience}), internal_errors_(settings_.folder) {
+    : settings_(std::move(settings)),
+      workers_([this] {
+        progress_.tell(done_, total_, std::nullopt, 0);
+        return !interrupted();
+      }),
+      internal_errors_(settings_.folder) {
   make_folder(settings_.folder);
   if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
     throw BadInput(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
@@ -158,9 +163,6 @@ void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) 
 }
 
 void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases) {
-  const auto timed_out = [](const Answer& a) {
-    return a.status == Answer::Status::broke && a.reason().starts_with("no answer within ");
-  };
   std::vector<ExtremesMap*> asked;
   for (ExtremesMap* m : maps) {
     if (m->given_up()) {
@@ -172,8 +174,8 @@ void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std:
   }
   for (ExtremesMap* m : asked) {
     const auto answers = workers_.receive(*m->subject);
-    for (std::size_t i = 0; i < cases.size() && !interrupted(); ++i) {
-      const bool late = timed_out(answers[i]);
+    for (std::size_t i = 0; i < answers.size() && !interrupted(); ++i) {
+      const bool late = answers[i].late;
       m->time_outs += late;
       m->time_outs_in_row += late;
       const Standard standard{no_promise, true, m->subject->offering(m->query->name).required};

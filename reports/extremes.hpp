@@ -25,7 +25,6 @@ struct ExtremesSettings {
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 1;
   std::uint64_t cases = 50;  ///< of each cell
-  double patience = 2;       ///< seconds for one case; who needs longer has timed out
 };
 
 /// What was proved against the answers to the cases at one place of a plane. Contracts play no part: a place where

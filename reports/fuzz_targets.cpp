@@ -1,20 +1,21 @@
 #include "reports/fuzz_targets.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <thread>
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
-#include "oracles/plugin.hpp"
-#include "reports/child.hpp"
+#include "impl/host/keeper.hpp"
+#include "oracles/hosts.hpp"
+#include "reports/interrupt.hpp"
 
 namespace nearmiss {
 
@@ -26,6 +27,8 @@ namespace fs = std::filesystem;
 
 /// How long a target may take beyond its time to start, and to end when it is told to.
 constexpr auto grace = 3s;
+/// And to end where the whole run is to end.
+constexpr auto short_grace = 300ms;
 /// After which libFuzzer keeps the case and ends the target.
 constexpr int seconds_for_one_case = 10;
 
@@ -37,7 +40,7 @@ bool has_libfuzzer(const fs::path& file) {
   std::size_t kept = 0;  // the end of the last block, in which the mark may begin
   while (in.read(block.data() + kept, std::streamsize(block.size() - kept)) || in.gcount() > 0) {
     const std::size_t filled = kept + std::size_t(in.gcount());
-    if (std::string_view(block).substr(0, filled).find(mark) != std::string_view::npos) return true;
+    if (memmem(block.data(), filled, mark.data(), mark.size()) != nullptr) return true;
     kept = std::min(filled, mark.size() - 1);
     std::copy_n(block.data() + filled - kept, kept, block.data());
   }
@@ -56,7 +59,7 @@ FuzzTargets targets_in(const fs::path& folder, std::span<const Query* const> que
   found.where = folder.string();
   for (const Query* q : queries) {
     const fs::path file = folder / fmt::format("fuzz_{}", q->name);
-    if (fs::is_regular_file(file) && has_libfuzzer(file)) {
+    if (!interrupted() && fs::is_regular_file(file) && has_libfuzzer(file)) {
       found.targets.push_back({q, file});
     } else {
       found.missing.emplace_back(q->name);
@@ -95,10 +98,12 @@ std::vector<std::string> asked_in(const fs::path& log) {
 
 }  // namespace
 
-std::vector<std::string> telling_of_added(const std::vector<std::string>& plugins) {
+std::vector<std::string> telling_of_added(const ForeignSubjects& foreign) {
   const char* named = std::getenv("NEARMISS_SUBJECTS");
   const std::string before = named == nullptr || *named == '\0' ? "" : fmt::format("{},", named);
-  return {fmt::format("NEARMISS_SUBJECTS={}added", before), fmt::format("{}={}", plugins_variable, fmt::join(plugins, ":"))};
+  return {fmt::format("NEARMISS_SUBJECTS={}added", before),
+          fmt::format("{}={}", plugins_variable, fmt::join(foreign.plugins, ":")),
+          fmt::format("{}={}", commands_variable, fmt::join(foreign.commands, "\n"))};
 }
 
 FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
@@ -107,7 +112,8 @@ FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<c
   for (const fs::path& f : usual_folders()) {
     FuzzTargets found = targets_in(f, queries);
     if (!found.targets.empty()) return found;
-    searched += (searched.empty() ? "" : ", ") + f.lexically_normal().string();
+    const std::string name = f.lexically_normal().string();
+    if (searched.find(name) == std::string::npos) searched.append(searched.empty() ? "" : ", ").append(name);
   }
   FuzzTargets none;
   for (const Query* q : queries) none.missing.emplace_back(q->name);
@@ -127,32 +133,28 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
                                            fmt::format("-max_total_time={}", budget.seconds),
                                            fmt::format("-artifact_prefix={}/", artifacts.string()),
                                            "-print_final_stats=1", fmt::format("-timeout={}", seconds_for_one_case)};
-  std::vector<std::string> environment = telling_of_added(budget.plugins);
+  std::vector<std::string> environment = telling_of_added(budget.foreign);
   environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
-  std::optional<Child> started;
-  try {
-    started.emplace(arguments, environment, log);
-  } catch (const std::system_error& e) {
-    return {query, 0, 0, fmt::format("not started: {}", e.code().message()), true, {}};
-  }
-  Child& child = *started;
-  bool told = false, stopped = false;
-  const auto end = begin + std::chrono::seconds(budget.seconds) + grace;
-  for (auto deadline = end; !child.ended(); std::this_thread::sleep_for(50ms)) {
+  Program program;
+  program.arguments = arguments;
+  program.environment = environment;
+  program.log = log.string();
+  Kept child(program, Confinement::none());
+  bool told = false, is_forced = false;
+  for (auto deadline = begin + std::chrono::seconds(budget.seconds) + grace; !child.has_ended(50);) {
     budget.tick();
     if (!told && (Clock::now() > deadline || budget.cancelled())) {
       child.send(SIGINT);  // libFuzzer prints its statistics and leaves
-      told = stopped = true;
-      deadline = Clock::now() + grace;
+      told = true;
+      deadline = Clock::now() + (budget.cancelled() ? short_grace : grace);
     }
-    if (told && Clock::now() > deadline) child.send(SIGKILL);
+    if (!told || Clock::now() <= deadline) continue;
+    child.end();
+    is_forced = true;
   }
-  FuzzOutcome o{query, std::chrono::duration<double>(Clock::now() - begin).count(), executions_in(log), "", false,
-                asked_in(log)};
-  const int status = child.status();
-  o.ended = WIFSIGNALED(status) ? fmt::format("killed by signal {}", WTERMSIG(status))
-                                : fmt::format("exit code {}", WEXITSTATUS(status));
-  o.failed = status != 0 && !stopped;
+  FuzzOutcome o{query, std::chrono::duration<double>(Clock::now() - begin).count(), executions_in(log),
+                is_forced ? "ended by force: it did not end when it was told to" : child.how_it_ended(),
+                child.failed_to_start() != 0 || (child.exit_code() != 0 && !told), asked_in(log)};
   return o;
 }
 

@@ -34,25 +34,29 @@ struct FuzzOutcome {
   std::string query;
   double seconds = 0;
   std::uint64_t executions = 0;  ///< 0 where the target did not say
-  std::string ended;             ///< "exit code 0", "killed by signal 9"
+  std::string ended;             ///< "left with exit code 0"
   bool failed = false;           ///< ended by itself with another code than 0
   std::vector<std::string> asked;  ///< subjects; empty where the target did not say
 };
 
-/// What tells a fuzz target, or the properties, to ask the plugins and the subjects of NEARMISS_ADD as well: for its
-/// environment.
-std::vector<std::string> telling_of_added(const std::vector<std::string>& plugins);
+/// Subjects that were loaded for this process: the files of plugins, and commands.
+struct ForeignSubjects {
+  std::vector<std::string> plugins, commands;
+};
+
+/// What tells a fuzz target, or the properties, to ask them and the subjects of NEARMISS_ADD as well: for its environment.
+std::vector<std::string> telling_of_added(const ForeignSubjects& foreign);
 
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
-  std::vector<std::string> plugins;  ///< files whose subjects are asked as well
+  ForeignSubjects foreign;           ///< they are asked as well
   unsigned seconds = 1;
   std::function<void()> tick;  ///< called about twenty times a second while the target runs
   std::function<bool()> cancelled;
 };
 
 /// Runs the target for so long. It finds NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz in its environment, and there also that
-/// it is to ask the plugins and the subjects of NEARMISS_ADD; its own messages go to fuzz/QUERY.log. Stored seeds are
+/// it is to ask foreign subjects and those of NEARMISS_ADD; its own messages go to fuzz/QUERY.log. Stored seeds are
 /// put into the corpus first.
 FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget);
 

@@ -4,9 +4,8 @@
 
 #include <chrono>
 #include <fstream>
-#include <thread>
 
-#include "reports/child.hpp"
+#include "impl/host/keeper.hpp"
 #include "reports/fuzz_targets.hpp"
 
 namespace nearmiss {
@@ -54,29 +53,31 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
   PropertyOutcome o;
   for (std::uint64_t seed = budget.seed; Clock::now() + 1s < end && !budget.cancelled() && o.ended.empty(); ++seed) {
     const fs::path log = folder / fmt::format("{}.log", seed);
-    std::vector<std::string> environment = telling_of_added(budget.plugins);
+    std::vector<std::string> environment = telling_of_added(budget.foreign);
     environment.push_back(fmt::format("NEARMISS_SEED={}", seed));
     environment.push_back(fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()));
     if (budget.seconds >= time_for_long_watch) environment.emplace_back(long_watch);
     environment.push_back(fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed));
     // GoogleTest takes seeds of its order up to 99999.
-    Child child({program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle", "--gtest_color=no",
-                 fmt::format("--gtest_random_seed={}", 1 + seed % 99999)},
-                environment, log);
+    Program tests;
+    tests.arguments = {program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle", "--gtest_color=no",
+                       fmt::format("--gtest_random_seed={}", 1 + seed % 99999)};
+    tests.environment = std::move(environment);
+    tests.log = log.string();
+    Kept child(tests, Confinement::none());
     bool stopped = false;
-    for (; !child.ended(); std::this_thread::sleep_for(50ms)) {
+    while (!child.has_ended(50)) {
       budget.tick();
       if (Clock::now() < end && !budget.cancelled()) continue;
-      child.send(SIGKILL);  // a test that is not at its end has no result
+      child.end();  // a test that is not at its end has no result
       stopped = true;
     }
     o.seeds.push_back(seed);
     count(log, o);
-    const int status = child.status();
     if (stopped) break;
-    if (WIFSIGNALED(status)) o.ended = fmt::format("killed by signal {}, see {}", WTERMSIG(status), log.string());
-    if (WIFEXITED(status) && WEXITSTATUS(status) > 1) o.ended = fmt::format("exit code {}, see {}", WEXITSTATUS(status), log.string());
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && o.passed == 0) o.ended = fmt::format("no test ran, see {}", log.string());
+    // GoogleTest's own program leaves with 0 or 1.
+    if (child.exit_code().value_or(2) > 1) o.ended = fmt::format("{}, see {}", child.how_it_ended(), log.string());
+    if (child.exit_code() == 0 && o.passed == 0) o.ended = fmt::format("no test ran, see {}", log.string());
   }
   o.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return o;

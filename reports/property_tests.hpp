@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/fuzz_targets.hpp"
+
 namespace nearmiss {
 
 /// The program, where this build has it.
@@ -15,7 +17,7 @@ std::optional<std::filesystem::path> find_property_tests();
 
 struct PropertyBudget {
   std::filesystem::path run_folder;  ///< receives properties/ with reports and logs
-  std::vector<std::string> plugins;  ///< files whose subjects are held to the properties as well
+  ForeignSubjects foreign;           ///< they are held to the properties as well
   std::uint64_t seed = 0;            ///< of the first pass; each further one has the next
   double seconds = 1;
   std::function<void()> tick;  ///< called about twenty times a second
@@ -31,7 +33,7 @@ struct PropertyOutcome {
   std::string ended;  ///< how it ended where that was no result; empty otherwise
 };
 
-/// Holds the tiers of collide, the subjects of NEARMISS_ADD and the plugins to the properties of generated cases, and the
+/// Holds the tiers of collide, the subjects of NEARMISS_ADD and foreign ones to the properties of generated cases, and the
 /// judge to its watch, with fresh seeds, in an order that the seed says, until the time is over. What a test says goes to
 /// properties/SEED.log, the report of a failing one to properties/QUERY/.
 PropertyOutcome run_property_tests(const std::filesystem::path& program, const PropertyBudget& budget);

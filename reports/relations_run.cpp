@@ -12,6 +12,7 @@
 #include "corpus/fit.hpp"
 #include "reports/interrupt.hpp"
 #include "reports/pretty_json.hpp"
+#include "reports/tally.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -60,7 +61,13 @@ void RelationTally::add(const RelationTally& other) {
 }
 
 RelationsRun::RelationsRun(RelationsSettings settings)
-    : settings_(std::move(settings)), begin_(Clock::now()), internal_errors_(settings_.folder) {
+    : settings_(std::move(settings)),
+      begin_(Clock::now()),
+      workers_([this] {
+        tell_progress();
+        return !should_stop();
+      }),
+      internal_errors_(settings_.folder) {
   make_folder(settings_.folder);
 }
 
@@ -100,21 +107,31 @@ void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::
     stream->next += count;
     done_ += count;
     stream->seconds += std::chrono::duration<double>(Clock::now() - begin).count();
-    std::optional<double> seconds_left;
-    if (until_) seconds_left = std::chrono::duration<double>(*until_ - Clock::now()).count();
-    progress_.tell(done_, total_, seconds_left, bad());
+    tell_progress();
   }
+}
+
+void RelationsRun::tell_progress() {
+  std::optional<double> seconds_left;
+  if (until_) seconds_left = std::chrono::duration<double>(*until_ - Clock::now()).count();
+  progress_.tell(done_, total_, seconds_left, bad());
 }
 
 std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<Case>& cases) {
   std::vector<Answer> answers;
   if (cases.empty()) return answers;
-  const std::size_t most = Workers::capacity_for(*cases.front().query);
-  for (std::size_t at = 0; at < cases.size(); at += most) {
+  const Query& query = *cases.front().query;
+  Lateness& l = lateness_[{&subject, &query}];
+  const std::size_t most = Workers::capacity_for(query);
+  for (std::size_t at = 0; at < cases.size() && answers.size() == at && !is_given_up(l.late, l.asked); at += most) {
     workers_.send(subject, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
     const auto some = workers_.receive(subject);
     answers.insert(answers.end(), some.begin(), some.end());
+    l.asked += some.size();
+    l.late += std::uint64_t(std::count_if(some.begin(), some.end(), [](const Answer& a) { return a.late; }));
   }
+  if (!should_stop()) l.gave_up += cases.size() - answers.size();
+  answers.resize(cases.size(), answer_of_given_up());
   return answers;
 }
 
@@ -159,6 +176,7 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
       const std::vector<Answer> theirs = ask(*subject, questions.first);
       for (std::size_t n = 0; n < theirs.size(); ++n) answers[questions.second[n].of][questions.second[n].at] = theirs[n];
     }
+    if (should_stop()) return;  // some of them may be missing
     const bool bits = settings_.bit_for_bit || claims_same_bits(*subject);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       // Without an answer to the case itself there is nothing to compare; 'nearmiss run' reports it.
@@ -180,7 +198,7 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
 
 bool RelationsRun::worth_a_report(const Key& key, const RelationFinding& found, double above) {
   if (found.breach == Breach::none && found.oracle.empty()) return false;
-  Kept& kept = kept_[{key, std::string(name_of(found.breach))}];
+  Kept& kept = kept_[{key, found.oracle.empty() ? std::string(name_of(found.breach)) : "oracle"}];
   const std::uint64_t few = found.breach == Breach::contradiction ? first_contradictions : first_broken;
   if (kept.count >= few && !(above > 0 && above >= 2 * kept.worst)) return false;
   ++kept.count;
@@ -216,6 +234,7 @@ Json RelationsRun::to_json() const {
          {"command", settings_.command},
          {"seed", settings_.seed},
          {"tallies", Json::array()},
+         {"gave_up", Json::array()},
          {"reports", Json::array()}};
   for (const Query* q : settings_.queries) {
     for (const Subject* s : settings_.subjects) {
@@ -236,6 +255,10 @@ Json RelationsRun::to_json() const {
                                 {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)}});
       }
     }
+  }
+  for (const auto& [key, l] : lateness_) {
+    if (l.gave_up == 0) continue;
+    j["gave_up"].push_back({{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
   }
   for (const Written& w : written_) {
     j["reports"].push_back({{"file", w.file},
@@ -277,7 +300,16 @@ std::string RelationsRun::table() const {
     rows.insert(rows.end(), own.begin(), own.end());
     if (own.size() > 1) rows.push_back(row("all relations", all));
   }
-  return table_text(rows, "", 1);
+  const std::vector<std::string> lines = given_up();
+  return table_text(rows, "", 1) + (lines.empty() ? "" : fmt::format("\n{}\n", fmt::join(lines, "\n")));
+}
+
+std::vector<std::string> RelationsRun::given_up() const {
+  std::vector<std::string> lines;
+  for (const auto& [key, l] : lateness_) {
+    if (l.gave_up > 0) lines.push_back(given_up_text(key.first->name, key.second->name, l.late, l.gave_up));
+  }
+  return lines;
 }
 
 std::string RelationsRun::worst_findings() const {

@@ -54,6 +54,8 @@ class RelationsRun {
 
   /// Rows of subject and relation, and sums.
   std::string table() const;
+  /// Who was not asked any more, a line each; empty where all were asked to the end.
+  std::vector<std::string> given_up() const;
   std::string worst_findings() const;
   std::string summary() const;
   nlohmann::ordered_json to_json() const;
@@ -81,9 +83,11 @@ class RelationsRun {
                   const std::map<const Subject*, std::vector<Answer>>& own);
   void take(const Key& key, const RelationChoice& choice, const RelationFinding& found);
   bool worth_a_report(const Key& key, const RelationFinding& found, double above);
+  /// What is not answered for want of patience or time is without an answer.
   std::vector<Answer> ask(const Subject& subject, const std::vector<Case>& cases);
   RelationTally sum() const;
   bool should_stop() const;
+  void tell_progress();
 
   RelationsSettings settings_;
   Clock::time_point begin_;
@@ -96,6 +100,11 @@ class RelationsRun {
     double worst = 0;
   };
   std::map<std::pair<Key, std::string>, Kept> kept_;
+  /// Of the cases that a subject was asked of one query.
+  struct Lateness {
+    std::uint64_t asked = 0, late = 0, gave_up = 0;
+  };
+  std::map<std::pair<const Subject*, const Query*>, Lateness> lateness_;
   std::vector<Written> written_;
   InternalErrors internal_errors_;
   std::uint64_t done_ = 0;

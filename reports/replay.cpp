@@ -151,7 +151,8 @@ Measure measure_of(const nlohmann::json& j, const std::string& file) {
 
 std::string replay_command(const Subject& subject, const std::string& file) {
   const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
-  return "nearmiss replay " + plugin + shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
+  const std::string command = subject.command.empty() ? "" : "--command " + shell_quoted(subject.command) + " ";
+  return "nearmiss replay " + plugin + command + shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
 }
 
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,

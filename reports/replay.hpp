@@ -32,7 +32,7 @@ struct Replay {
 
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
               Workers& workers);
-/// The command line that asks the subject again, from any folder, with its plugin where it has one.
+/// The command line that asks the subject again, from any folder, with its plugin or command where it is one.
 std::string replay_command(const Subject& subject, const std::string& file);
 std::string replay_text(const Replay& r);
 /// A case and what is true of it, for people.

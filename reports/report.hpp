@@ -25,6 +25,7 @@ struct Report {
   std::string subject;
   std::string version;
   Answer answer;
+  std::string output{};  ///< the end of what the subject had written when it broke: standard output and error
   Standard standard;
   Finding finding;
   Truth truth;

@@ -7,6 +7,7 @@
 #include "corpus/codec.hpp"
 #include "reports/explain.hpp"
 #include "reports/report.hpp"
+#include "reports/text.hpp"
 #include "reports/version.hpp"
 
 namespace nearmiss {
@@ -186,6 +187,17 @@ Json environment_to_json() {
   return {{"nearmiss", version()}, {"compiler", compiler()}, {"build", build_type()}, {"platform", platform()}};
 }
 
+/// Of what a foreign program wrote.
+Json lines_to_json(std::string_view text) {
+  Json lines = Json::array();
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(one_line(text.substr(0, end), 500));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
 Json report_to_json(const Report& r) {
   const Query& query = *r.question.query;
   Json j{{"schema", report_schema_version},
@@ -196,6 +208,7 @@ Json report_to_json(const Report& r) {
   j.update(case_to_json(r.question));
   j["subject"] = {{"name", r.subject}, {"version", r.version}, {"scalar", name_of(r.question.scalar)}};
   j["answer"] = answer_to_json(query, r.answer);
+  if (!r.output.empty()) j["output"] = lines_to_json(r.output);
   j["truth"] = truth_to_json(query, r.question.scalar, r.truth);
   j["finding"] = finding_to_json(r.question, r.finding);
   j["contract"] = contract_to_json(r.standard.contract);

@@ -29,7 +29,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace std::chrono_literals;
 
-constexpr auto between_indexes = 5s;
+/// An index is not written more often, and not for more than a share of the time.
+constexpr auto between_indexes = 500ms;
+constexpr int index_share = 30;
 constexpr std::size_t least_batch = 32;
 constexpr double most_seconds_per_batch = 0.4;
 constexpr int run_schema_version = 2;
@@ -37,15 +39,6 @@ constexpr int run_schema_version = 2;
 std::string utc_text(const char* format) { return fmt::format(fmt::runtime(format), fmt::gmtime(std::time(nullptr))); }
 
 double seconds_since(Run::Clock::time_point t) { return std::chrono::duration<double>(Run::Clock::now() - t).count(); }
-
-std::string_view name_of(RunState s) {
-  switch (s) {
-    case RunState::running: return "running";
-    case RunState::finished: return "finished";
-    case RunState::interrupted: return "interrupted";
-    default: return "failed";
-  }
-}
 
 /// Turns the state of the index that is there from running to failed, byte for byte: this needs no room on the disk.
 void mark_as_failed(const std::filesystem::path& index) noexcept {
@@ -111,6 +104,15 @@ std::vector<std::string> table_row(const Tally& t) {
 
 }  // namespace
 
+std::string_view name_of(RunState s) {
+  switch (s) {
+    case RunState::running: return "running";
+    case RunState::finished: return "finished";
+    case RunState::interrupted: return "interrupted";
+    default: return "failed";
+  }
+}
+
 std::filesystem::path runs_folder() {
   if (const char* named = std::getenv("NEARMISS_RUNS"); named != nullptr && *named != '\0') return named;
   return NEARMISS_RUNS_FOLDER;
@@ -126,6 +128,7 @@ struct Run::Pending {
   Case question;
   const Subject* subject;
   Answer answer;
+  std::string output;  ///< of a subject that broke
 };
 
 struct Run::Notes {
@@ -136,6 +139,7 @@ Run::Run(RunSettings settings)
     : settings_(std::move(settings)),
       started_(utc_text("{:%Y-%m-%dT%H:%M:%SZ}")),
       begin_(Clock::now()),
+      workers_([this] { return goes_on(); }),
       internal_errors_(settings_.folder),
       notes_(std::make_unique<Notes>()) {
   for (const Query* q : settings_.queries) {
@@ -144,7 +148,11 @@ Run::Run(RunSettings settings)
     }
   }
   make_folder(settings_.folder);
+  settle_runs_below(settings_.folder.has_parent_path() ? settings_.folder.parent_path() : ".");
+  settle_run(settings_.folder);
   lock_.emplace(settings_.folder);
+  written_ = reports_on_disk(settings_.folder);
+  for (WrittenReport& w : written_) w.earlier = true;
   write_index(RunState::running);
 }
 
@@ -173,15 +181,31 @@ void Run::examine(std::span<const Case> cases, const std::function<void()>& mean
   examine(asked(*cases.front().query, cases.front().scalar), cases, meanwhile);
 }
 
-void Run::examine(const std::vector<const Subject*>& asked_now, std::span<const Case> cases,
+/// Called while a subject is awaited. The reports of a run whose time is over get a moment.
+bool Run::goes_on() {
+  constexpr auto moment = 300ms;
+  tick();
+  return !interrupted() && !(settings_.until && Clock::now() >= *settings_.until + moment);
+}
+
+void Run::examine(const std::vector<const Subject*>& chosen, std::span<const Case> cases,
                   const std::function<void()>& meanwhile) {
+  std::vector<const Subject*> asked_now;
+  for (const Subject* s : chosen) {
+    if (Tally& t = tally(*cases.front().query, *s); t.gives_up()) {
+      t.gave_up += cases.size();
+    } else {
+      asked_now.push_back(s);
+    }
+  }
   for (const Subject* s : asked_now) workers_.send(*s, cases);
   if (meanwhile) meanwhile();
   std::vector<std::optional<bool>> touching(cases.size());
   for (const Subject* s : asked_now) {
     const std::span<const Answer> answers = workers_.receive(*s);
-    for (std::size_t i = 0; i < cases.size() && (i % 64 != 0 || !should_stop()); ++i) {
-      const std::optional<Finding> f = take(cases[i], *s, answers[i]);
+    if (answers.size() < cases.size() && !should_stop()) tally(*cases.front().query, *s).gave_up += cases.size() - answers.size();
+    for (std::size_t i = 0; i < answers.size() && (i % 64 != 0 || !should_stop()); ++i) {
+      const std::optional<Finding> f = take(cases[i], *s, answers[i], workers_.output(*s, i));
       if (f) touches_.count(cases[i], *s, answers[i], *f, touching[i]);
     }
   }
@@ -192,12 +216,17 @@ void Run::examine(const std::vector<const Subject*>& asked_now, std::span<const 
 void Run::examine_by_all(const Case& question, const std::function<void(const Subject&, const Finding&)>& each) {
   for (const Subject* s : settings_.subjects) {
     if (!tallies_.contains({question.query, s})) continue;
+    if (Tally& t = tally(*question.query, *s); t.gives_up()) {
+      ++t.gave_up;
+      continue;
+    }
     std::optional<Finding> f;
     if (const std::optional<Case> same = in_scalar(question, s->scalar)) {
-      f = take(*same, *s, workers_.ask(*s, *same));
+      const Answer answer = workers_.ask(*s, *same);
+      f = take(*same, *s, answer, workers_.output(*s, 0));
     } else {
       f.emplace().verdict = Verdict::out_of_domain;
-      count(question, *s, {}, *f);
+      count(question, *s, {}, *f, {});
     }
     if (each && f) each(*s, *f);
   }
@@ -205,16 +234,18 @@ void Run::examine_by_all(const Case& question, const std::function<void(const Su
   tick();
 }
 
-std::optional<Finding> Run::take(const Case& question, const Subject& subject, const Answer& answer) {
+std::optional<Finding> Run::take(const Case& question, const Subject& subject, const Answer& answer, std::string_view output) {
   const Standard standard = subject.standard_for(question.query->name);
   const auto f = internal_errors_.judged(question, subject, answer, standard, Detail::verdict);
-  if (f) count(question, subject, answer, *f);
+  if (f) count(question, subject, answer, *f, output);
   return f;
 }
 
-void Run::count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f) {
+void Run::count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f,
+                std::string_view output) {
   Tally& t = tally(*question.query, subject);
   t.count(f);
+  t.late += answer.late;
   ++cases_;
   if (settings_.by_class) {
     if (question.moves.empty()) by_class_[{&subject, "none"}].count(f);
@@ -222,7 +253,7 @@ void Run::count(const Case& question, const Subject& subject, const Answer& answ
   }
   if (!is_bad(f)) return;
   ++bad_;
-  if (keeper_.keep(t, f)) pending_.push_back({question, &subject, answer});
+  if (keeper_.keep(t, f)) pending_.push_back({question, &subject, answer, std::string(output)});
 }
 
 void Run::write_pending() {
@@ -232,10 +263,12 @@ void Run::write_pending() {
 
 void Run::write_report(const Pending& p) {
   Report r = nearmiss::examine(p.question, *p.subject, p.answer, workers_);
+  r.output = p.output;
   const std::string name = fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
   const std::filesystem::path below = std::filesystem::path("findings") / r.question.query->name / name;
   r.replay = replay_command(*p.subject, (settings_.folder / below).string());
   write(below, pretty_json(report_to_json(r)));
+  std::erase_if(written_, [&](const WrittenReport& w) { return w.earlier && w.file == below.generic_string(); });
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
                       std::string(nearmiss::name_of(r.finding.verdict)),
                       std::string(nearmiss::name_of(r.finding.disagreement)), headline(r),
@@ -306,10 +339,12 @@ void Run::tick() {
   std::optional<double> left;
   if (settings_.until) left = std::chrono::duration<double>(*settings_.until - Clock::now()).count();
   progress_.tell(cases_, total_, left, bad_);
-  if (Clock::now() - indexed_ >= between_indexes) write_index(RunState::running);
+  const auto since = Clock::now() - indexed_;
+  if (since >= between_indexes && since >= index_share * indexing_) write_index(RunState::running);
 }
 
 void Run::write_index(RunState state) {
+  const Clock::time_point begin = Clock::now();
   Json j{{"schema", run_schema_version},
          {"state", name_of(state)},
          {"summary", summary()},
@@ -359,20 +394,11 @@ void Run::write_index(RunState state) {
   if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
   j.update(notes_->parts);
   j["reports"] = Json::array();
-  for (const Written& w : written_) {
-    j["reports"].push_back({{"file", w.file},
-                            {"id", w.id},
-                            {"query", w.query},
-                            {"subject", w.subject},
-                            {"verdict", w.verdict},
-                            {"disagreement", w.disagreement},
-                            {"breakage", w.breakage.empty() ? Json(nullptr) : Json(w.breakage)},
-                            {"backward_above_epsilon", w.above ? Json(*w.above) : Json(nullptr)},
-                            {"headline", w.headline}});
-  }
+  for (const WrittenReport& w : written_) j["reports"].push_back(written_to_json(w));
   j["environment"] = environment_to_json();
   write("index.json", pretty_json(j));
   indexed_ = Clock::now();
+  indexing_ = indexed_ - begin;
 }
 
 void Run::write(const std::filesystem::path& below, const std::string& text) const {
@@ -437,14 +463,20 @@ std::string Run::summary() const {
   return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}", interrupted() ? "interrupted: " : "",
                      plural_text(cases_, "answer"), duration_text(seconds),
                      count_text(std::uint64_t(double(cases_) / std::max(seconds, 1e-3))), violated_text(),
-                     plural_text(written_.size(), "report"), settings_.folder.string(), internal_errors_.text());
+                     plural_text(reports(), "report"), settings_.folder.string(), internal_errors_.text());
+}
+
+/// Those of this run.
+std::size_t Run::reports() const {
+  return std::size_t(std::count_if(written_.begin(), written_.end(), [](const WrittenReport& w) { return !w.earlier; }));
 }
 
 std::string Run::worst_findings() const {
   constexpr std::size_t shown = 12;
-  std::vector<const Written*> worst;
-  for (const Written& w : written_) {
-    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Written* o) {
+  std::vector<const WrittenReport*> worst;
+  for (const WrittenReport& w : written_) {
+    if (w.earlier) continue;
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const WrittenReport* o) {
       return std::tie(o->query, o->subject, o->verdict, o->disagreement, o->breakage) ==
              std::tie(w.query, w.subject, w.verdict, w.disagreement, w.breakage);
     });
@@ -484,7 +516,17 @@ std::string Run::table() const {
     }
     if (settings_.queries.size() > 1 && all.cases > 0) rows.push_back(table_row(all));
   }
-  return table_text(rows, "", 1) + breakages_text() + stages_text();
+  return table_text(rows, "", 1) + breakages_text() + given_up_text() + stages_text();
+}
+
+/// Who was not asked any more; empty where all were asked to the end.
+std::string Run::given_up_text() const {
+  std::string text;
+  for (const auto& [key, t] : tallies_) {
+    if (t.gave_up == 0) continue;
+    text += fmt::format("\n{}", nearmiss::given_up_text(t.subject->name, t.query->name, t.late, t.gave_up));
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 /// Why subjects broke, most often first; empty where none did.
@@ -505,7 +547,7 @@ std::string Run::breakages_text() const {
   });
   std::vector<std::vector<std::string>> rows{{"BROKE", "SUBJECT", "QUERY", "REASON"}};
   for (const Row& r : all) rows.push_back({count_text(r.count), r.subject, r.query, r.kind});
-  return "\n" + table_text(rows);
+  return fmt::format("\n{}", table_text(rows));
 }
 
 Run::Stages Run::stages_of(const Query& query) const {

@@ -1,7 +1,7 @@
 /// A run: many cases through many subjects, counted, with the worst findings kept as reports.
 ///
 /// The run folder holds index.json, which reports/run.schema.json describes (written when the run
-/// begins, every few seconds, and at its end), and findings/QUERY/SUBJECT-FAULT-ID.json, each written
+/// begins, about every second, and at its end), and findings/QUERY/SUBJECT-FAULT-ID.json, each written
 /// as soon as it is found.
 #pragma once
 
@@ -20,6 +20,7 @@
 #include "reports/internal_errors.hpp"
 #include "reports/progress.hpp"
 #include "reports/report.hpp"
+#include "reports/run_folder.hpp"
 #include "reports/tally.hpp"
 #include "reports/touches.hpp"
 #include "reports/workers.hpp"
@@ -33,6 +34,7 @@ std::filesystem::path new_run_folder(std::uint64_t seed);
 
 /// Where a run was when it was last written down.
 enum class RunState { running, finished, interrupted, failed };
+std::string_view name_of(RunState s);
 
 struct RunSettings {
   std::string command;  ///< as typed
@@ -102,12 +104,6 @@ class Run {
  private:
   struct Pending;
   struct Notes;
-  /// A report that was written, as the index lists it.
-  struct Written {
-    std::string file, id, query, subject, verdict, disagreement, headline;
-    std::string breakage;  ///< its kind; empty for a violation
-    std::optional<double> above;
-  };
   /// How often each of the oracle's stages decided, of all subjects together.
   struct Stages {
     std::uint64_t interval = 0, exact = 0;
@@ -116,23 +112,27 @@ class Run {
   Stages stages_of(const Query& query) const;
   std::string stages_text() const;
   std::string breakages_text() const;
+  std::string given_up_text() const;
   Tally& tally(const Query& query, const Subject& subject);
   std::vector<const Subject*> asked(const Query& query, Scalar scalar) const;
+  bool goes_on();
   void examine(const std::vector<const Subject*>& subjects, std::span<const Case> cases,
                const std::function<void()>& meanwhile);
   /// Judges the answer, counts what comes of it, and says what that is; empty where the judge contradicts itself.
-  std::optional<Finding> take(const Case& question, const Subject& subject, const Answer& answer);
-  void count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f);
+  std::optional<Finding> take(const Case& question, const Subject& subject, const Answer& answer, std::string_view output);
+  void count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f, std::string_view output);
   void write_pending();
   void write_report(const Pending& p);
   void write_index(RunState state);
   void write(const std::filesystem::path& below, const std::string& text) const;
   std::string violated_text() const;
+  std::size_t reports() const;
 
   RunSettings settings_;
   std::optional<FolderLock> lock_;
   std::string started_;
   Clock::time_point begin_, indexed_;
+  Clock::duration indexing_{};  ///< what it took to write the index last
   Workers workers_;
   std::map<std::pair<const Query*, const Subject*>, Tally> tallies_;
   std::map<std::pair<const Subject*, std::string>, Tally> by_class_;
@@ -140,7 +140,7 @@ class Run {
   InternalErrors internal_errors_;
   Touches touches_;
   std::vector<Pending> pending_;
-  std::vector<Written> written_;
+  std::vector<WrittenReport> written_;  ///< those of earlier runs in the folder first
   std::unique_ptr<Notes> notes_;
   Progress progress_;
   std::optional<std::uint64_t> total_;

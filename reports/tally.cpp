@@ -10,6 +10,7 @@
 
 #include "reports/breakage.hpp"
 #include "reports/report.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 
@@ -28,6 +29,11 @@ std::set<Disagreement> ways(const Finding& f, bool breaking) {
 bool is_wrong_decision(Disagreement d) { return d == Disagreement::false_hit || d == Disagreement::false_miss; }
 
 }  // namespace
+
+std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases) {
+  return fmt::format("{} was late {} of {}, and was not asked {} more", subject, plural_text(late, "time"), query,
+                     plural_text(cases, "case"));
+}
 
 void Tally::count(const Finding& f) {
   ++cases;
@@ -64,6 +70,8 @@ void Tally::add(const Tally& other) {
   sum(violations, other.violations);
   for (const auto& [kind, n] : other.breakages) breakages[kind] += n;
   wrong += other.wrong;
+  late += other.late;
+  gave_up += other.gave_up;
   decided_by_interval += other.decided_by_interval;
   decided_by_exact += other.decided_by_exact;
   truth_yes += other.truth_yes;
@@ -87,6 +95,8 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
           {"disagreements", disagreements},
           {"wrong", t.wrong},
           {"breakages", t.breakages},
+          {"late", t.late},
+          {"gave_up", t.gave_up},
           {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)},
           {"worst_forward_ulps", t.worst_forward},
           {"decided_by", {{"interval", t.decided_by_interval}, {"exact", t.decided_by_exact}}},

@@ -6,11 +6,18 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
+
+/// True where asking a subject on would be waiting: some of what it was asked were late, and they are a good part of all.
+constexpr bool is_given_up(std::uint64_t late, std::uint64_t asked) { return late >= 8 && 20 * late >= asked; }
+
+/// "X was late 8 times of QUERY, and was not asked 142 more cases".
+std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases);
 
 /// The counts of one subject on one query. The ways in which answers differ are never added together.
 struct Tally {
@@ -28,6 +35,8 @@ struct Tally {
   static constexpr std::size_t most_kinds = 32;
   static constexpr const char* other_kind = "any other reason";
   std::uint64_t wrong = 0;  ///< answers with a violation other than a wrong decision
+  std::uint64_t late = 0;     ///< of the breakages, those at a time limit
+  std::uint64_t gave_up = 0;  ///< cases that were not asked any more, since too many were late; none of `cases`
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
   std::uint64_t truth_yes = 0;  ///< of the decided ones
   double worst_backward = -1;   ///< the largest proved bound, in epsilon; negative: nothing was proved
@@ -43,6 +52,7 @@ struct Tally {
   std::uint64_t bad() const {
     return of(Verdict::violates_contract) + of(Verdict::exceeds_measure) + of(Verdict::broke);
   }
+  bool gives_up() const { return is_given_up(late, cases); }
   std::uint64_t decided() const { return decided_by_interval + decided_by_exact; }
 };
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+
+#include "impl/subject/printable.hpp"
 
 namespace nearmiss {
 
@@ -145,6 +148,10 @@ std::string unknown_text(std::string_view what, std::string_view word, std::span
       close.empty() ? fmt::format("'{}' lists all", lists_them) : fmt::format("did you mean {}?", fmt::join(close, " or ")));
 }
 
+namespace {
+
+}  // namespace
+
 std::string one_line(std::string_view text, std::size_t most) {
   const std::size_t kept_at_end = most / 3;
   const auto continues = [&](std::size_t i) { return i < text.size() && (text[i] & 0xC0) == 0x80; };
@@ -153,20 +160,9 @@ std::string one_line(std::string_view text, std::size_t most) {
     for (cut = most - kept_at_end; continues(cut);) --cut;
     for (goes_on = text.size() - kept_at_end; continues(goes_on);) ++goes_on;
   }
-  std::string line;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (i == cut) {
-      line += fmt::format(" ... ({} bytes) ... ", count_text(goes_on - cut));
-      i = goes_on;
-    }
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c < 0x20 || c == 0x7F) {
-      line += fmt::format("\\x{:02x}", c);
-    } else {
-      line += text[i];
-    }
-  }
-  return line;
+  if (cut == text.size()) return printable(text);
+  return fmt::format("{} ... ({} bytes) ... {}", printable(text.substr(0, cut)), count_text(goes_on - cut),
+                     printable(text.substr(goes_on)));
 }
 
 std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent,

@@ -39,7 +39,7 @@ std::vector<std::string> close_matches(std::string_view word, std::span<const st
 std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
                          std::string_view lists_them = "nearmiss list");
 
-/// For one line: bytes that a terminal would act on as \xHH, and without its middle what is longer than `most` bytes.
+/// For one line: printable (impl/subject/printable.hpp), and without its middle what is longer than `most` bytes.
 std::string one_line(std::string_view text, std::size_t most = 1000);
 
 /// Columns padded to their widest cell, two spaces between them; the first row is the heading. Columns

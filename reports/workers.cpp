@@ -8,7 +8,7 @@ namespace nearmiss {
 
 Workers::Asked& Workers::of(const Subject& subject) {
   Asked& asked = workers_[&subject];
-  if (!asked.worker) asked.worker = std::make_unique<Worker>(limits_);
+  if (!asked.worker) asked.worker = std::make_unique<Worker>(worker_limits(), subject.host, pulse_);
   return asked;
 }
 
@@ -17,9 +17,13 @@ std::size_t Workers::capacity_for(const Query& query) {
 }
 
 Answer Workers::ask(const Subject& subject, const Case& question) {
+  if (pulse_ && !pulse_()) return answer_of_given_up();
   send(subject, {&question, 1});
-  return receive(subject).front();
+  const std::span<const Answer> answers = receive(subject);
+  return answers.empty() ? answer_of_given_up() : answers.front();
 }
+
+Answer answer_of_given_up() { return Answer::without(Answer::Status::cannot_answer, "not asked: interrupted"); }
 
 void Workers::send(const Subject& subject, std::span<const Case> cases) {
   const Offering& offering = subject.offering(cases.front().query->name);
@@ -44,7 +48,23 @@ std::span<const Answer> Workers::receive(const Subject& subject) {
   if (asked.inside.empty()) return asked.answers;
   const std::span<const Answer> given = asked.worker->receive();
   for (std::size_t i = 0; i < given.size(); ++i) asked.answers[asked.inside[i]] = given[i];
+  if (given.size() < asked.inside.size()) return {asked.answers.data(), asked.inside[given.size()]};
   return asked.answers;
+}
+
+std::string_view Workers::output(const Subject& subject, std::size_t case_of_batch) const {
+  const auto found = workers_.find(&subject);
+  if (found == workers_.end()) return {};
+  const Asked& asked = found->second;
+  if (asked.all) return asked.worker->output(case_of_batch);
+  const auto at = std::lower_bound(asked.inside.begin(), asked.inside.end(), case_of_batch);
+  if (at == asked.inside.end() || *at != case_of_batch) return {};
+  return asked.worker->output(std::size_t(at - asked.inside.begin()));
+}
+
+double Workers::processor_seconds(const Subject& subject) const {
+  const auto found = workers_.find(&subject);
+  return found == workers_.end() ? 0 : found->second.worker->processor_seconds();
 }
 
 std::optional<Case> in_scalar(const Case& question, Scalar scalar) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "impl/subject/worker.hpp"
+#include "impl/host/worker.hpp"
 #include "oracles/case.hpp"
 
 namespace nearmiss {
@@ -14,7 +14,8 @@ namespace nearmiss {
 /// Not for use from several threads. Throws std::system_error where a process cannot be started.
 class Workers {
  public:
-  explicit Workers(WorkerLimits limits = {}) : limits_(limits) {}
+  /// `pulse` is called while a host is awaited; false gives it up.
+  explicit Workers(Worker::Pulse pulse = {}) : pulse_(std::move(pulse)) {}
 
   /// The subject must offer the case's query. For a batch, `cases` are all of one query. A case outside of what the
   /// subject requires does not reach it; what is received in place of an answer is answer_of_unasked().
@@ -23,6 +24,11 @@ class Workers {
   /// what is received stays valid until the subject is sent to again.
   void send(const Subject& subject, std::span<const Case> cases);
   std::span<const Answer> receive(const Subject& subject);
+  /// What the subject's host had written when this case of the last batch broke (Worker::output).
+  std::string_view output(const Subject& subject, std::size_t case_of_batch) const;
+
+  /// Of processor time, that the subject's process has used.
+  double processor_seconds(const Subject& subject) const;
 
   static std::size_t capacity_for(const Query& query);
   /// The most cases of one batch: the fewer, the more isolation costs (docs/isolation.md).
@@ -37,10 +43,12 @@ class Workers {
   };
   Asked& of(const Subject& subject);
 
-  WorkerLimits limits_;
+  Worker::Pulse pulse_;
   std::map<const Subject*, Asked> workers_;
   std::vector<double> flat_;
 };
+
+Answer answer_of_given_up();
 
 /// The same numbers as a case in another scalar; empty where it cannot hold one of them exactly.
 std::optional<Case> in_scalar(const Case& question, Scalar scalar);

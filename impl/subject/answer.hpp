@@ -1,6 +1,7 @@
 /// An answer with its type erased: what crosses from a subject to the judge, and between processes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -39,6 +40,7 @@ struct Answer {
 
   Status status = Status::answered;
   bool yes = false;                       ///< hit, overlap, inside
+  bool late = false;                      ///< broke: a time limit was reached
   std::uint8_t count = capacity;          ///< of values; those behind are 0
   std::uint64_t given = ~std::uint64_t{0};  ///< bit i: values[i] is part of the answer
   std::array<double, capacity> values{};  ///< in the order of the query's outputs
@@ -52,8 +54,15 @@ struct Answer {
     a.status = status;
     a.count = 0;
     a.given = 0;
-    reason.copy(a.why.data(), a.why.size() - 1);
+    a.explain(reason);
     return a;
+  }
+  /// Sets the reason, cut to fit where a character of UTF-8 ends.
+  void explain(std::string_view reason) {
+    std::size_t most = std::min(reason.size(), why.size() - 1);
+    while (most < reason.size() && most > 0 && (reason[most] & 0xC0) == 0x80) --most;
+    why.fill('\0');
+    reason.copy(why.data(), most);
   }
 };
 

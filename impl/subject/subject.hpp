@@ -3,6 +3,9 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,7 +39,7 @@ class AnswerFunction {
   template <class F>
     requires std::convertible_to<F, Plain>
   AnswerFunction(F plain) : plain_(plain) {}
-  /// `context` lives as long as the process.
+  /// `context` lives as long as the subject (Subject::context).
   AnswerFunction(WithContext function, const void* context) : with_context_(function), context_(context) {}
 
   Answer operator()(std::span<const double> inputs) const {
@@ -58,6 +61,23 @@ struct Offering {
   collide::Contract contract{};
   AnswerFunction answer{};  ///< nullptr where it is not offered
   Preconditions required{};  ///< it is asked no case outside of them
+  std::uint32_t position = 0;  ///< among the offers of a host's hello
+  bool decides = true;         ///< false for a query without a yes or no: what a host says there means nothing
+  std::uint32_t outputs = 0;   ///< numbers of an answer, where a host must give them; 0: unknown
+  struct Counts {
+    int inputs, outputs;
+  };
+  std::optional<Counts> counts{};  ///< of numbers, as whoever offers it believes
+};
+
+/// A program that is asked in place of a function of this one (docs/protocol.md).
+struct HostProgram {
+  /// How cases and answers travel: in shared memory, or through pipes.
+  enum class Batches { shared, binary, json };
+
+  std::vector<std::string> arguments;  ///< the program's file first
+  Batches batches = Batches::shared;
+  std::string hello{};  ///< the line that it said of itself when it was first started; empty: not yet known
 };
 
 struct Subject {
@@ -67,6 +87,9 @@ struct Subject {
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
   std::string plugin{};  ///< the file that it was loaded from; empty for a subject of this build
+  std::string command{};  ///< the command line that is asked, as it runs from any folder; empty for any other
+  std::shared_ptr<const HostProgram> host{};  ///< the program that is it, or loads it; nullptr: functions of this program
+  std::shared_ptr<const void> context{};  ///< what its functions work on, where that has to live as long
 
   const Offering& offering(std::string_view query) const {
     static const Offering none{"", Offer::not_offered, "unknown query", {}, {}};

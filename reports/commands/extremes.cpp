@@ -44,7 +44,6 @@ class ExtremesCommand : public Command {
                      most_cases);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: 1", 0,
                      std::numeric_limits<std::uint64_t>::max());
-    add_positive_number(app, "--patience", patience_, "How long a subject may take for one case. Default: 2", "S", 3600);
     add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
@@ -52,8 +51,7 @@ class ExtremesCommand : public Command {
     const std::uint64_t seed = seed_.value_or(1);
     catch_interrupts();
     Extremes extremes({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
-                       selection_.queries(), selection_.subjects(), seed, cases_.value_or(default_cases),
-                       patience_.value_or(2)});
+                       selection_.queries(), selection_.subjects(), seed, cases_.value_or(default_cases)});
     extremes.sweep();
     extremes.write();
     fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
@@ -64,7 +62,6 @@ class ExtremesCommand : public Command {
  private:
   Selection selection_;
   std::optional<std::uint64_t> cases_, seed_;
-  std::optional<double> patience_;
   std::string out_;
 };
 

@@ -15,6 +15,7 @@
 #include "reports/progress.hpp"
 #include "reports/report.hpp"
 #include "reports/run.hpp"
+#include "reports/tally.hpp"
 #include "reports/text.hpp"
 
 namespace nearmiss {
@@ -41,9 +42,10 @@ std::string word(bool collides) { return collides ? "collides" : "does not colli
 
 /// One subject's answers, compared with the benchmark's truth.
 struct Score {
-  const Subject* subject;
-  std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
+  const Subject* subject = nullptr;
+  std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0, late = 0, gave_up = 0;
   std::vector<std::string> wrong;  ///< one line each
+  std::uint64_t asked() const { return right + false_hits + false_misses + cannot_answer + broke; }
 };
 
 /// One import: cases come in, counts and lists go out.
@@ -51,7 +53,7 @@ class NyuCcd {
  public:
   NyuCcd(std::span<const Subject* const> subjects, fs::path out) : out_(std::move(out)) {
     for (const Subject* s : subjects) {
-      if (s->offering(query).answer != nullptr) scores_.push_back({s, 0, 0, 0, 0, 0, 0, 0, {}});
+      if (s->offering(query).answer != nullptr) scores_.emplace_back().subject = s;
     }
   }
   static constexpr std::string_view query = "moving_point_triangle";
@@ -78,6 +80,7 @@ class NyuCcd {
   void take_batch(std::span<const GroundTruth> batch) {
     std::vector<bool> truth;
     for (const GroundTruth& g : batch) {
+      if (interrupted()) return;
       const bool exact = exactly_collides(g.question);
       compare_oracle(g, exact);
       truth.push_back(g.parallel ? exact : g.collides);
@@ -104,9 +107,13 @@ class NyuCcd {
     }
     s.outside += batch.size() - cases.size();
     if (cases.empty()) return;
-    workers_.send(*s.subject, cases);
-    const auto answers = workers_.receive(*s.subject);
-    for (std::size_t i = 0; i < cases.size(); ++i) score(s, cases[i], answers[i], batch[at[i]].where, truth[at[i]]);
+    std::span<const Answer> answers;
+    if (!is_given_up(s.late, s.asked())) {
+      workers_.send(*s.subject, cases);
+      answers = workers_.receive(*s.subject);
+    }
+    for (std::size_t i = 0; i < answers.size(); ++i) score(s, cases[i], answers[i], batch[at[i]].where, truth[at[i]]);
+    if (!interrupted()) s.gave_up += cases.size() - answers.size();
   }
   void score(Score& s, const Case& question, const Answer& a, const std::string& where, bool truth) {
     const auto judged =
@@ -115,6 +122,7 @@ class NyuCcd {
     const Finding& f = *judged;
     if (f.is_proved()) ++s.violations;
     if (f.verdict == Verdict::broke) ++s.broke;
+    s.late += a.late;
     if (f.verdict == Verdict::cannot_answer) ++s.cannot_answer;
     if (f.verdict == Verdict::not_asked) ++s.outside;
     if (a.status != Answer::Status::answered) return;
@@ -138,7 +146,10 @@ class NyuCcd {
 
   fs::path out_;
   InternalErrors internal_errors_{out_.empty() ? runs_folder() : out_};
-  Workers workers_;
+  Workers workers_{[this] {
+    progress_.tell(fit_, std::nullopt, std::nullopt, oracle_wrong_.size());
+    return !interrupted();
+  }};
   Progress progress_;
   std::vector<Score> scores_;
   std::uint64_t queries_ = 0, skipped_ = 0, fit_ = 0, parallel_ = 0;
@@ -167,6 +178,9 @@ std::string NyuCcd::text() const {
   }
   text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar, or the case outside of what it\nrequires)\n" +
           table_text(rows, "", 1);
+  for (const Score& s : scores_) {
+    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query, s.late, s.gave_up));
+  }
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;
 }

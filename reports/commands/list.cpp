@@ -129,7 +129,7 @@ class ListCommand : public Command {
              {"nearmiss list --json", "For programs."}}};
   }
   void declare(CLI::App& app) override {
-    declare_plugins(app);
+    declare_foreign_subjects(app);
     app.add_flag("--json", json_, "Print JSON")->disable_flag_override();
     app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")
         ->excludes("--json")

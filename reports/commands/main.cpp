@@ -77,6 +77,17 @@ class CommandLine {
       return 0;
     } catch (const CLI::ExtrasError&) {
       throw BadInput(unexpected_text());
+    } catch (const CLI::ArgumentMismatch& e) {
+      const std::string what = e.what();
+      if (what.find("disallowed flag") != std::string::npos) throw BadInput(fmt::format("{} takes no value", flag_in(what)));
+      const auto [name, type] = named_in(what);
+      throw BadInput(fmt::format("{} needs a value{}", name, type));
+    } catch (const CLI::ExcludesError& e) {
+      throw BadInput(fmt::format("{} cannot be given together", options_in(e.what())));
+    } catch (const CLI::RequiredError& e) {
+      const std::string what = e.what();
+      throw BadInput(fmt::format("{} is missing; 'nearmiss help {}' shows what it takes", what.substr(0, what.find(' ')),
+                                 root_.get_subcommands().empty() ? "" : root_.get_subcommands()[0]->get_name()));
     }
     const auto chosen = root_.get_subcommands();
     if (chosen.empty()) throw BadInput("a command is missing; 'nearmiss help' lists them");
@@ -87,6 +98,28 @@ class CommandLine {
   }
 
  private:
+  // What CLI11 says, in plain words.
+
+  /// "--cases" and ": N" of "--cases: 1 required N missing".
+  static std::pair<std::string, std::string> named_in(const std::string& what) {
+    const std::string name = what.substr(0, what.find(':'));
+    constexpr std::string_view before = " required ", behind = " missing";
+    const std::size_t from = what.find(before), to = what.rfind(behind);
+    if (from == std::string::npos || to == std::string::npos || from + before.size() >= to) return {name, ""};
+    return {name, ": " + what.substr(from + before.size(), to - from - before.size())};
+  }
+  /// "--json" of "json was given a disallowed flag override".
+  static std::string flag_in(const std::string& what) {
+    const std::string name = what.substr(0, what.find(' '));
+    return name.starts_with('-') ? name : "--" + name;
+  }
+  /// "--cases and --seconds" of "--cases excludes --seconds".
+  static std::string options_in(std::string what) {
+    constexpr std::string_view word = " excludes ";
+    if (const std::size_t at = what.find(word); at != std::string::npos) what.replace(at, word.size(), " and ");
+    return what;
+  }
+
   struct Entry {
     std::unique_ptr<Command> command;
     CLI::App* app;
@@ -206,6 +239,7 @@ void hold_standard_files() {
 int main(int argc, char** argv) {
   nearmiss::FloatingPointModes::standard().set();  // a library may have set others when it was loaded
   nearmiss::hold_standard_files();
+  signal(SIGCHLD, SIG_DFL);  // whoever started this may have it ignored, and then the end of a host is not told
   for (const int s : {SIGPIPE, SIGXFSZ}) signal(s, SIG_IGN);  // what cannot be written is an error with a reason
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   nearmiss::typed_command_line() = "nearmiss";

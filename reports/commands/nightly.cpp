@@ -42,6 +42,7 @@ void replay_stored(Run& run) {
   std::uint64_t cases = 0, expectations = 0;
   Json unexpected = Json::array();
   for (const Query* q : run.settings().queries) {
+    if (run.should_stop()) break;
     for (const StoredCase& stored : stored_cases(*q)) {
       if (run.should_stop()) break;
       ++cases;
@@ -98,16 +99,20 @@ struct Fuzzing {
   }
 };
 
-/// The files of the plugins that are loaded, for the targets. Throws BadInput for one that cannot be named to them.
-std::vector<std::string> plugin_files() {
-  std::vector<std::string> files;
+/// The plugins and commands that are loaded, for the targets. Throws BadInput for one that cannot be named to them.
+ForeignSubjects foreign_subjects() {
+  ForeignSubjects foreign;
   for (const Subject& s : subjects()) {
     if (s.plugin.find(':') != std::string::npos) {
       throw BadInput(s.plugin + ": fuzz targets cannot be told of a plugin with ':' in its name; move it elsewhere");
     }
-    if (!s.plugin.empty()) files.push_back(s.plugin);
+    if (s.command.find('\n') != std::string::npos) {
+      throw BadInput(s.command + ": fuzz targets cannot be told of a command of several lines; write it on one");
+    }
+    if (!s.plugin.empty()) foreign.plugins.push_back(s.plugin);
+    if (!s.command.empty()) foreign.commands.push_back(s.command);
   }
-  return files;
+  return foreign;
 }
 
 /// Each target for the same time; at least a second, so the last ones may have none left. The seed says
@@ -115,7 +120,7 @@ std::vector<std::string> plugin_files() {
 Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point until) {
   std::rotate(targets.begin(), targets.begin() + std::ptrdiff_t(run.settings().seed % targets.size()), targets.end());
   Fuzzing all;
-  const std::vector<std::string> plugins = plugin_files();
+  const ForeignSubjects foreign = foreign_subjects();
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const std::string query(targets[i].query->name);
     const double left = seconds_until(until);
@@ -125,7 +130,7 @@ Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point
     }
     run.doing(fmt::format("fuzzing {}", query));
     const double share = left / double(targets.size() - i);
-    all.ran.push_back(fuzz(targets[i], {run.settings().folder, plugins, unsigned(std::max(1.0, share)),
+    all.ran.push_back(fuzz(targets[i], {run.settings().folder, foreign, unsigned(std::max(1.0, share)),
                                         [&] { run.tick(); }, [&] { return run.should_stop(); }}));
   }
   return all;
@@ -195,7 +200,7 @@ bool ask_properties(Run& run, Clock::time_point until) {
     return false;
   }
   run.doing("properties");
-  const PropertyOutcome o = run_property_tests(*program, {run.settings().folder, plugin_files(), run.settings().seed, left,
+  const PropertyOutcome o = run_property_tests(*program, {run.settings().folder, foreign_subjects(), run.settings().seed, left,
                                                           [&] { run.tick(); }, [&] { return run.should_stop(); }});
   note = {{"state", "ran"}, {"seeds", o.seeds}, {"passed", o.passed}, {"failed", o.failed}, {"ended", o.ended}};
   run.note("properties", note);
@@ -215,7 +220,7 @@ class NightlyCommand : public Command {
          "properties: half of it to relations between answers, as 'nearmiss relations' asks for them, and half to the "
          "property tests of this build, which ask the tiers of collide about new cases of fresh seeds. In the last third of the "
          "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
-         "everything else. They ask the tiers of collide, plugins, and the subjects of NEARMISS_ADD that they were "
+         "everything else. They ask the tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were "
          "built with. Where the fuzz targets are not built, the summary and the index say so, and the "
          "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1, and "
          "so does a property that fails.",
@@ -227,7 +232,7 @@ class NightlyCommand : public Command {
          {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
   }
   void declare(CLI::App& app) override {
-    declare_plugins(app);
+    declare_foreign_subjects(app);
     add_positive_number(app, "-m,--minutes", minutes_, fmt::format("How long, in all. Default: {}", default_minutes),
                         "M", most_minutes);
     add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
@@ -235,7 +240,12 @@ class NightlyCommand : public Command {
     add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
     app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
         ->type_name("DIR")
-        ->check(CLI::ExistingDirectory);
+        ->check(CLI::Validator(
+            [](const std::string& t) {
+              std::error_code error;
+              return fs::is_directory(t, error) ? "" : fmt::format("'{}' is no folder", t);
+            },
+            ""));
   }
   int run(const CLI::App&) override {
     const auto begin = Clock::now();
@@ -243,7 +253,7 @@ class NightlyCommand : public Command {
     const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
-    plugin_files();  // a name that will not do is told now, not in the last third
+    foreign_subjects();  // a name that will not do is told now, not in the last third
     catch_interrupts();
     const FuzzTargets found =
         find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "corpus/bad_input.hpp"
-#include "oracles/plugin.hpp"
+#include "oracles/hosts.hpp"
 #include "reports/run.hpp"
 #include "reports/text.hpp"
 
@@ -22,6 +22,24 @@ std::optional<T> parsed(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// A whole number as people write it: 100000, 100,000 or 1e5.
+std::optional<std::uint64_t> parsed_count(const std::string& text) {
+  if (const auto plain = parsed<std::uint64_t>(text)) return plain;
+  if (text.find(',') != std::string::npos) {
+    std::string digits;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const bool is_place_of_comma = (text.size() - i) % 4 == 0;
+      if (is_place_of_comma != (text[i] == ',') || (i == 0 && text[i] == ',')) return std::nullopt;
+      if (text[i] != ',') digits += text[i];
+    }
+    return parsed<std::uint64_t>(digits);
+  }
+  const auto number = parsed<double>(text);
+  constexpr double all_whole = 0x1p53;  // below it every whole number is a double
+  if (!number || !(*number >= 0 && *number <= all_whole) || *number != std::floor(*number)) return std::nullopt;
+  return std::uint64_t(*number);
 }
 
 CLI::Validator known(const char* what, std::vector<std::string> (*words)()) {
@@ -72,21 +90,47 @@ void Selection::declare_queries(CLI::App& app) {
       ->check(known("query", query_names));
 }
 
-void declare_plugins(CLI::App& app) {
+namespace {
+
+/// An option of which each value is loaded as it is met.
+void add_loading(CLI::App& app, const std::string& name, void (*load)(const std::string&), const std::string& description,
+                 const std::string& type) {
   app.add_option_function<std::vector<std::string>>(
-         "--plugin",
-         [](const std::vector<std::string>& files) {
-           for (const std::string& file : files) load_plugin(file);
+         name,
+         [load](const std::vector<std::string>& all) {
+           for (const std::string& one : all) load(one);
          },
-         "Load this shared library, which makes a subject (see docs/bring-your-own.md); may be given several times")
-      ->type_name("FILE")
+         description)
+      ->type_name(type)
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);
 }
 
+}  // namespace
+
+void declare_foreign_subjects(CLI::App& app) {
+  constexpr double least = 0.001, most = 3600;
+  const WorkerLimits usual;
+  app.add_option_function<std::string>(
+         "--patience",
+         [](const std::string& text) {
+           WorkerLimits limits;
+           limits.patience = *parsed<double>(text);
+           set_worker_limits(limits);
+         },
+         fmt::format("How long a subject may take for one case: S seconds of processor time, and {:g} times as many in all. Default: {:g}",
+                     usual.wall() / usual.patience, usual.patience))
+      ->type_name("S")
+      ->check(number_from(least, most));
+  add_loading(app, "--plugin", load_plugin,
+              "Ask this shared library, which is a subject (see docs/bring-your-own.md); may be given several times", "FILE");
+  add_loading(app, "--command", load_command,
+              "Ask this program, which is a subject (see docs/protocol.md); may be given several times", "COMMAND");
+}
+
 void Selection::declare_subjects(CLI::App& app) {
-  declare_plugins(app);
+  declare_foreign_subjects(app);
   app.add_option("-s,--subject", subject, "Only this subject; may be given several times. Default: all")
       ->type_name("SUBJECT")
       ->expected(1)
@@ -112,9 +156,18 @@ void Selection::check_offered() const {
 
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
   const auto check = [low, high](const std::string& text) -> std::string {
-    const auto value = parsed<std::uint64_t>(text);
+    const auto value = parsed_count(text);
     if (value && *value >= low && *value <= high) return "";
     return fmt::format("'{}' is not a whole number from {} to {}", text, low, high_text(high));
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator number_from(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    const auto value = parsed<double>(text);
+    if (value && *value >= low && *value <= high) return "";
+    return fmt::format("'{}' is not a number from {} to {}", text, low, high);
   };
   return CLI::Validator(check, "");
 }
@@ -131,7 +184,7 @@ CLI::Validator positive_number(double high) {
 void add_whole_number(CLI::App& app, const std::string& name, std::optional<std::uint64_t>& value,
                       const std::string& description, std::uint64_t low, std::uint64_t high) {
   app.add_option_function<std::string>(
-         name, [&value](const std::string& t) { value = parsed<std::uint64_t>(t); }, description)
+         name, [&value](const std::string& t) { value = parsed_count(t); }, description)
       ->type_name("N")
       ->check(whole_number(low, high));
 }

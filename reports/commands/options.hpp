@@ -17,8 +17,8 @@ namespace nearmiss {
 std::vector<std::string> query_names();
 std::vector<std::string> subject_names();
 
-/// --plugin, repeatable; what it names is loaded before later options are checked.
-void declare_plugins(CLI::App& app);
+/// --patience, --plugin and --command, the latter repeatable; what they name is loaded before later options are checked.
+void declare_foreign_subjects(CLI::App& app);
 
 /// Takes only the name of a query.
 CLI::Validator known_query();
@@ -28,7 +28,7 @@ struct Selection {
   std::vector<std::string> query, subject;
 
   void declare_queries(CLI::App& app);
-  /// With --plugin: its subjects may be chosen too.
+  /// With --plugin and --command: their subjects may be chosen too.
   void declare_subjects(CLI::App& app);
   std::vector<const Query*> queries() const;
   std::vector<const Subject*> subjects() const;
@@ -36,10 +36,11 @@ struct Selection {
   void check_offered() const;
 };
 
-/// Takes only whole numbers from `low` to `high`, in decimal digits.
+/// Takes only whole numbers from `low` to `high`: 100000, 100,000 or 1e5.
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
 /// Takes only decimal numbers above zero and up to `high`.
 CLI::Validator positive_number(double high);
+CLI::Validator number_from(double low, double high);
 
 /// An option whose text is a whole number, checked when it is parsed.
 void add_whole_number(CLI::App& app, const std::string& name, std::optional<std::uint64_t>& value,

@@ -84,6 +84,9 @@ class RelationsCommand : public Command {
       if (until && RelationsRun::Clock::now() >= *until) {
         throw BadInput("nothing was compared: the time was over before the first case");
       }
+      if (const auto given_up = run.given_up(); !given_up.empty()) {
+        throw BadInput(fmt::format("nothing was compared: {}", fmt::join(given_up, "; ")));
+      }
       throw BadInput("nothing was compared: no chosen subject offers a chosen query and its partners by a chosen relation");
     }
     fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());

@@ -11,7 +11,10 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/pretty_json.hpp"
+#include "reports/progress.hpp"
 #include "reports/related.hpp"
+#include "reports/run_folder.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 
@@ -45,7 +48,9 @@ class ReplayCommand : public Command {
     std::vector<std::variant<Case, RelatedCase>> cases;
     std::vector<Measure> measures;
     for (const std::string& f : files_) {
+      settle_run_of(f);
       const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe gives its text no second time
+      tell_of_missing(j, f);
       measures.push_back(measure_ ? Measure{*measure_, true} : measure_of(j, f));
       if (auto related = read_related(j, f)) {
         cases.emplace_back(std::move(*related));
@@ -63,6 +68,17 @@ class ReplayCommand : public Command {
   }
 
  private:
+  /// A report of which the subject is not there is replayed without the answer that it is about.
+  static void tell_of_missing(const nlohmann::json& report, const std::string& file) {
+    if (!report.is_object() || !report.contains("finding") || !report.contains("subject")) return;
+    const nlohmann::json& subject = report["subject"];
+    if (!subject.is_object() || !subject.contains("name") || !subject["name"].is_string()) return;
+    const std::string name = subject["name"];
+    if (find_subject(name) != nullptr) return;
+    const bool has_command = report.contains("replay") && report["replay"].is_string();
+    say_on_stderr(fmt::format("nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300), one_line(name, 60),
+                              has_command ? "; this asks it again: " + one_line(report["replay"].get<std::string>(), 600) : ""));
+  }
   void again(const Case& question, const std::string& file) {
     const Replay r = replay(question, file, selection_.subjects(), workers_);
     for (const Report& report : r.reports) {

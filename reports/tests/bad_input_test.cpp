@@ -67,7 +67,7 @@ const Bad bad_command_lines[] = {
     {"zero_minutes", {"nightly", "--minutes", "0", "--out", "OUT"}, {"--minutes"}},
     {"unwritable_nightly", {"nightly", "--minutes", "0.01", "--out", "/dev/null/run"}, {"/dev/null/run"}},
     {"no_folder_of_fuzz_targets", {"nightly", "--fuzz-targets", "OUT", "--out", "OUT"}, {"--fuzz-targets"}},
-    {"nothing_to_replay", {"replay"}, {"required"}},
+    {"nothing_to_replay", {"replay"}, {"FILE is missing"}},
     {"missing_file", {"replay", "OUT"}, {"OUT"}},
     {"a_folder", {"replay", "/"}, {"/"}},
     {"not_json", {"replay", "FILE"}, {"FILE"}, "{\"query\": "},
@@ -113,6 +113,23 @@ const Bad bad_command_lines[] = {
     {"missing_benchmark", {"import", "nyu-ccd", "OUT"}, {"OUT"}},
     {"malformed_benchmark", {"import", "nyu-ccd", "FILE", "--out", "OUT"}, {"FILE", "1"}, "1,2,3\n"},
     {"unwritable_cases", {"import", "nyu-ccd", "FILE", "--out", "/dev/null/x"}, {"/dev/null/x"}},
+    {"benchmark_without_end", {"import", "nyu-ccd", "/dev/zero"}, {"/dev/zero:1", "a byte is 0"}},
+    {"benchmark_of_one_line",
+     {"import", "nyu-ccd", "FILE"},
+     {"FILE", ":2: ", "more than 65,536 bytes"},
+     "1,1,1,1,2,1,1\n" + std::string(100'000, '1')},
+    {"benchmark_in_utf_16", {"import", "nyu-ccd", "FILE"}, {"FILE", ":1: ", "UTF-16"}, "\xFF\xFE\x31\x2C"},
+    {"benchmark_with_nul", {"import", "nyu-ccd", "FILE"}, {"FILE", ":1: ", "a byte is 0"}, std::string("1,1,") + '\0' + "1\n"},
+    {"control_characters_and_directions",
+     {"run", "--query", "box\x1b[31m\xc2\x9b\xe2\x80\xae", "--out", "OUT"},
+     {"box\\x1b[31m\\xc2\\x9b\\u{202e}"}},
+    {"bytes_that_are_no_text", {"run", "--query", "box\xff", "--out", "OUT"}, {"box\\xff"}},
+    {"misplaced_comma", {"run", "--cases", "1,00", "--out", "OUT"}, {"--cases", "1,00"}},
+    {"fraction_of_a_power", {"run", "--cases", "15e-1", "--out", "OUT"}, {"--cases", "15e-1"}},
+    {"no_patience", {"run", "--patience", "0", "--out", "OUT"}, {"--patience", "0"}},
+    {"empty_command", {"run", "--command", " ", "--out", "OUT"}, {"--command", "empty"}},
+    {"command_that_is_not_there", {"run", "--command", "/none/of/these --at all", "--out", "OUT"}, {"/none/of/these --at all", "No such file"}},
+    {"plugin_that_is_not_there", {"run", "--plugin", "/none/of/these", "--out", "OUT"}, {"/none/of/these", "no such file"}},
     {"unknown_shell", {"completion", "zsh"}, {"zsh", "bash"}},
     {"unknown_names", {"list", "--names", "cats"}, {"--names", "cats"}},
     {"unknown_help", {"help", "rum"}, {"rum", "run"}},
@@ -148,6 +165,31 @@ TEST_P(BadCommandLine, SaysWhyInOneLineAndWritesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Cli, BadCommandLine, testing::ValuesIn(bad_command_lines),
                          [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Cli, TakesCountsAsPeopleWriteThem) {
+  for (const char* count : {"1000", "1,000", "1e3"}) {
+    const TemporaryFolder folder;
+    const Ran ran = nearmiss({"run", "--query", "sphere_sphere_overlap", "--subject", "collide-fast-double", "--cases", count,
+                              "--out", (folder / "r").string()});
+    EXPECT_EQ(ran.exit_code, 0) << count << ran.err;
+    EXPECT_TRUE(last_line(ran.out).starts_with("1,000 answers ")) << ran.out;
+  }
+}
+
+TEST(Cli, RefusesLinksThatLeadNowhere) {
+  const TemporaryFolder folder;
+  const std::string one = (folder / "one").string(), other = (folder / "other").string();
+  fs::create_symlink(one, other);
+  fs::create_symlink(other, one);
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"replay", one}, {"run", "--cases", "1", "--out", one}, {"run", "--plugin", one},
+        {"import", "nyu-ccd", one}, {"nightly", "--minutes", "0.01", "--out", one + "/r"}}) {
+    const Ran ran = nearmiss(arguments);
+    EXPECT_EQ(ran.exit_code, 2) << arguments[0];
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_NE(ran.err.find(one), std::string::npos) << ran.err;
+  }
+}
 
 TEST(Cli, SaysWhyASubjectCannotBeRunOnAQuery) {
   for (const Subject& s : subjects()) {

@@ -201,7 +201,7 @@ TEST(Run, LeavesAFolderToTheRunThatHasIt) {
 
 /// Runs fcl into `folder` with files of at most so many KiB.
 Ran run_with_small_files(const fs::path& folder, const std::string& kibibytes, const std::string& options) {
-  return run_program("bash", {"-c", "ulimit -f " + kibibytes + "; exec '" NEARMISS_PROGRAM "' run -s fcl --seed 1 " +
+  return run_program("bash", {"-c", "ulimit -S -f " + kibibytes + "; exec '" NEARMISS_PROGRAM "' run -s fcl --seed 1 " +
                                         options + " --out '" + folder.string() + "'"});
 }
 
@@ -569,14 +569,14 @@ fs::path property_program(const TemporaryFolder& folder, const std::string& name
 TEST(Nightly, CountsPropertiesAndGoesOnWithFreshSeedsUntilTheTimeIsOver) {
   const TemporaryFolder folder;
   const fs::path program = property_program(folder, "program", R"(
-echo "asks $NEARMISS_SUBJECTS $NEARMISS_PLUGINS"
+echo "asks $NEARMISS_SUBJECTS $NEARMISS_PLUGINS $NEARMISS_COMMANDS"
 echo '[       OK ] Relations/EveryTierRelated.Keeps/one (3 ms)'
 echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two (4 ms)'
 echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two'
 sleep 0.6
 exit 1
 )");
-  const PropertyOutcome o = run_property_tests(program, {folder / "r", {"/a.so", "/b.so"}, 41, 2.5, [] {}, [] { return false; }});
+  const PropertyOutcome o = run_property_tests(program, {folder / "r", {{"/a.so", "/b.so"}, {"python3 c.py"}}, 41, 2.5, [] {}, [] { return false; }});
   ASSERT_GE(o.seeds.size(), 2u);
   EXPECT_EQ(o.seeds[0], 41u);
   EXPECT_EQ(o.seeds[1], 42u);
@@ -584,7 +584,7 @@ exit 1
   EXPECT_EQ(o.failed, std::vector<std::string>(o.seeds.size(), "Agreement/EveryTier.Answers/two"));
   EXPECT_EQ(o.ended, "");
   EXPECT_EQ(read_file(folder / "r/properties/42.log").find("42 " + (folder / "r").string() + " seed=42 "), 0u);
-  EXPECT_NE(read_file(folder / "r/properties/42.log").find("\nasks added /a.so:/b.so\n"), std::string::npos);
+  EXPECT_NE(read_file(folder / "r/properties/42.log").find("\nasks added /a.so:/b.so python3 c.py\n"), std::string::npos);
 }
 
 TEST(Nightly, SaysHowPropertiesEndWithoutAResult) {
@@ -610,7 +610,7 @@ TEST(Nightly, FailsWithATargetThatEndsWithAnError) {
   const json index = index_of(folder / "r");
   ASSERT_EQ(index["fuzz"]["targets"].size(), 1u) << index["fuzz"];
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
-  EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "exit code 77");
+  EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "left with exit code 77");
   EXPECT_NE(last_line(ran.out).find("1 ended with an error"), std::string::npos) << ran.out;
 }
 
@@ -626,7 +626,7 @@ TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
   EXPECT_EQ(index["state"], "finished");
   ASSERT_EQ(index["fuzz"]["targets"].size(), 1u) << index["fuzz"];
-  EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "not started: Permission denied");
+  EXPECT_EQ(index["fuzz"]["targets"][0]["ended"], "cannot be started: Permission denied");
 }
 
 TEST(Nightly, SaysThatFuzzTargetsAreNotBuilt) {

@@ -76,7 +76,7 @@ TEST(InternalErrors, EndRelationsAndExtremes) {
 /// Stored cases come first in a night, and take a second.
 TEST(InternalErrors, EndANight) {
   const TemporaryFolder folder;
-  const Ran ran = run_program(NEARMISS_CONTRADICTING, {"nightly", "--minutes", "0.1", "--out", (folder / "r").string()});
+  const Ran ran = run_program(NEARMISS_CONTRADICTING, {"nightly", "--minutes", "0.2", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
   EXPECT_NE(ran.err.find("the judge contradicts itself about sphere_sphere_overlap"), std::string::npos) << ran.err;
 }

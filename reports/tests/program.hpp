@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,25 @@ Ran run_program(const std::string& program, const std::vector<std::string>& argu
                 const std::vector<std::string>& environment = {});
 /// The same for the command line under test.
 Ran nearmiss(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+
+/// A program that runs beside the test. It has ended when this ends.
+class Started {
+ public:
+  Started(const std::string& program, const std::vector<std::string>& arguments, const std::vector<std::string>& environment);
+  ~Started();
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+  void send(int signal) const;
+  /// Empty while it runs: it is awaited for so long. The exit code is minus the signal that killed it.
+  std::optional<Ran> wait(double seconds);
+
+ private:
+  std::unique_ptr<class TemporaryFolder> folder_;
+  int process_ = -1;
+};
+
+/// Processes that have this, "NAME=value", in their environment: those that a program started with it, and all that they did.
+std::vector<int> processes_with(const std::string& in_environment);
 
 std::string last_line(const std::string& text);
 

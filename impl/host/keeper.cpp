@@ -1,0 +1,413 @@
+#include "impl/host/keeper.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <poll.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace nearmiss {
+
+namespace {
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool shadow_memory = true;
+#elif defined(__has_feature)
+constexpr bool shadow_memory = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool shadow_memory = false;
+#endif
+
+/// Closes at its end what was not taken.
+class File {
+ public:
+  explicit File(int number = -1) : number_(number) {}
+  ~File() {
+    if (number_ >= 0) close(number_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  int number() const { return number_; }
+  int take() { return std::exchange(number_, -1); }
+
+ private:
+  int number_;
+};
+
+/// What a keeper and its program tell, on a pipe.
+struct Word {
+  enum What : int { process, could_not_start, ended } what;
+  int value;
+};
+
+void say(int file, Word word) { [[maybe_unused]] const ssize_t put = write(file, &word, sizeof word); }
+
+void limit(int resource, std::size_t value) {
+  rlimit r{};
+  getrlimit(decltype(RLIMIT_CORE)(resource), &r);
+  r.rlim_cur = r.rlim_max = std::min<rlim_t>(value, r.rlim_max);
+  setrlimit(decltype(RLIMIT_CORE)(resource), &r);
+}
+
+/// Writable memory of its own that this process has.
+std::size_t own_memory() {
+  std::size_t pages[6] = {};
+  std::ifstream file("/proc/self/statm");
+  for (std::size_t& p : pages) file >> p;
+  return pages[5] * std::size_t(sysconf(_SC_PAGESIZE));
+}
+
+/// Every process in /proc whose parent is this one.
+std::vector<pid_t> children() {
+  std::vector<pid_t> all;
+  DIR* folder = opendir("/proc");
+  if (folder == nullptr) return all;
+  const pid_t self = getpid();
+  while (const dirent* entry = readdir(folder)) {
+    const int number = std::atoi(entry->d_name);
+    if (number <= 0) continue;
+    char name[64], text[512];
+    std::snprintf(name, sizeof name, "/proc/%d/stat", number);
+    const int file = open(name, O_RDONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    const ssize_t got = read(file, text, sizeof text - 1);
+    close(file);
+    if (got <= 0) continue;
+    text[got] = '\0';
+    const char* after_name = std::strrchr(text, ')');
+    char state;
+    int parent = 0;
+    if (after_name != nullptr && std::sscanf(after_name + 1, " %c %d", &state, &parent) == 2 && parent == self) {
+      all.push_back(number);
+    }
+  }
+  closedir(folder);
+  return all;
+}
+
+/// The superuser's processes are not limited in number; for others the limit counts all that their user has.
+std::size_t processes_of_user() {
+  std::size_t count = 0;
+  DIR* folder = opendir("/proc");
+  if (folder == nullptr) return 0;
+  while (const dirent* entry = readdir(folder)) count += std::atoi(entry->d_name) > 0;
+  closedir(folder);
+  return count;
+}
+
+/// A host leaves some of its user's processes to the judge, which has to start others.
+std::size_t most_processes_of_a_host() {
+  constexpr rlim_t reserve = 64;
+  rlimit own{};
+  getrlimit(RLIMIT_NPROC, &own);
+  return own.rlim_cur - std::min(reserve, own.rlim_cur / 4);
+}
+
+/// The number of this process as /proc counts: that of whoever mounted it, in whatever namespace this process is.
+int number_in_proc() {
+  char text[32] = {};
+  return readlink("/proc/self", text, sizeof text - 1) > 0 ? std::atoi(text) : 0;
+}
+
+/// What is needed after the fork, made before it.
+struct Plan {
+  const Program& program;
+  const Confinement& confinement;
+  std::vector<char*> arguments, environment;
+  int status, judge, output, nowhere;
+  std::size_t memory, processes;
+};
+
+[[noreturn]] void cannot_start(int status, int why) {
+  say(status, {Word::could_not_start, why});
+  _exit(127);
+}
+
+/// Returns the file on which is told that the program could not be started, which an exec closes. A program that would have
+/// a file of the judge in place of its own is not started.
+int give_files(const Plan& plan) {
+  std::vector<Program::File> files = plan.program.files;
+  files.push_back({plan.nowhere, STDIN_FILENO});
+  files.push_back({plan.output, STDOUT_FILENO});
+  files.push_back({plan.output, STDERR_FILENO});
+  int next = 0;  // above all that are given
+  for (const Program::File& f : files) next = std::max(next, f.there + 1);
+  for (Program::File& f : files) {
+    f.here = fcntl(f.here, F_DUPFD_CLOEXEC, next);
+    if (f.here < 0) cannot_start(plan.status, errno);
+  }
+  const int status = fcntl(plan.status, F_DUPFD_CLOEXEC, next);
+  if (status < 0) cannot_start(plan.status, errno);
+  for (const Program::File& f : files) {
+    if (dup2(f.here, f.there) < 0) cannot_start(status, errno);
+  }
+  if (status != next && dup3(status, next, O_CLOEXEC) < 0) cannot_start(status, errno);
+  if (close_range(unsigned(next) + 1, ~0u, 0) != 0) cannot_start(next, errno);
+  say(next, {Word::process, number_in_proc()});
+  return next;
+}
+
+/// In the program's process, which never comes back.
+[[noreturn]] void become(const Plan& plan) {
+  for (int s = 1; s < NSIG; ++s) {
+    if (s != SIGKILL && s != SIGSTOP) signal(s, SIG_DFL);
+  }
+  for (const int s : {SIGXFSZ, SIGTTOU}) signal(s, SIG_IGN);  // a full file is an error with a reason
+  setsid();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive its keeper, should it kill it
+  const Confinement& c = plan.confinement;
+  limit(RLIMIT_CORE, 0);
+  if (c.file_bytes != Confinement::unlimited) limit(RLIMIT_FSIZE, c.file_bytes);
+  if (c.processes != Confinement::unlimited) limit(RLIMIT_NPROC, std::min(plan.processes + c.processes, most_processes_of_a_host()));
+  if (c.files != Confinement::unlimited) limit(RLIMIT_NOFILE, c.files);
+  const bool is_program = !plan.program.body;
+  if (c.bytes != Confinement::unlimited && !shadow_memory) limit(RLIMIT_DATA, (is_program ? 0 : plan.memory) + c.bytes);
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  const int status = give_files(plan);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (!is_program) {
+    close(status);
+    _exit(plan.program.body());
+  }
+  execvpe(plan.arguments[0], plan.arguments.data(), plan.environment.data());
+  cannot_start(status, errno);
+}
+
+/// Returns how `program` ended, if it was left.
+std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
+  std::optional<int> how;
+  for (int round = 0; round < 1000; ++round) {
+    if (namespaced) {
+      kill(-1, SIGKILL);
+    } else {
+      for (const pid_t p : children()) kill(p, SIGKILL);
+    }
+    pid_t reaped = 0;
+    for (int status = 0; (reaped = waitpid(-1, &status, WNOHANG)) > 0;) {
+      if (reaped == program) how = status;
+    }
+    if (reaped < 0 && errno == ECHILD) break;
+    usleep(1000);
+  }
+  return how;
+}
+
+/// The keeper's whole life.
+[[noreturn]] void keep(const Plan& plan, bool namespaced) {
+  sigset_t awaited;
+  sigemptyset(&awaited);
+  sigaddset(&awaited, SIGCHLD);
+  sigaddset(&awaited, SIGTERM);
+  sigprocmask(SIG_SETMASK, &awaited, nullptr);
+  for (const int s : {SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU}) signal(s, SIG_IGN);
+  signal(SIGCHLD, SIG_DFL);  // an ignored one would end the wait for a child without a word
+  setsid();
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  prctl(PR_SET_PDEATHSIG, namespaced ? SIGKILL : SIGTERM);
+  prctl(PR_SET_NAME, "nearmiss-keeper");
+  close(plan.judge);  // that its end is seen
+  pollfd judge{plan.status, 0, 0};
+  if (poll(&judge, 1, 0) == 1 && (judge.revents & POLLERR) != 0) _exit(0);  // it ended before
+  const pid_t program = fork();
+  if (program < 0) cannot_start(plan.status, errno);
+  if (program == 0) become(plan);
+  dup2(plan.status, 0);
+  close_range(1, ~0u, 0);
+  int how = 0;
+  for (bool ended = false; !ended;) {
+    if (sigwaitinfo(&awaited, nullptr) == SIGTERM) break;
+    int status = 0;
+    for (pid_t p = 0; (p = waitpid(-1, &status, WNOHANG)) > 0;) {
+      if (p == program) ended = true, how = status;
+    }
+  }
+  how = end_all_that_is_left(namespaced, program).value_or(how);
+  say(0, {Word::ended, how});
+  _exit(0);
+}
+
+bool write_text(const char* name, const char* text) {
+  const int file = open(name, O_WRONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool put = write(file, text, std::strlen(text)) == ssize_t(std::strlen(text));
+  close(file);
+  return put;
+}
+
+/// A copy of this process; in a process namespace of its own if it can be had, for which others than the superuser need
+/// a user namespace as well. Returns 0 in the copy.
+pid_t fork_apart(bool wanted, bool& namespaced) {
+  namespaced = false;
+  if (wanted) {
+    const uid_t user = geteuid();
+    const gid_t group = getegid();
+    // What programs can share beyond files and processes (System V's memory, message queues) ends with them as well.
+    const unsigned long flags = CLONE_NEWPID | CLONE_NEWIPC | (user == 0 ? 0ul : CLONE_NEWUSER) | SIGCHLD;
+    const pid_t child = pid_t(syscall(SYS_clone, flags, nullptr, nullptr, nullptr, nullptr));
+    if (child == 0 && user != 0) {
+      std::array<char, 64> map;
+      write_text("/proc/self/setgroups", "deny");
+      std::snprintf(map.data(), map.size(), "%u %u 1", user, user);
+      write_text("/proc/self/uid_map", map.data());
+      std::snprintf(map.data(), map.size(), "%u %u 1", group, group);
+      write_text("/proc/self/gid_map", map.data());
+    }
+    namespaced = child >= 0;
+    if (namespaced) return child;
+  }
+  return fork();
+}
+
+}  // namespace
+
+Kept::Kept(const Program& program, const Confinement& confinement) {
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) fail("a pipe to a host's keeper");
+  File hears(pipe_ends[0]), speaks(pipe_ends[1]);
+  File output(program.log.empty() ? memfd_create("nearmiss-output", MFD_CLOEXEC)
+                                  : open(program.log.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (output.number() < 0) fail(program.log.empty() ? "memory for a host's output" : program.log.c_str());
+  fcntl(output.number(), F_SETFL, O_APPEND);
+  File nowhere(open("/dev/null", O_RDONLY | O_CLOEXEC));
+  if (nowhere.number() < 0) fail("/dev/null");
+  fcntl(hears.number(), F_SETFL, O_NONBLOCK);
+  Plan plan{program, confinement, {}, {}, speaks.number(), hears.number(), output.number(), nowhere.number(), own_memory(),
+            geteuid() == 0 ? 0 : processes_of_user()};
+  for (const std::string& a : program.arguments) plan.arguments.push_back(const_cast<char*>(a.c_str()));
+  plan.arguments.push_back(nullptr);
+  for (const std::string& e : program.environment) plan.environment.push_back(const_cast<char*>(e.c_str()));
+  for (char** e = environ; *e != nullptr; ++e) plan.environment.push_back(*e);  // of two the first one counts
+  plan.environment.push_back(nullptr);
+  std::fflush(nullptr);  // what is in buffers would be flushed twice by a body that calls exit
+  keeper_ = fork_apart(confinement.pid_namespace, namespaced_);
+  if (keeper_ < 0) fail("a process for a host");
+  if (keeper_ == 0) keep(plan, namespaced_);
+  status_ = hears.take();
+  output_ = output.take();
+}
+
+Kept::~Kept() {
+  end();
+  close(status_);
+  close(output_);
+}
+
+void Kept::hear() {
+  constexpr int most = 16;  // words; a program that is the superuser's may find a way to say more
+  Word word{};
+  for (int i = 0; i < most && read(status_, &word, sizeof word) == ssize_t(sizeof word); ++i) {
+    if (word.what == Word::process) process_ = word.value;
+    if (word.what == Word::could_not_start) failed_to_start_ = word.value;
+    if (word.what == Word::ended) wait_status_ = word.value;
+  }
+}
+
+bool Kept::has_ended(int milliseconds) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point until = Clock::now() + std::chrono::milliseconds(milliseconds);
+  while (!reaped_) {
+    hear();
+    // A keeper that ended without a word was killed: by the program, or by who kills everything.
+    const pid_t ended = waitpid(keeper_, nullptr, WNOHANG);
+    if (ended == keeper_ || (ended < 0 && errno == ECHILD)) {
+      hear();
+      reaped_ = true;
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    if (reaped_ || left <= 0) break;
+    pollfd p{status_, POLLIN, 0};  // its first word is of the program's start
+    poll(&p, 1, int(left));
+  }
+  return reaped_;
+}
+
+void Kept::send(int signal) {
+  if (!reaped_ && process() > 0) kill(process(), signal);
+}
+
+void Kept::end() {
+  if (reaped_) return;
+  // The system ends all of a namespace with its init; a keeper without one looks for what is left, which may be thousands.
+  constexpr int patience = 5000;  // milliseconds
+  if (!namespaced_) {
+    kill(keeper_, SIGCONT);
+    kill(keeper_, SIGTERM);
+    if (has_ended(patience)) return;
+  }
+  kill(keeper_, SIGKILL);
+  has_ended(patience);  // what the system cannot end even so (a disk that does not answer) is left to it
+  reaped_ = true;
+}
+
+std::string Kept::how_it_ended() const {
+  if (failed_to_start_ != 0) return std::string("cannot be started: ") + std::strerror(failed_to_start_);
+  if (!wait_status_) return "ended with the process that keeps it";
+  const int status = *wait_status_;
+  if (!WIFSIGNALED(status)) return "left with exit code " + std::to_string(WEXITSTATUS(status));
+  return "killed by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+}
+
+bool Kept::was_killed_by(int signal) const {
+  return wait_status_ && WIFSIGNALED(*wait_status_) && WTERMSIG(*wait_status_) == signal;
+}
+
+std::optional<int> Kept::exit_code() const {
+  if (!wait_status_ || !WIFEXITED(*wait_status_)) return std::nullopt;
+  return WEXITSTATUS(*wait_status_);
+}
+
+pid_t Kept::process() {
+  if (!process_) hear();
+  return process_.value_or(0);
+}
+
+double Kept::processor_seconds() {
+  clockid_t clock{};
+  timespec t{};
+  if (process() <= 0 || clock_getcpuclockid(process(), &clock) != 0 || clock_gettime(clock, &t) != 0) return 0;
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+double Kept::seconds_in_line() {
+  double running = 0, in_line = 0;  // nanoseconds
+  if (process() > 0) std::ifstream("/proc/" + std::to_string(process()) + "/schedstat") >> running >> in_line;
+  return 1e-9 * in_line;
+}
+
+std::size_t Kept::resident_bytes() {
+  std::size_t all = 0, resident = 0;
+  if (process() > 0) std::ifstream("/proc/" + std::to_string(process()) + "/statm") >> all >> resident;
+  return resident * std::size_t(sysconf(_SC_PAGESIZE));
+}
+
+std::string Kept::output(std::size_t most) const {
+  const off_t size = lseek(output_, 0, SEEK_END);
+  std::string text(std::size_t(std::clamp<off_t>(size, 0, off_t(most))), '\0');
+  const ssize_t got = pread(output_, text.data(), text.size(), std::max<off_t>(0, size - off_t(text.size())));
+  text.resize(std::size_t(std::max<ssize_t>(0, got)));
+  return text;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,155 @@
+// The host of a plugin: loads the shared library that its argument names, says what the library says of itself, and asks it.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "impl/host/serve.hpp"
+#include "impl/plugin/nearmiss_plugin.h"
+#include "impl/subject/floating_point.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+static_assert(NEARMISS_MAX_VALUES == Answer::capacity);
+static_assert(sizeof(nearmiss_answer::why) == sizeof(Answer::why));
+
+constexpr std::uint32_t bit_of(Precondition p) { return std::uint32_t{1} << std::size_t(p); }
+static_assert(NEARMISS_TRUE_RECTANGLE == bit_of(Precondition::true_rectangle));
+static_assert(NEARMISS_UNIT_NORMAL == bit_of(Precondition::unit_normal));
+static_assert(NEARMISS_UNIT_DIRECTION == bit_of(Precondition::unit_direction));
+static_assert(NEARMISS_UNIT_QUATERNION == bit_of(Precondition::unit_quaternion));
+static_assert(NEARMISS_STARTS_OUTSIDE == bit_of(Precondition::starts_outside));
+static_assert(NEARMISS_MOVES == bit_of(Precondition::moves));
+static_assert(NEARMISS_NO_ZERO_SIZES == bit_of(Precondition::no_zero_sizes));
+
+/// More than any catalogue will have.
+constexpr std::size_t most_offers = 4096, most_text = 4096;
+
+using Entry = const nearmiss_plugin* (*)();
+
+/// A library's function, and the modes of floating-point arithmetic that its loading left: it is asked in them, for it
+/// would run in them in its user's program. Nothing else does.
+struct AskedFunction {
+  nearmiss_offer offer;
+  FloatingPointModes modes;
+};
+
+int given_by(const AskedFunction& asked, std::span<const double> inputs, nearmiss_answer& given) {
+  const FloatingPointScope of_the_library(asked.modes);
+  return asked.offer.answer(inputs.data(), &given);
+}
+
+/// The case goes to the library's function, and its word comes back.
+Answer ask(const void* asked, std::span<const double> inputs) {
+  nearmiss_answer given{};
+  given.given = ~std::uint64_t{0};
+  const nearmiss_offer& of = static_cast<const AskedFunction*>(asked)->offer;
+  const int status = given_by(*static_cast<const AskedFunction*>(asked), inputs, given);
+  if (status != NEARMISS_ANSWERED && status != NEARMISS_CANNOT_ANSWER) {
+    return Answer::without(Answer::Status::broke, "the plugin's function returned " + std::to_string(status));
+  }
+  if (status == NEARMISS_CANNOT_ANSWER) {
+    return Answer::without(Answer::Status::cannot_answer, {given.why, strnlen(given.why, sizeof given.why)});
+  }
+  Answer a;
+  a.yes = given.yes != 0;
+  a.given = given.given;
+  a.count = static_cast<std::uint8_t>(of.outputs);
+  std::copy_n(std::begin(given.values), a.count, a.values.begin());
+  return a;
+}
+
+std::string text_or_none(const char* text) { return text == nullptr ? "" : std::string(text, strnlen(text, most_text)); }
+
+collide::Contract contract_of(const nearmiss_contract* c) {
+  if (c == nullptr) return {};
+  return {c->backward, c->forward, c->exact_decisions != 0, c->unit, c->lowest, c->highest};
+}
+
+/// What the library says of itself, taken over word by word: whoever hears the hello judges it.
+Subject told_by(const nearmiss_plugin& plugin, const FloatingPointModes& modes, std::vector<AskedFunction>& functions) {
+  Subject s;
+  s.name = text_or_none(plugin.name);
+  s.version = text_or_none(plugin.library_version);
+  s.scalar = plugin.scalar == NEARMISS_FLOAT ? Scalar::float32 : Scalar::float64;
+  functions.reserve(plugin.offer_count);  // the subject's functions are told where they lie
+  for (std::size_t i = 0; i < plugin.offer_count; ++i) {
+    const nearmiss_offer& offer = plugin.offers[i];
+    Offering o;
+    o.query = text_or_none(offer.query);
+    o.how = text_or_none(offer.equivalence);
+    o.offer = o.how.empty() ? Offer::answers : Offer::by_equivalence;
+    o.contract = contract_of(offer.contract);
+    o.required = Preconditions::of_bits(offer.needs);
+    o.counts = {offer.inputs, offer.outputs};
+    o.answer = AnswerFunction(ask, &functions.emplace_back(AskedFunction{offer, modes}));
+    s.offerings.push_back(o);
+  }
+  return s;
+}
+
+/// Why it is no plugin; empty where it is one. Not dereferenced before its version is known.
+std::string fault_of(const nearmiss_plugin* plugin) {
+  if (plugin == nullptr) return "nearmiss_plugin_entry() returns no description";
+  if (plugin->version != NEARMISS_PLUGIN_VERSION) {
+    return "it is made for version " + std::to_string(plugin->version) + " of nearmiss_plugin.h, and this is version " +
+           std::to_string(NEARMISS_PLUGIN_VERSION);
+  }
+  if (plugin->scalar != NEARMISS_FLOAT && plugin->scalar != NEARMISS_DOUBLE) {
+    return "its scalar is " + std::to_string(plugin->scalar) + ": it must be NEARMISS_FLOAT or NEARMISS_DOUBLE";
+  }
+  if (plugin->offers == nullptr && plugin->offer_count > 0) return "it counts offers and has none";
+  if (plugin->offer_count > most_offers) {
+    return "it counts " + std::to_string(plugin->offer_count) + " offers, more than " + std::to_string(most_offers);
+  }
+  for (std::size_t i = 0; i < plugin->offer_count; ++i) {
+    const nearmiss_offer& offer = plugin->offers[i];
+    const std::string query = text_or_none(offer.query);
+    if (offer.answer == nullptr) return "it offers " + query + " without a function";
+    if (offer.outputs < 0 || offer.outputs > NEARMISS_MAX_VALUES) {
+      return "it counts " + std::to_string(offer.outputs) + " outputs of " + query;
+    }
+    if (const std::uint32_t unknown = offer.needs & ~Preconditions::known_bits; unknown != 0) {
+      char bits[16];
+      std::snprintf(bits, sizeof bits, "%#x", unsigned(unknown));
+      return "it requires " + std::string(bits) + " for " + query + ", and there is no such bit in nearmiss_plugin.h";
+    }
+  }
+  return {};
+}
+
+int host_plugin(const std::string& path) {
+  // What the library starts in place of this program does not get the pipes.
+  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered}) fcntl(file, F_SETFD, FD_CLOEXEC);
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    std::string why = dlerror();
+    if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
+    return refuse("it cannot be loaded: " + why);
+  }
+  const auto entry = reinterpret_cast<Entry>(dlsym(library, "nearmiss_plugin_entry"));
+  if (entry == nullptr) return refuse("it is no plugin: it has no function nearmiss_plugin_entry");
+  const nearmiss_plugin* plugin = entry();
+  const FloatingPointModes modes = FloatingPointModes::current();
+  FloatingPointModes::standard().set();
+  if (const std::string fault = fault_of(plugin); !fault.empty()) return refuse(fault);
+  std::vector<AskedFunction> functions;
+  return host(told_by(*plugin, modes, functions));
+}
+
+}  // namespace
+
+}  // namespace nearmiss
+
+int main(int argc, char** argv) {
+  nearmiss::FloatingPointModes::standard().set();
+  if (argc != 2) return 2;
+  const int code = nearmiss::host_plugin(argv[1]);
+  _exit(code);  // without the library's destructors: nothing that they do is wanted
+}

@@ -1,0 +1,137 @@
+#include "impl/host/serve.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "impl/subject/contained.hpp"
+#include "impl/subject/floating_point.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool say(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = write(file, text.data(), text.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    text.remove_prefix(std::size_t(put));
+  }
+  return true;
+}
+
+bool woken(int file) {
+  char byte = 0;
+  ssize_t got = 0;
+  while ((got = read(file, &byte, 1)) < 0 && errno == EINTR) {
+  }
+  return got == 1;
+}
+
+/// null where it promises nothing; what is no bound stays visible to the judge.
+Json bound(double x) {
+  if (std::isfinite(x)) return x;
+  return std::isnan(x) ? Json("nan") : x > 0 ? Json(nullptr) : Json("-inf");
+}
+
+Json contract_to_json(const collide::Contract& c) {
+  return {{"backward", bound(c.backward)}, {"forward", bound(c.forward)}, {"unit", bound(c.unit)},
+          {"exact_decisions", c.exact_decisions}, {"lowest", c.lowest},   {"highest", c.highest}};
+}
+
+template <class T>
+T* mapped(int file, int protection) {
+  void* memory = mmap(nullptr, sizeof(T), protection, MAP_SHARED, file, 0);
+  return memory == MAP_FAILED ? nullptr : static_cast<T*>(memory);
+}
+
+}  // namespace
+
+void serve(int from_judge, int to_judge, const wire::Asked& asked, wire::Answered& answered,
+           std::span<const AnswerFunction> offers) {
+  while (woken(from_judge)) {
+    const AnswerFunction answer = offers.empty() ? asked.answer : offers[asked.offer];
+    const std::size_t count = asked.count, inputs = asked.inputs;
+    std::size_t used = 0;
+    for (std::size_t i = asked.first; i < count; ++i) {
+      const std::span<const double> values{asked.values.data() + i * inputs, inputs};
+      const Answer a = answer_or_broke([&] { return answer(values); });
+      answered.heads[i] = {a.status, a.yes, a.count, a.given};
+      std::copy_n(a.values.begin(), a.count, answered.numbers.begin() + std::ptrdiff_t(used));
+      if (a.status != Answer::Status::answered) answered.reasons[i] = a.why;
+      used += a.count;
+      answered.done.store(std::uint32_t(i + 1), std::memory_order_release);
+    }
+    if (!say(to_judge, "d")) return;
+  }
+}
+
+std::string hello_of(const Subject& subject) {
+  Json j{{"nearmiss", wire::version},
+         {"name", subject.name},
+         {"version", subject.version},
+         {"scalar", name_of(subject.scalar)},
+         {"batches", "shared"},
+         {"referee", subject.referee},
+         {"offers", Json::array()},
+         {"not_offered", Json::object()}};
+  for (const Offering& o : subject.offerings) {
+    if (o.offer == Offer::not_offered) {
+      j["not_offered"][o.query] = o.how;
+      continue;
+    }
+    Json requires_names = Json::array();
+    for (const Precondition p : all_preconditions) {
+      if (o.required.has(p)) requires_names.push_back(name_of(p));
+    }
+    Json offer{{"query", o.query},
+               {"by_equivalence", o.offer == Offer::by_equivalence},
+               {"how", o.how},
+               {"contract", contract_to_json(o.contract)},
+               {"requires", requires_names}};
+    if (o.counts) offer["inputs"] = o.counts->inputs, offer["outputs"] = o.counts->outputs;
+    j["offers"].push_back(std::move(offer));
+  }
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string refusal(const std::string& why) {
+  return Json{{"nearmiss", wire::version}, {"refused", why}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+int refuse(const std::string& why) { return say(wire::to_judge, refusal(why)) ? 0 : 1; }
+
+int host_of(Subject (*subject)()) {
+  // What a library starts in place of this program does not get the pipes.
+  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered}) fcntl(file, F_SETFD, FD_CLOEXEC);
+  FloatingPointModes::standard().set();  // a library may have set others when it was loaded
+  return host(subject());
+}
+
+int host(const Subject& subject) {
+  const auto* asked = mapped<const wire::Asked>(wire::asked, PROT_READ);
+  auto* answered = mapped<wire::Answered>(wire::answered, PROT_READ | PROT_WRITE);
+  if (asked == nullptr || answered == nullptr) {
+    std::fputs("this program is a part of nearmiss, which starts it where a subject is to be asked\n", stderr);
+    return 2;
+  }
+  std::vector<AnswerFunction> offers;
+  for (const Offering& o : subject.offerings) {
+    if (o.offer != Offer::not_offered) offers.push_back(o.answer);
+  }
+  if (!say(wire::to_judge, hello_of(subject))) return 1;
+  FloatingPointModes::standard().set();
+  serve(wire::from_judge, wire::to_judge, *asked, *answered, offers);
+  return 0;
+}
+
+}  // namespace nearmiss

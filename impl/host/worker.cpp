@@ -1,0 +1,532 @@
+#include "impl/host/worker.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "impl/host/replies.hpp"
+#include "impl/host/serve.hpp"
+#include "impl/subject/floating_point.hpp"
+#include "impl/subject/printable.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr int between_looks = 50;                ///< milliseconds
+constexpr std::size_t most_output = 4096;
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+/// While it lives, files may be as large as this process may ever make them: memory is a file here, and what limits files, or
+/// stands for a full disk, is not meant for it.
+class AnyFileSize {
+ public:
+  AnyFileSize() {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit any{before_.rlim_max, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &any);
+  }
+  ~AnyFileSize() { setrlimit(RLIMIT_FSIZE, &before_); }
+  AnyFileSize(const AnyFileSize&) = delete;
+  AnyFileSize& operator=(const AnyFileSize&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Shared memory that neither side can make smaller, which would kill who reads it.
+template <class T>
+T* new_shared(const char* name, int& file) {
+  const AnyFileSize any;
+  file = memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  if (file < 0 || ftruncate(file, sizeof(T)) != 0) fail("shared memory for a host");
+  void* memory = mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) fail("shared memory for a host");
+  if (fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) != 0) fail("shared memory for a host");
+  return static_cast<T*>(memory);  // zeros are a T
+}
+
+/// Errors of the operating system that are of the moment, and nobody's fault.
+bool is_a_lack(int error) { return error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE; }
+
+std::string last_line_of(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  return text.substr(text.find_last_of('\n') + 1);
+}
+
+/// What a subject says goes to terminals and into reports.
+void make_printable(Answer& a) {
+  if (a.status != Answer::Status::answered) a.explain(printable(a.reason()));
+}
+
+std::string seconds_text(double s) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f s", s);
+  return text;
+}
+
+struct Pipe {
+  int ends[2] = {-1, -1};
+  Pipe() {
+    if (pipe2(ends, O_CLOEXEC) != 0) fail("pipes to a host");
+  }
+  ~Pipe() {
+    for (const int end : ends) {
+      if (end >= 0) close(end);
+    }
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  int take(std::size_t end) { return std::exchange(ends[end], -1); }
+};
+
+}  // namespace
+
+struct Worker::Child {
+  int to_host = -1, from_host = -1;
+  std::unique_ptr<Kept> kept;
+  std::string out;          ///< not yet written
+  std::size_t written = 0;  ///< of it
+  std::string in;           ///< not yet understood
+  std::size_t understood = 0;
+  std::uint32_t asked = 0;     ///< cases, by pipe
+  std::uint32_t answered = 0;  ///< of them
+
+  Child() = default;
+  ~Child() {
+    kept.reset();
+    for (const int file : {to_host, from_host}) {
+      if (file >= 0) close(file);
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  bool has_more_to_say() const { return written < out.size(); }
+  std::string_view unread() const { return std::string_view(in).substr(understood); }
+  /// Takes what is there. False at the end: the host hung up.
+  bool read_some() {
+    if (understood > 0) in.erase(0, std::exchange(understood, 0));
+    std::array<char, 1 << 16> some;
+    const ssize_t got = read(from_host, some.data(), some.size());
+    const int why = errno;
+    if (got > 0) in.append(some.data(), std::size_t(got));
+    return got > 0 || (got < 0 && (why == EAGAIN || why == EINTR));
+  }
+};
+
+/// How long a host takes for a case: of processor time, and of time that passes without that for which a busy machine lets
+/// it wait. A host that keeps the machine busy itself gets that grace as well, so it is bounded.
+class Worker::Patience {
+ public:
+  static constexpr double most_in_line = 5;  ///< times WorkerLimits::wall
+  void begin() { since_ = Clock::now(), before_.reset(); }
+  /// To be asked often: what it did before it was first asked does not count. Empty while there is patience left.
+  std::optional<std::string> lost(Kept& host, const WorkerLimits& limits) {
+    const Used now{host.processor_seconds(), host.seconds_in_line()};
+    if (!before_) before_ = now;
+    if (now.processor - before_->processor > limits.patience) {
+      return "no answer within " + seconds_text(limits.patience) + " of processor time";
+    }
+    const double passed = std::chrono::duration<double>(Clock::now() - since_).count();
+    const double in_line = std::min(now.in_line - before_->in_line, most_in_line * limits.wall());
+    if (passed - in_line > limits.wall()) return "no answer within " + seconds_text(limits.wall());
+    return std::nullopt;
+  }
+
+ private:
+  struct Used {
+    double processor, in_line;
+  };
+  Clock::time_point since_ = Clock::now();
+  std::optional<Used> before_;
+};
+
+namespace {
+WorkerLimits the_limits;
+}
+
+const WorkerLimits& worker_limits() { return the_limits; }
+void set_worker_limits(const WorkerLimits& limits) { the_limits = limits; }
+
+Worker::Worker(WorkerLimits limits, std::shared_ptr<const HostProgram> program, Pulse pulse)
+    : limits_(limits),
+      program_(std::move(program)),
+      pulse_(std::move(pulse)),
+      asked_(new_shared<wire::Asked>("nearmiss-asked", asked_file_)),
+      answered_(new_shared<wire::Answered>("nearmiss-answered", answered_file_)),
+      patience_(std::make_unique<Patience>()) {
+  // From now on nobody gets a mapping that can be written, and this one stays.
+  if (fcntl(asked_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) fail("shared memory for a host");
+}
+
+Worker::~Worker() {
+  end();
+  munmap(asked_, sizeof *asked_);
+  munmap(answered_, sizeof *answered_);
+  close(asked_file_);
+  close(answered_file_);
+}
+
+void Worker::end() { child_.reset(); }
+
+void Worker::spawn() {
+  while (true) {
+    try {
+      spawn_once();
+      return;
+    } catch (const std::system_error& e) {
+      if (!is_a_lack(e.code().value())) throw;
+      wait_for_the_system(e.code().value());
+    }
+  }
+}
+
+/// To be called each time that the system refuses a process or memory; throws std::system_error after some seconds.
+void Worker::wait_for_the_system(int error) {
+  using namespace std::chrono_literals;
+  const Clock::time_point now = Clock::now();
+  if (!refused_since_) refused_since_ = now;
+  const bool may_pass = error != EMFILE;  // which is of this process alone
+  if (!may_pass || now - *refused_since_ > 3s || !goes_on()) throw std::system_error(error, std::generic_category(), "a process for a host");
+  std::this_thread::sleep_for(50ms);
+}
+
+void Worker::spawn_once() {
+  Pipe down, up;
+  auto child = std::make_unique<Child>();
+  Program run;
+  if (program_ != nullptr) {
+    run.arguments = program_->arguments;
+    run.files = {{down.ends[0], wire::from_judge}, {up.ends[1], wire::to_judge}};
+    if (is_shared()) {
+      run.files.push_back({asked_file_, wire::asked});
+      run.files.push_back({answered_file_, wire::answered});
+    }
+  } else {
+    run.files = {{down.ends[0], wire::from_judge}, {up.ends[1], wire::to_judge}};
+    run.body = [this] {
+      FloatingPointModes::standard().set();
+      serve(wire::from_judge, wire::to_judge, *asked_, *answered_, {});
+      return 0;
+    };
+  }
+  child->kept = std::make_unique<Kept>(run, Confinement{.bytes = limits_.bytes, .pid_namespace = limits_.pid_namespace});
+  child->to_host = down.take(1);
+  child->from_host = up.take(0);
+  for (const int file : {child->to_host, child->from_host}) fcntl(file, F_SETFL, O_NONBLOCK);
+  child_ = std::move(child);
+}
+
+/// Starts a host and hears its hello. Throws HostFailed.
+void Worker::start() {
+  spawn();
+  if (program_ == nullptr) return;
+  try {
+    if (first_line() != program_->hello) throw HostFailed("it says something else of itself than when it was first started");
+    refused_since_.reset();
+  } catch (const HostFailed&) {
+    end();
+    throw;
+  }
+}
+
+/// What the host says first, with its end of line.
+std::string Worker::first_line() {
+  Patience patience;
+  while (goes_on()) {
+    pollfd files[2] = {{child_->from_host, POLLIN, 0}, {child_->kept->status_file(), POLLIN, 0}};
+    poll(files, 2, between_looks);
+    const bool ended = (files[0].revents & (POLLIN | POLLHUP)) != 0 && !child_->read_some();
+    if (const std::size_t at = child_->unread().find('\n'); at != std::string_view::npos) {
+      std::string line(child_->unread().substr(0, at + 1));
+      child_->understood += line.size();
+      return line;
+    }
+    if (child_->unread().size() > wire::max_hello) throw HostFailed("its hello has more than 1,048,576 bytes");
+    if (ended || child_->kept->has_ended()) {
+      if (!child_->kept->has_ended(200)) throw HostFailed("it closed the pipe before it said hello");
+      if (const int lack = child_->kept->failed_to_start(); is_a_lack(lack)) {
+        wait_for_the_system(lack);
+        spawn();
+        patience.begin();
+        continue;
+      }
+      const std::string last = last_line_of(child_->kept->output(most_output));
+      throw HostFailed(child_->kept->how_it_ended() + (last.empty() ? "" : ": " + last));
+    }
+    if (const auto late = patience.lost(*child_->kept, limits_)) {
+      throw HostFailed(std::string("no hello").append(*late, std::string_view("no answer").size()), true);
+    }
+  }
+  throw HostFailed("interrupted");
+}
+
+void Worker::begin() {
+  end();
+  spawn();
+}
+
+std::string Worker::hello() {
+  if (!child_) spawn();
+  const std::string line = first_line();
+  end();
+  return line;
+}
+
+void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+  count_ = values.size() / inputs_per_case;
+  got_ = 0;
+  outputs_ = offering.outputs;
+  decides_ = offering.decides;
+  singly_ = false;
+  suspected_.reset();
+  broken_.clear();
+  answers_.resize(std::max(answers_.size(), count_));
+  asked_->offer = offering.position;
+  asked_->inputs = std::uint32_t(inputs_per_case);
+  asked_->answer = program_ == nullptr ? offering.answer : AnswerFunction{};
+  query_ = offering.query;
+  std::copy(values.begin(), values.end(), asked_->values.begin());
+  request(0, count_);
+}
+
+/// Asks the cases [first, end), of a new host where there is none.
+void Worker::request(std::size_t first, std::size_t end_of_request) {
+  cannot_start_.reset();
+  if (!is_shared()) end_of_request = std::min(end_of_request, first + piped_at_once_);
+  requested_ = end_of_request;
+  requested_since_ = Clock::now();
+  numbers_got_ = 0;
+  if (child_ && child_->unread().size() > 0) {
+    this->end();  // it said something that it was not asked
+  }
+  if (!child_) {
+    try {
+      start();
+    } catch (const HostFailed& e) {
+      cannot_start_ = e;
+      return;
+    }
+  }
+  patience_->begin();
+  if (is_shared()) {
+    asked_->first = std::uint32_t(first);
+    asked_->count = std::uint32_t(end_of_request);
+    answered_->done.store(std::uint32_t(first), std::memory_order_relaxed);
+    [[maybe_unused]] const ssize_t woken = write(child_->to_host, "g", 1);  // a dead host is seen in receive
+    return;
+  }
+  const std::span<const double> values{asked_->values.data() + first * asked_->inputs,
+                                       (end_of_request - first) * asked_->inputs};
+  child_->out = program_->batches == HostProgram::Batches::binary
+                    ? wire::binary_request(asked_->offer, child_->asked, values, asked_->inputs)
+                    : wire::json_request(query_, child_->asked, values, asked_->inputs);
+  child_->asked += std::uint32_t(end_of_request - first);
+  heard_ = false;
+  child_->written = 0;
+  flush();
+}
+
+/// Writes what the pipe has room for. False where nobody reads it.
+bool Worker::flush() {
+  while (child_->has_more_to_say()) {
+    const ssize_t put = write(child_->to_host, child_->out.data() + child_->written, child_->out.size() - child_->written);
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return errno == EAGAIN;
+    child_->written += std::size_t(put);
+  }
+  return true;
+}
+
+Worker::Event Worker::end_as(Event::What what, std::string reason, bool is_of_one_case) {
+  suspected_output_ = child_->kept->output(most_output);
+  end();
+  return {what, std::move(reason), is_of_one_case};
+}
+
+/// Says in one line what became of a host that has ended or hung up.
+Worker::Event Worker::how_it_ended() {
+  constexpr int moment = 200;  // milliseconds that a process may take from its last word to its end
+  if (!child_->kept->has_ended(moment)) return end_as(Event::broke, "hung up without ending");
+  const std::string last = last_line_of(child_->kept->output(most_output));
+  return end_as(Event::broke, child_->kept->how_it_ended() + (last.empty() ? "" : ": " + last));
+}
+
+/// What the host has done since it was last looked at.
+std::optional<Worker::Event> Worker::take_shared() {
+  const std::size_t done = answered_->done.load(std::memory_order_acquire);
+  if (done > requested_) return end_as(Event::broke, "counts more answers than it was asked for", true);
+  const std::size_t before = got_;
+  const bool all = wire::take(*answered_, got_, std::max(done, got_), numbers_got_, outputs_, answers_.data());
+  for (std::size_t i = before; i < got_; ++i) {
+    if (!decides_) answers_[i].yes = true;
+    make_printable(answers_[i]);
+  }
+  if (got_ > before) patience_->begin();
+  if (!all) return end_as(Event::broke, "answered with what is no answer", true);
+  return std::nullopt;
+}
+
+std::optional<Worker::Event> Worker::take_piped() {
+  while (got_ < requested_) {
+    const wire::Taken taken = program_->batches == HostProgram::Batches::binary
+                                  ? wire::take_binary(child_->unread(), child_->answered, outputs_)
+                                  : wire::take_json(child_->unread(), child_->answered, outputs_);
+    if (!taken.error.empty()) return end_as(Event::broke, "answered with " + taken.error, true);
+    if (taken.bytes == 0) return std::nullopt;
+    child_->understood += taken.bytes;
+    ++child_->answered;
+    answers_[got_] = taken.answer;
+    if (!decides_) answers_[got_].yes = true;
+    make_printable(answers_[got_++]);
+    patience_->begin();
+  }
+  if (!child_->unread().empty()) {
+    --got_;
+    return end_as(Event::broke, "answered more often than it was asked", true);
+  }
+  return Event{Event::all_answered};
+}
+
+/// Waits until all that was requested is answered, or something else comes of it.
+Worker::Event Worker::await() {
+  while (true) {
+    if (!goes_on()) return end_as(Event::gave_up, "");
+    pollfd files[3] = {{child_->from_host, POLLIN, 0},
+                       {child_->kept->status_file(), POLLIN, 0},
+                       {child_->to_host, short(child_->has_more_to_say() ? POLLOUT : 0), 0}};
+    const int ready = poll(files, child_->has_more_to_say() ? 3 : 2, between_looks);
+    bool open = true;
+    if (ready > 0 && files[0].revents != 0) {
+      open = child_->read_some();
+      heard_ = true;
+    }
+    if (is_shared()) {
+      const bool woken = !child_->unread().empty();
+      if (auto event = take_shared()) return *event;
+      if (woken) {
+        child_->understood = child_->in.size();
+        if (got_ < requested_) return end_as(Event::broke, "says that all is done, and did not answer", true);
+        return {Event::all_answered};
+      }
+    } else {
+      if (ready > 0 && files[2].revents != 0 && child_->has_more_to_say()) open = flush() && open;
+      if (auto event = take_piped()) return *event;
+    }
+    const bool is_gone = !open || child_->kept->has_ended();
+    if (!is_gone && ready > 0 && Clock::now() < looked_ + std::chrono::milliseconds(between_looks)) continue;
+    looked_ = Clock::now();
+    const auto late = is_gone ? std::nullopt : patience_->lost(*child_->kept, limits_);
+    const bool is_too_large = limits_.bytes > 0 && child_->kept->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
+    if (!is_gone && !late && !is_too_large) continue;
+    if (got_ == requested_) {  // what it does after its last answer is no case's fault
+      end();
+      return {Event::all_answered};
+    }
+    if (is_gone) {
+      child_->kept->has_ended(200);
+      if (const int lack = child_->kept->failed_to_start(); is_a_lack(lack)) {
+        wait_for_the_system(lack);
+        end();
+        return {Event::not_asked};
+      }
+      return how_it_ended();
+    }
+    if (late) return end_as(Event::late, is_shared() || heard_ ? *late : *late + ": it wrote nothing to file 4, or did not flush it");
+    return end_as(Event::broke, "memory limit reached");
+  }
+}
+
+void Worker::break_case(std::size_t i, std::string_view reason, std::string output, bool late) {
+  answers_[i] = Answer::without(Answer::Status::broke, printable(reason));
+  answers_[i].late = late;
+  if (!output.empty()) broken_.push_back({i, std::move(output)});
+}
+
+/// A host that keeps its answers until the end of a request is to be heard of often, and a fast one seldom waited for.
+void Worker::adapt(Clock::duration took) {
+  using namespace std::chrono_literals;
+  if (took < 50ms) piped_at_once_ = std::min(2 * piped_at_once_, capacity);
+  if (took > 200ms) piped_at_once_ = std::max<std::size_t>(1, piped_at_once_ / 2);
+}
+
+std::span<const Answer> Worker::receive() {
+  for (std::size_t late = 0; got_ < count_ && late < most_late;) {
+    if (cannot_start_) {
+      const std::string why = std::string("it cannot be started again: ") + cannot_start_->what();
+      while (got_ < count_) break_case(got_++, why, {}, cannot_start_->late);
+      break;
+    }
+    Event event = await();
+    if (event.what == Event::gave_up) break;
+    if (event.what == Event::not_asked) {
+      request(got_, requested_);
+      continue;
+    }
+    refused_since_.reset();
+    if (event.what == Event::all_answered) {
+      if (!is_shared() && !singly_) adapt(Clock::now() - requested_since_);
+      if (got_ < count_) request(got_, singly_ ? got_ + 1 : count_);
+      continue;
+    }
+    // Of a host that answers over a pipe nobody knows how many answers it kept to itself.
+    const bool is_surely_next = is_shared() || event.is_of_one_case || requested_ - got_ == 1;
+    if (is_surely_next) {
+      break_case(got_++, event.reason, std::move(suspected_output_), event.what == Event::late);
+      singly_ = false;
+      suspected_.reset();
+      late += event.what == Event::late;
+      if (late == most_late) break;
+    } else {
+      singly_ = true;
+      suspected_ = std::move(event);
+      suspected_at_ = got_;
+      suspected_with_ = std::move(suspected_output_);
+    }
+    if (got_ < count_) request(got_, singly_ ? got_ + 1 : count_);
+  }
+  // It ended in a batch, and not when it was asked one by one; to be late in a batch is nothing.
+  if (got_ == count_ && suspected_ && suspected_->what == Event::broke) {
+    break_case(suspected_at_, suspected_->reason + "; not again when the cases of its batch were asked one by one",
+               std::move(suspected_with_), false);
+  }
+  return {answers_.data(), got_};
+}
+
+std::string_view Worker::output(std::size_t case_of_batch) const {
+  for (const Output& o : broken_) {
+    if (o.of == case_of_batch) return o.text;
+  }
+  return {};
+}
+
+double Worker::processor_seconds() const { return child_ ? child_->kept->processor_seconds() : 0; }
+
+std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+  std::vector<Answer> answers;
+  const std::size_t most = std::min(capacity, max_values / inputs_per_case) * inputs_per_case;
+  for (std::size_t at = 0; at < values.size(); at += most) {
+    const std::span<const double> some = values.subspan(at, std::min(most, values.size() - at));
+    send(offering, some, inputs_per_case);
+    const auto batch = receive();
+    answers.insert(answers.end(), batch.begin(), batch.end());
+    if (batch.size() < some.size() / inputs_per_case) break;
+  }
+  return answers;
+}
+
+}  // namespace nearmiss

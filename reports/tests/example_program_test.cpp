@@ -1,0 +1,72 @@
+/// The example programs of docs/protocol.md: each is a subject like any other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+
+struct Example {
+  const char *name, *command;
+  bool moves;  ///< it offers moving_point_sphere as well
+};
+
+void PrintTo(const Example& e, std::ostream* out) { *out << e.name; }
+
+class ExampleProgram : public testing::TestWithParam<Example> {};
+
+TEST_P(ExampleProgram, IsExamined) {
+  const Example& e = GetParam();
+  if (*e.command == '\0') GTEST_SKIP() << "this system has nothing to run it";
+  const TemporaryFolder folder;
+  const Ran ran = run_program("bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", NEARMISS_SOURCE_FOLDER, NEARMISS_PROGRAM, "run", "--command", e.command, "--subject", e.name, "--cases", "3000", "--seed", "3", "--out",
+                            (folder / "r").string()});
+  ASSERT_LE(ran.exit_code, 1) << ran.err;
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  std::map<std::string, json> tallies;
+  for (const json& t : index.at("tallies")) tallies[t.at("query").get<std::string>()] = t;
+  ASSERT_EQ(tallies.size(), e.moves ? 2u : 1u);
+  for (const auto& [query, t] : tallies) {
+    EXPECT_EQ(t.at("cases"), 3000) << query;
+    EXPECT_EQ(t.at("verdicts").at("broke"), 0) << query << t.at("breakages");
+  }
+  const json& overlap = tallies.at("sphere_sphere_overlap");
+  EXPECT_GT(overlap.at("verdicts").at("agrees"), 2000) << "it gets the cases and is understood";
+  EXPECT_GT(overlap.at("yes_share"), 0.1);
+  if (e.moves) {
+    EXPECT_GT(tallies.at("moving_point_sphere").at("verdicts").at("agrees"), 1000);
+  }
+  // A finding is asked again by the command that its report names.
+  for (const json& listed : index.at("reports")) {
+    const json report = json::parse(read_file(folder / "r" / listed.at("file").get<std::string>()));
+    EXPECT_EQ(complaints(report, "report.schema.json"), "");
+    const Ran without = nearmiss({"replay", (folder / "r" / listed.at("file").get<std::string>()).string()});
+    EXPECT_NE(without.err.find(std::string("it is about '") + e.name), std::string::npos) << without.err;
+    const Ran again = run_program("bash", {"-c", "cd /; " + report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) +
+                                                     " --json --subject " + e.name});
+    EXPECT_EQ(again.exit_code, 1) << again.err;
+    EXPECT_EQ(json::parse(again.out).at(0).at("id"), listed.at("id"));
+    break;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ExampleProgram,
+                         testing::Values(Example{"balls-py", NEARMISS_EXAMPLE_PY, true}, Example{"balls-js", NEARMISS_EXAMPLE_JS, true},
+                                         Example{"balls-c", NEARMISS_EXAMPLE_C, false}),
+                         [](const auto& of) {
+                           std::string name = of.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,284 @@
+/* What a subject may do, by name: the environment variable NEARMISS_ZOO says which. Shared by the plugin and the program. */
+#ifndef NEARMISS_TESTS_MISDEEDS_H
+#define NEARMISS_TESTS_MISDEEDS_H
+
+#define _GNU_SOURCE
+#include <errno.h>
+#include <fcntl.h>
+#include <fenv.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
+#include <sys/shm.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static int is_chosen(const char *what) {
+  const char *chosen = getenv("NEARMISS_ZOO");
+  return chosen != NULL && strcmp(chosen, what) == 0;
+}
+
+static void spin(void) {
+  for (volatile int forever = 1; forever;) {
+  }
+}
+static void sleep_for_ever(void) {
+  for (;;) pause();
+}
+
+/* Marks that this was done before, in the file that NEARMISS_ZOO_MARK names. */
+static int is_first_time(void) {
+  const char *mark = getenv("NEARMISS_ZOO_MARK");
+  const int file = mark == NULL ? -1 : open(mark, O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (file >= 0) close(file);
+  return file >= 0;
+}
+
+/* A process that lives for a minute and holds the pipe that NEARMISS_ZOO_LIFELINE names. */
+static void leave_behind(int sessions) {
+  const char *lifeline = getenv("NEARMISS_ZOO_LIFELINE");
+  if (fork() != 0) return;
+  for (int i = 0; i < sessions; ++i) {
+    setsid();
+    if (fork() != 0) _exit(0);
+  }
+  if (lifeline != NULL && open(lifeline, O_WRONLY) < 0) _exit(1);
+  signal(SIGTERM, SIG_IGN);
+  signal(SIGHUP, SIG_IGN);
+  sleep(60);
+  _exit(0);
+}
+
+static int overflow_the_stack(volatile int depth) {
+  volatile char room[4096];
+  room[0] = (char)depth;
+  return overflow_the_stack(depth + 1) + room[0];
+}
+
+static void eat_memory(void) {
+  for (size_t size = (size_t)1 << 24;;) {
+    char *more = malloc(size);
+    if (more == NULL) abort();
+    more[0] = 1;
+  }
+}
+
+static void close_all(int from) {
+  for (int file = from; file < 1024; ++file) close(file);
+}
+
+static void write_all_to(int file, size_t bytes) {
+  char block[4096];
+  memset(block, 'x', sizeof block);
+  for (size_t put = 0; put < bytes; put += sizeof block) {
+    if (write(file, block, sizeof block) < 0) return;
+  }
+}
+
+/* Writes noise over every shared mapping that can be written: the answers, where a host has them there. */
+static void scribble_over_shared_memory(unsigned char with) {
+  FILE *maps = fopen("/proc/self/maps", "r");
+  char line[512];
+  while (maps != NULL && fgets(line, sizeof line, maps) != NULL) {
+    unsigned long begin, end;
+    char rights[5];
+    if (sscanf(line, "%lx-%lx %4s", &begin, &end, rights) != 3 || strncmp(rights, "rw-s", 4) != 0) continue;
+    memset((void *)begin, with, end - begin);
+  }
+  if (maps != NULL) fclose(maps);
+}
+
+static void *answer_for_ever(void *unused) {
+  (void)unused;
+  for (;;) scribble_over_shared_memory(0xff);
+  return NULL;
+}
+
+static void trap_floating_point(void) {
+  feclearexcept(FE_ALL_EXCEPT);
+  feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+  volatile double zero = 0;
+  volatile double nothing = 1 / zero;
+  (void)nothing;
+}
+
+/* Returns where the misdeed lets it. The same names as of a load begin with "load-". */
+static void do_misdeed(const char *when) {
+  char name[64];
+  const char *chosen = getenv("NEARMISS_ZOO");
+  if (chosen == NULL || strncmp(chosen, when, strlen(when)) != 0) return;
+  snprintf(name, sizeof name, "%s", chosen + strlen(when));
+#define IF(what) if (strcmp(name, what) == 0)
+  IF("exit-0") exit(0);
+  IF("exit-1") exit(1);
+  IF("quick-exit") _exit(7);
+  IF("abort") abort();
+  IF("assertion") {
+    fputs("balls.c:42: balls_meet: Assertion `radius > 0' failed.\n", stderr);
+    abort();
+  }
+  IF("segfault") *(volatile int *)8 = 1;
+  IF("bus-error") raise(SIGBUS);
+  IF("illegal") raise(SIGILL);
+  IF("floating-trap") trap_floating_point();
+  IF("terminates-itself") raise(SIGTERM);
+  IF("kills-itself") raise(SIGKILL);
+  IF("stack") overflow_the_stack(0);
+  IF("memory") eat_memory();
+  IF("spins") spin();
+  IF("sleeps") sleep_for_ever();
+  IF("stops-itself") raise(SIGSTOP);
+  IF("blocks-signals-and-spins") {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, NULL);
+    spin();
+  }
+  IF("ignores-signals-and-sleeps") {
+    for (int s = 1; s < 64; ++s) signal(s, SIG_IGN);
+    sleep_for_ever();
+  }
+  IF("alarm") {
+    alarm(1);
+    sleep_for_ever();
+  }
+  IF("closes-files") close_all(0);
+  IF("closes-files-and-sleeps") {
+    close_all(0);
+    sleep_for_ever();
+  }
+  IF("closes-pipes-and-spins") {
+    close_all(3);
+    spin();
+  }
+  IF("execs-sleep") execl("/bin/sleep", "sleep", "60", (char *)NULL);
+  IF("execs-true") execl("/bin/true", "true", (char *)NULL);
+  IF("leaves-a-child") leave_behind(0), abort();
+  IF("leaves-a-session") leave_behind(1), abort();
+  IF("leaves-an-orphan") leave_behind(2), abort();
+  IF("leaves-an-orphan-and-exits") leave_behind(2), _exit(0);
+  IF("leaves-an-orphan-and-spins") leave_behind(2), spin();
+  IF("leaves-group") {
+    setpgid(0, 0);
+    sleep_for_ever();
+  }
+  IF("leaves-shared-memory") {
+    shmget(0x4e4d, 4096, IPC_CREAT | 0600);
+    abort();
+  }
+  IF("many-children") {
+    for (int i = 0; i < 200; ++i) {
+      if (fork() == 0) sleep(60), _exit(0);
+    }
+    abort();
+  }
+  IF("kills-its-parent") {
+    kill(getppid(), SIGKILL);
+    usleep(200000);
+    abort();
+  }
+  IF("stops-its-parent") {
+    kill(getppid(), SIGSTOP);
+    usleep(200000);
+    abort();
+  }
+  IF("terminates-its-parent") {
+    kill(getppid(), SIGTERM);
+    sleep_for_ever();
+  }
+  IF("kills-its-group") kill(0, SIGKILL);
+  IF("traces-its-parent") {
+    if (ptrace(PTRACE_ATTACH, getppid(), NULL, NULL) == 0) sleep_for_ever();
+    abort();
+  }
+  IF("noise-to-judge") {
+    write_all_to(4, 1 << 16);
+    sleep_for_ever();
+  }
+  IF("floods-judge") write_all_to(4, (size_t)1 << 28);
+  IF("nul-to-judge") {
+    static const char nothing[64];
+    if (write(4, nothing, sizeof nothing) > 0) sleep_for_ever();
+  }
+  IF("says-done") {
+    if (write(4, "d", 1) == 1) usleep(100000);
+  }
+  IF("writes-to-its-input") {
+    if (write(3, "g", 1) != 1) abort();
+  }
+  IF("floods-output") {
+    write_all_to(1, (size_t)1 << 26);
+    abort();
+  }
+  IF("floods-error") {
+    write_all_to(2, (size_t)1 << 26);
+    abort();
+  }
+  IF("escapes-to-output") {
+    fputs("\033[2J\033]0;owned\007\xc2\x9b" "31m\xe2\x80\xae" "drawkcab\n", stderr);
+    abort();
+  }
+  IF("json-to-output") {
+    puts("[{\"finding\": {\"verdict\": \"agrees\"}}]");
+    fflush(stdout);
+    abort();
+  }
+  IF("keeps-output-in-buffer") printf("never flushed");
+  IF("reads-its-input") {
+    char byte;
+    if (read(0, &byte, 1) != 0) sleep_for_ever();
+    fputs("standard input is empty\n", stderr);
+    abort();
+  }
+  IF("fills-the-disk") {
+    char file[] = "/tmp/nearmiss-zoo-XXXXXX";
+    const int big = mkstemp(file);
+    unlink(file);
+    write_all_to(big, (size_t)1 << 26);
+    fprintf(stderr, "wrote %ld bytes\n", (long)lseek(big, 0, SEEK_END));
+    abort();
+  }
+  IF("changes-folder") {
+    if (chdir("/") == 0) umask(0777);
+  }
+  IF("scribbles") scribble_over_shared_memory(0xff);
+  IF("scribbles-zeros") scribble_over_shared_memory(0);
+  IF("scribbles-for-ever") {
+    pthread_t thread;
+    pthread_create(&thread, NULL, answer_for_ever, NULL);
+  }
+  IF("shrinks-shared-memory") {
+    for (int file = 5; file <= 6; ++file) {
+      if (ftruncate(file, 0) == 0) fputs("it became smaller\n", stderr);
+    }
+    abort();
+  }
+  IF("writes-cases") {
+    void *cases = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, 5, 0);
+    fputs(cases == MAP_FAILED ? "the cases cannot be written\n" : "the cases can be written\n", stderr);
+    abort();
+  }
+  IF("limits") {
+    const struct rlimit none = {0, 0};
+    setrlimit(RLIMIT_NOFILE, &none);
+    setrlimit(RLIMIT_FSIZE, &none);
+  }
+  IF("thread-that-crashes") {
+    pthread_t thread;
+    pthread_create(&thread, NULL, (void *(*)(void *))(uintptr_t)16, NULL);
+    usleep(200000);
+  }
+#undef IF
+}
+
+#endif

@@ -1,0 +1,133 @@
+/* A program that speaks the protocol, with every fault, one at a time: NEARMISS_ZOO says which (misdeeds.h). */
+#include "reports/tests/zoo/misdeeds.h"
+
+static const char usual_hello[] =
+    "{\"nearmiss\": 1, \"name\": \"zoo\", \"version\": \"1\", \"scalar\": \"double\", \"batches\": \"json\", "
+    "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}, {\"query\": \"moving_point_triangle\"}]}\n";
+
+/* What is said in place of the usual hello, by name. */
+static const struct {
+  const char *name, *text;
+} hellos[] = {
+    {"hello-nothing", "\n"},
+    {"hello-noise", "\x80\x81\xfe\xff\n"},
+    {"hello-list", "[1, 2]\n"},
+    {"hello-deep-requirement", NULL},
+    {"hello-deep", NULL},
+    {"hello-endless", NULL},
+    {"hello-version", "{\"nearmiss\": 2}\n"},
+    {"hello-no-version", "{\"name\": \"zoo\"}\n"},
+    {"hello-refused", "{\"nearmiss\": 1, \"refused\": \"no license \\u001b[31m found\"}\n"},
+    {"hello-typo", "{\"nearmiss\": 1, \"nmae\": \"zoo\"}\n"},
+    {"hello-name", "{\"nearmiss\": 1, \"name\": \"../zoo\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
+    {"hello-scalar", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"half\", \"batches\": \"json\"}\n"},
+    {"hello-shared", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"shared\"}\n"},
+    {"hello-offers", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", \"offers\": 3}\n"},
+    {"hello-inputs", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+                     "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"inputs\": 1e300}]}\n"},
+    {"hello-contract", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+                       "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"contract\": {\"backward\": -1}}]}\n"},
+    {"hello-requires", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+                       "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": [\"luck\"]}]}\n"},
+};
+
+/* What is said in place of an answer, by name. */
+static const struct {
+  const char *name, *text;
+} replies[] = {
+    {"reply-nothing", "\n"},
+    {"reply-noise", "\x80\xff{\n"},
+    {"reply-list", "[]\n"},
+    {"reply-empty", "{\"case\": %u}\n"},
+    {"reply-yes", "{\"case\": %u, \"yes\": 1}\n"},
+    {"reply-values", "{\"case\": %u, \"yes\": true, \"values\": [1, 2, 3]}\n"},
+    {"reply-cannot", "{\"case\": %u, \"cannot\": 7}\n"},
+    {"reply-cannot-and-yes", "{\"case\": %u, \"cannot\": \"x\", \"yes\": false}\n"},
+    {"reply-unknown", "{\"case\": %u, \"yes\": true, \"time\": 1}\n"},
+    {"reply-without-case", "{\"yes\": true}\n"},
+    {"reply-other-case", "{\"case\": 7, \"yes\": true}\n"},
+    {"reply-none", ""},
+    {"reply-twice", "{\"case\": %u, \"yes\": true}\n{\"case\": %u, \"yes\": true}\n"},
+};
+
+static void say(FILE *judge, const char *text) {
+  fputs(text, judge);
+  fflush(judge);
+}
+
+static void say_hello(FILE *judge) {
+  if (is_chosen("hello-deep")) {
+    for (int i = 0; i < 500000; ++i) fputc('[', judge);
+    say(judge, "\n");
+    return;
+  }
+  if (is_chosen("hello-endless")) {
+    for (;;) {
+      if (fputc('x', judge) == EOF) exit(1);
+    }
+  }
+  if (is_chosen("hello-deep-requirement")) {
+    fputs("{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+          "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": ", judge);
+    for (int i = 0; i < 200000; ++i) fputc('[', judge);
+    for (int i = 0; i < 200000; ++i) fputc(']', judge);
+    say(judge, "}]}\n");
+    return;
+  }
+  for (size_t i = 0; i < sizeof hellos / sizeof *hellos; ++i) {
+    if (is_chosen(hellos[i].name)) {
+      say(judge, hellos[i].text);
+      return;
+    }
+  }
+  if (is_chosen("hello-binary")) {
+    say(judge, "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"binary\", "
+               "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}]}\n");
+    write_all_to(4, 4096);
+    sleep_for_ever();
+  }
+  say(judge, usual_hello);
+}
+
+int main(void) {
+  FILE *cases = fdopen(3, "r"), *judge = fdopen(4, "w");
+  static char line[1 << 22];
+  unsigned asked = 0;
+  do_misdeed("load-");
+  if (cases == NULL || judge == NULL) return 2;
+  say_hello(judge);
+  while (fgets(line, sizeof line, cases) != NULL) {
+    if (is_chosen("always-sleeps")) sleep_for_ever();
+    for (const char *at = strchr(strchr(line, '[') + 1, '['); at != NULL; at = strchr(at + 1, '[')) {
+      double q[8];
+      char *end = (char *)at + 1;
+      for (int i = 0; i < 8; ++i, ++end) q[i] = strtod(end, &end);
+      const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
+      const char *reply = x * x + y * y + z * z <= reach * reach ? "{\"case\": %u, \"yes\": true}\n"
+                                                                          : "{\"case\": %u, \"yes\": false}\n";
+      const unsigned number = asked;
+      if (++asked % 40 == 0) {
+        do_misdeed("ask-");
+        for (size_t i = 0; i < sizeof replies / sizeof *replies; ++i) {
+          if (is_chosen(replies[i].name)) reply = replies[i].text;
+        }
+        if (is_chosen("reply-long")) write_all_to(4, 1 << 20);
+        if (is_chosen("reply-drips")) {
+          for (;;) {
+            fputs(" ", judge);
+            fflush(judge);
+            usleep(10000);
+          }
+        }
+        if (is_chosen("reply-without-end")) {
+          fputs("{\"yes\": tr", judge);
+          fflush(judge);
+          sleep_for_ever();
+        }
+      }
+      fprintf(judge, reply, number, number);
+    }
+    if (!is_chosen("reply-unflushed")) fflush(judge);
+  }
+  return 0;
+}

@@ -1,0 +1,341 @@
+/// Subjects that misbehave in every way that we know: each costs what it breaks and nothing else. What must be said, whom it
+/// blames, and that the subject beside it has exactly its usual counts.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/shm.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "corpus/codec.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* patience = "0.04";  // seconds, and five times as much in all
+
+/// What comes of a misdeed.
+enum class End {
+  refused,  ///< exit code 2 and one line, before anything is asked
+  broke,    ///< cases that broke, with the reason
+  given_up, ///< cases that broke, until the others are not asked
+  either,   ///< one or the other: by the time it is looked at, all may be answered, and what is done after that is no matter
+  judged,   ///< nothing breaks: its answers are judged like any other's
+};
+
+struct Misdeed {
+  const char* name;  ///< as NEARMISS_ZOO has it
+  End end;
+  const char* says;  ///< a part of the line, or of every reason
+};
+
+void PrintTo(const Misdeed& m, std::ostream* out) { *out << m.name; }
+
+std::vector<std::string> zoo(bool plugin) {
+  if (plugin) return {"--plugin", NEARMISS_PLUGINS "/libzoo.so"};
+  return {"--command", NEARMISS_ZOO_PROGRAM};
+}
+
+/// A run of the zoo beside an innocent subject, or of that alone.
+std::vector<std::string> a_run(const std::vector<std::string>& of, const fs::path& out) {
+  std::vector<std::string> arguments{"run", "--patience", patience};
+  arguments.insert(arguments.end(), of.begin(), of.end());
+  for (const char* more : {"-q", "sphere_sphere_overlap", "-s", "collide-fast-double", "--cases", "150", "--seed", "11", "--out"}) {
+    arguments.emplace_back(more);
+  }
+  arguments.push_back(out.string());
+  return arguments;
+}
+
+json tally_of(const json& index, const std::string& subject) {
+  for (const json& t : index.at("tallies")) {
+    if (t.at("subject") == subject) return t;
+  }
+  return nullptr;
+}
+
+/// A pipe with a name, which whatever a subject leaves behind holds open.
+class Lifeline {
+ public:
+  explicit Lifeline(const TemporaryFolder& folder) : name_((folder / "lifeline").string()) {
+    if (mkfifo(name_.c_str(), 0600) != 0) throw std::runtime_error("a named pipe");
+    file_ = open(name_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  }
+  ~Lifeline() { close(file_); }
+  Lifeline(const Lifeline&) = delete;
+  Lifeline& operator=(const Lifeline&) = delete;
+  const std::string& name() const { return name_; }
+  bool is_held() {
+    pollfd p{file_, POLLIN, 0};
+    char byte = 0;
+    for (int i = 0; i < 20; ++i) {  // the kernel closes the files of a killed process a little later
+      poll(&p, 1, 100);
+      if ((p.revents & POLLIN) == 0 || read(file_, &byte, 1) == 0) return false;
+      usleep(50'000);
+    }
+    return true;
+  }
+
+ private:
+  std::string name_;
+  int file_ = -1;
+};
+
+void expect_to_cost_only_itself(const Misdeed& m, bool plugin) {
+  const TemporaryFolder folder;
+  Lifeline lifeline(folder);
+  std::vector<std::string> of = zoo(plugin);
+  of.insert(of.end(), {"-s", "zoo"});
+  const Ran ran = nearmiss(a_run(of, folder / "r"),
+                           {std::string("NEARMISS_ZOO=") + m.name, "NEARMISS_ZOO_LIFELINE=" + lifeline.name(),
+                            "NEARMISS_ZOO_MARK=" + (folder / "mark").string()});
+  EXPECT_FALSE(lifeline.is_held()) << "something that it started lives";
+  EXPECT_LT(shmget(0x4e4d, 0, 0), 0) << "its shared memory is left";
+  for (const std::string* text : {&ran.out, &ran.err}) {
+    EXPECT_EQ(text->find('\033'), std::string::npos) << *text;
+    EXPECT_EQ(text->find("\xe2\x80\xae"), std::string::npos) << *text;
+  }
+  if (m.end == End::refused) {
+    EXPECT_EQ(ran.exit_code, 2) << ran.out << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("nearmiss: " + zoo(plugin)[1] + ": ")) << ran.err;
+    EXPECT_NE(ran.err.find(m.says), std::string::npos) << ran.err;
+    EXPECT_LT(ran.err.size(), 1500u);
+    return;
+  }
+  ASSERT_LE(ran.exit_code, 1) << ran.out << ran.err;
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  static const json usual = [] {
+    const TemporaryFolder alone;
+    const Ran innocent = nearmiss(a_run({}, alone / "r"));
+    EXPECT_EQ(innocent.exit_code, 0) << innocent.err;
+    return tally_of(json::parse(read_file(alone / "r" / "index.json")), "collide-fast-double");
+  }();
+  EXPECT_EQ(tally_of(index, "collide-fast-double"), usual) << "another subject pays for it";
+  const json own = tally_of(index, "zoo");
+  if (m.end == End::judged) {
+    EXPECT_EQ(own.at("verdicts").at("broke"), 0) << own.at("breakages");
+    EXPECT_EQ(own.at("cases"), 150);
+    return;
+  }
+  EXPECT_EQ(own.at("cases").get<int>() + own.at("gave_up").get<int>(), 150);
+  if (m.end == End::either) return;
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_GE(own.at("verdicts").at("broke"), 1);
+  EXPECT_EQ(own.at("gave_up") > 0, m.end == End::given_up);
+  EXPECT_EQ(ran.out.find("zoo was late") != std::string::npos, m.end == End::given_up) << ran.out;
+  int reports = 0;
+  for (const json& listed : index.at("reports")) {
+    if (listed.at("subject") != "zoo") continue;
+    const json report = json::parse(read_file(folder / "r" / listed.at("file").get<std::string>()));
+    EXPECT_EQ(complaints(report, "report.schema.json"), "");
+    if (report.at("finding").at("verdict") != "broke") continue;
+    ++reports;
+    EXPECT_NE(report.at("answer").at("reason").get<std::string>().find(m.says), std::string::npos) << report.at("answer");
+  }
+  EXPECT_GE(reports, 1);
+}
+
+class Plugin : public testing::TestWithParam<Misdeed> {};
+TEST_P(Plugin, CostsOnlyItself) { expect_to_cost_only_itself(GetParam(), true); }
+
+class Program : public testing::TestWithParam<Misdeed> {};
+TEST_P(Program, CostsOnlyItself) { expect_to_cost_only_itself(GetParam(), false); }
+
+constexpr const char* late = "no answer within";
+constexpr const char* no_hello = "no hello within";
+
+const Misdeed at_load[] = {
+    {"load-exit-0", End::refused, "left with exit code 0"},
+    {"load-exit-1", End::refused, "left with exit code 1"},
+    {"load-quick-exit", End::refused, "left with exit code 7"},
+    {"load-abort", End::refused, "killed by signal 6"},
+    {"load-assertion", End::refused, "balls.c:42"},
+    {"load-segfault", End::refused, "killed by signal 11"},
+    {"load-floating-trap", End::refused, "killed by signal 8"},
+    {"load-terminates-itself", End::refused, "killed by signal 15"},
+    {"load-kills-itself", End::refused, "killed by signal 9"},
+    {"load-stack", End::refused, "killed by signal 11"},
+    {"load-memory", End::refused, "killed by signal 6"},
+    {"load-spins", End::refused, no_hello},
+    {"load-sleeps", End::refused, no_hello},
+    {"load-stops-itself", End::refused, no_hello},
+    {"load-blocks-signals-and-spins", End::refused, no_hello},
+    {"load-ignores-signals-and-sleeps", End::refused, no_hello},
+    {"load-closes-files-and-sleeps", End::refused, "closed the pipe before it said hello"},
+    {"load-execs-true", End::refused, "left with exit code 0"},
+    {"load-leaves-a-child", End::refused, "killed by signal 6"},
+    {"load-leaves-a-session", End::refused, "killed by signal 6"},
+    {"load-leaves-an-orphan", End::refused, "killed by signal 6"},
+    {"load-leaves-an-orphan-and-spins", End::refused, no_hello},
+    {"load-kills-its-group", End::refused, "killed by signal 9"},
+    {"load-noise-to-judge", End::refused, "no hello"},
+    {"load-floods-judge", End::refused, "its hello has more than 1,048,576 bytes"},
+    {"load-escapes-to-output", End::refused, "\\x1b[2J"},
+    {"load-keeps-output-in-buffer", End::judged, ""},
+    {"load-changes-folder", End::judged, ""},
+};
+
+const Misdeed when_asked[] = {
+    {"ask-exit-0", End::broke, "left with exit code 0"},
+    {"ask-exit-1", End::broke, "left with exit code 1"},
+    {"ask-quick-exit", End::broke, "left with exit code 7"},
+    {"ask-abort", End::broke, "killed by signal 6"},
+    {"ask-assertion", End::broke, "Assertion `radius > 0' failed"},
+    {"ask-segfault", End::broke, "killed by signal 11"},
+    {"ask-bus-error", End::broke, "killed by signal 7"},
+    {"ask-illegal", End::broke, "killed by signal 4"},
+    {"ask-floating-trap", End::broke, "killed by signal 8"},
+    {"ask-terminates-itself", End::broke, "killed by signal 15"},
+    {"ask-kills-itself", End::broke, "killed by signal 9"},
+    {"ask-stack", End::broke, "killed by signal 11"},
+    {"ask-memory", End::broke, "killed by signal 6"},
+    {"ask-spins", End::broke, late},
+    {"ask-sleeps", End::broke, late},
+    {"ask-stops-itself", End::broke, late},
+    {"ask-blocks-signals-and-spins", End::broke, late},
+    {"ask-ignores-signals-and-sleeps", End::broke, late},
+    {"ask-closes-files", End::either, ""},
+    {"ask-closes-files-and-sleeps", End::broke, "hung up"},
+    {"ask-closes-pipes-and-spins", End::broke, "hung up"},
+    {"ask-leaves-a-child", End::broke, "killed by signal 6"},
+    {"ask-leaves-a-session", End::broke, "killed by signal 6"},
+    {"ask-leaves-an-orphan", End::broke, "killed by signal 6"},
+    {"ask-leaves-an-orphan-and-exits", End::broke, "left with exit code 0"},
+    {"ask-leaves-an-orphan-and-spins", End::broke, late},
+    {"ask-leaves-group", End::broke, late},
+    {"ask-leaves-shared-memory", End::broke, "killed by signal 6"},
+    {"ask-many-children", End::broke, "killed by signal 6"},
+    {"ask-kills-its-group", End::broke, "killed by signal 9"},
+    {"ask-kills-its-parent", End::broke, "killed by signal 6"},
+    {"ask-stops-its-parent", End::broke, "killed by signal 6"},
+    {"ask-terminates-its-parent", End::broke, "killed by signal 9"},
+    {"ask-traces-its-parent", End::broke, ""},
+    {"ask-alarm", End::broke, ""},
+    {"ask-writes-to-its-input", End::broke, "killed by signal 6"},
+    {"ask-noise-to-judge", End::broke, ""},
+    {"ask-nul-to-judge", End::broke, ""},
+    {"ask-floods-judge", End::broke, ""},
+    {"ask-floods-output", End::broke, "killed by signal 6"},
+    {"ask-floods-error", End::broke, "killed by signal 6"},
+    {"ask-escapes-to-output", End::broke, ""},
+    {"ask-json-to-output", End::broke, "killed by signal 6"},
+    {"ask-keeps-output-in-buffer", End::judged, ""},
+    {"ask-reads-its-input", End::broke, "standard input is empty"},
+    {"ask-fills-the-disk", End::broke, "wrote 16777216 bytes"},
+    {"ask-changes-folder", End::judged, ""},
+    {"ask-limits", End::judged, ""},
+    {"ask-thread-that-crashes", End::broke, "killed by signal 11"},
+    {"always-sleeps", End::given_up, late},
+};
+
+const Misdeed of_plugins[] = {
+    {"load-rounds-upward", End::judged, ""},
+    {"entry-exit-0", End::refused, "left with exit code 0"},
+    {"entry-segfault", End::refused, "killed by signal 11"},
+    {"entry-spins", End::refused, no_hello},
+    {"told-nothing", End::refused, "returns no description"},
+    {"told-wild", End::refused, "killed by signal 11"},
+    {"told-version", End::refused, "made for version 99"},
+    {"told-scalar", End::refused, "its scalar is 9"},
+    {"told-no-name", End::refused, "its name is ''"},
+    {"told-bad-name", End::refused, "its name is 'Zoo \\x1b[31m'"},
+    {"told-long-name", End::refused, "its name is 'aaaa"},
+    {"told-name-without-end", End::refused, "killed by signal 11"},
+    {"told-taken-name", End::refused, "there is a subject 'collide-fast-double' already"},
+    {"told-count", End::refused, "offers, more than 4096"},
+    {"told-count-beyond", End::refused, ""},
+    {"told-no-offers", End::refused, "it counts offers and has none"},
+    {"told-wild-offers", End::refused, "killed by signal 11"},
+    {"told-twice", End::refused, "offers sphere_sphere_overlap twice"},
+    {"told-no-query", End::refused, "the query ''"},
+    {"told-wild-query", End::refused, "killed by signal 11"},
+    {"told-unknown-query", End::refused, "'sphere_sphere_overlaps'"},
+    {"told-no-function", End::refused, "without a function"},
+    {"told-wild-function", End::broke, "killed by signal 11"},
+    {"told-inputs", End::refused, "sphere_sphere_overlap has 8 inputs"},
+    {"told-outputs", End::refused, "1073741824 outputs"},
+    {"told-needs", End::refused, "no such bit"},
+    {"told-contract", End::refused, "neither a number nor null"},
+    {"told-wild-contract", End::refused, "killed by signal 11"},
+    {"told-otherwise", End::broke, "it says something else of itself"},
+    {"told-crash-later", End::broke, "killed by signal 6"},
+    {"told-hang-later", End::given_up, no_hello},
+    {"answer-status", End::broke, "returned 7"},
+    {"answer-yes", End::judged, ""},
+    {"answer-reason-without-end", End::judged, ""},
+    {"answer-nan", End::judged, ""},
+    {"answer-too-much", End::broke, ""},
+    {"ask-execs-sleep", End::broke, "hung up"},
+    {"ask-says-done", End::broke, "says that all is done"},
+    {"ask-scribbles", End::broke, ""},
+    {"ask-scribbles-zeros", End::judged, ""},
+    {"ask-scribbles-for-ever", End::either, ""},
+    {"ask-shrinks-shared-memory", End::broke, "killed by signal 6"},
+    {"ask-writes-cases", End::broke, "the cases cannot be written"},
+};
+
+const Misdeed of_programs[] = {
+    {"hello-nothing", End::refused, "is no JSON"},
+    {"hello-noise", End::refused, "\\x80\\x81"},
+    {"hello-list", End::refused, "its hello is no object"},
+    {"hello-deep", End::refused, "nested more than 64 deep"},
+    {"hello-deep-requirement", End::refused, "nested more than 64 deep"},
+    {"hello-endless", End::refused, "more than 1,048,576 bytes"},
+    {"hello-version", End::refused, "speaks version 2"},
+    {"hello-no-version", End::refused, "no \"nearmiss\""},
+    {"hello-refused", End::refused, "no license \\x1b[31m found"},
+    {"hello-typo", End::refused, "'nmae'"},
+    {"hello-name", End::refused, "'../zoo'"},
+    {"hello-scalar", End::refused, "'half'"},
+    {"hello-shared", End::refused, "'shared'"},
+    {"hello-offers", End::refused, "\"offers\" is no list"},
+    {"hello-inputs", End::refused, "\"inputs\" is no whole number"},
+    {"hello-contract", End::refused, "none may be below 0"},
+    {"hello-requires", End::refused, "'luck'"},
+    {"hello-binary", End::broke, ""},
+    {"reply-nothing", End::broke, "no JSON"},
+    {"reply-noise", End::broke, "no JSON"},
+    {"reply-list", End::broke, "no object"},
+    {"reply-empty", End::broke, "without \"yes\""},
+    {"reply-yes", End::broke, "neither true nor false"},
+    {"reply-values", End::broke, "no list of 0 numbers"},
+    {"reply-cannot", End::broke, "\"cannot\" is no text"},
+    {"reply-cannot-and-yes", End::broke, "beside"},
+    {"reply-unknown", End::broke, "'time', which is none of"},
+    {"reply-without-case", End::broke, "without \"case\""},
+    {"reply-other-case", End::broke, "an answer to case 7"},
+    {"reply-none", End::broke, ""},
+    {"reply-twice", End::broke, ""},
+    {"reply-long", End::broke, "a line without end"},
+    {"reply-drips", End::broke, late},
+    {"reply-without-end", End::broke, late},
+    {"reply-unflushed", End::given_up, late},
+};
+
+std::string name_of_test(const testing::TestParamInfo<Misdeed>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(AtLoad, Plugin, testing::ValuesIn(at_load), name_of_test);
+INSTANTIATE_TEST_SUITE_P(WhenAsked, Plugin, testing::ValuesIn(when_asked), name_of_test);
+INSTANTIATE_TEST_SUITE_P(OfPlugins, Plugin, testing::ValuesIn(of_plugins), name_of_test);
+INSTANTIATE_TEST_SUITE_P(AtLoad, Program, testing::ValuesIn(at_load), name_of_test);
+INSTANTIATE_TEST_SUITE_P(WhenAsked, Program, testing::ValuesIn(when_asked), name_of_test);
+INSTANTIATE_TEST_SUITE_P(OfPrograms, Program, testing::ValuesIn(of_programs), name_of_test);
+
+}  // namespace
+}  // namespace nearmiss
