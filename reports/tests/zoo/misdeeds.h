@@ -67,7 +67,7 @@ static int overflow_the_stack(volatile int depth) {
 
 static void eat_memory(void) {
   for (size_t size = (size_t)1 << 24;;) {
-    char *more = malloc(size);
+    char *volatile more = malloc(size); /* a compiler may leave out memory that nobody looks at */
     if (more == NULL) abort();
     more[0] = 1;
   }
