@@ -178,7 +178,9 @@ int give_files(const Plan& plan) {
   const Confinement& c = plan.confinement;
   limit(RLIMIT_CORE, 0);
   if (c.file_bytes != Confinement::unlimited) limit(RLIMIT_FSIZE, c.file_bytes);
-  if (c.processes != Confinement::unlimited) limit(RLIMIT_NPROC, std::min(plan.processes + c.processes, most_processes_of_a_host()));
+  if (c.processes != Confinement::unlimited) {
+    limit(RLIMIT_NPROC, std::min(plan.processes + c.processes, most_processes_of_a_host()));
+  }
   if (c.files != Confinement::unlimited) limit(RLIMIT_NOFILE, c.files);
   const bool is_program = !plan.program.body;
   if (c.bytes != Confinement::unlimited && !shadow_memory) limit(RLIMIT_DATA, (is_program ? 0 : plan.memory) + c.bytes);
@@ -367,10 +369,6 @@ std::string Kept::how_it_ended() const {
   const int status = *wait_status_;
   if (!WIFSIGNALED(status)) return "left with exit code " + std::to_string(WEXITSTATUS(status));
   return "killed by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
-}
-
-bool Kept::was_killed_by(int signal) const {
-  return wait_status_ && WIFSIGNALED(*wait_status_) && WTERMSIG(*wait_status_) == signal;
 }
 
 std::optional<int> Kept::exit_code() const {

@@ -53,7 +53,6 @@ class Kept {
   bool has_ended(int milliseconds = 0);
   /// How, in one line for people: "left with exit code 3", "killed by signal 11 (Segmentation fault)".
   std::string how_it_ended() const;
-  bool was_killed_by(int signal) const;
   std::optional<int> exit_code() const;
   /// Where it could not be started: why, as errno.
   int failed_to_start() const { return failed_to_start_; }

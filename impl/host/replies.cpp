@@ -54,7 +54,8 @@ std::optional<double> number_in(const Json& j) {
 }
 
 std::string another_case(std::uint64_t named, std::uint32_t number) {
-  return std::string("an answer to case ").append(std::to_string(named)).append(" where one to case ").append(std::to_string(number)) + " is due";
+  const std::string due = std::to_string(number);
+  return std::string("an answer to case ").append(std::to_string(named)) + " where one to case " + due + " is due";
 }
 
 std::string neither_0_nor_1(const char* which, int byte) {

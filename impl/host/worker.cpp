@@ -201,7 +201,9 @@ void Worker::wait_for_the_system(int error) {
   const Clock::time_point now = Clock::now();
   if (!refused_since_) refused_since_ = now;
   const bool may_pass = error != EMFILE;  // which is of this process alone
-  if (!may_pass || now - *refused_since_ > 3s || !goes_on()) throw std::system_error(error, std::generic_category(), "a process for a host");
+  if (!may_pass || now - *refused_since_ > 3s || !goes_on()) {
+    throw std::system_error(error, std::generic_category(), "a process for a host");
+  }
   std::this_thread::sleep_for(50ms);
 }
 

@@ -26,7 +26,8 @@ enum { NEARMISS_ANSWERED = 0, NEARMISS_CANNOT_ANSWER = 1 };
 #define NEARMISS_MAX_VALUES 40
 
 typedef struct nearmiss_answer {
-  int yes;                            /* hit, overlap, inside; for depths: touching or overlapping */
+  int yes;                            /* hit, overlap, inside; for depths: touching or overlapping. Ignored where
+                                       * the query has no yes or no */
   uint64_t given;                     /* bit i: values[i] is part of the answer; all bits are set at the call */
   double values[NEARMISS_MAX_VALUES]; /* in the order of the query's outputs; zero at the call. A miss: time is INFINITY */
   char why[200];                      /* of NEARMISS_CANNOT_ANSWER: the reason, for people */

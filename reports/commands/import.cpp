@@ -43,7 +43,8 @@ std::string word(bool collides) { return collides ? "collides" : "does not colli
 /// One subject's answers, compared with the benchmark's truth.
 struct Score {
   const Subject* subject = nullptr;
-  std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0, late = 0, gave_up = 0;
+  std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
+  std::uint64_t late = 0, gave_up = 0;  ///< of those that broke; not asked any more
   std::vector<std::string> wrong;  ///< one line each
   std::uint64_t asked() const { return right + false_hits + false_misses + cannot_answer + broke; }
 };

@@ -22,21 +22,6 @@ using nlohmann::json;
 /// Seconds. What is promised is one; a machine that runs other tests beside this one gets more.
 constexpr double soon = 4, long_enough = 60;
 
-/// A variable by which all processes that a command started are found.
-std::string new_mark() {
-  static int count = 0;
-  return "NEARMISS_TEST_MARK=" + std::to_string(getpid()) + "-" + std::to_string(++count);
-}
-
-/// Whether all have ended, after a while: the system ends a namespace's processes one after the other.
-bool nothing_is_left(const std::string& mark) {
-  for (int i = 0; i < 100; ++i) {
-    if (processes_with(mark).empty()) return true;
-    usleep(50'000);
-  }
-  return false;
-}
-
 struct Command {
   const char* name;
   std::vector<std::string> arguments;

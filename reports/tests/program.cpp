@@ -79,17 +79,30 @@ std::optional<Ran> Started::wait(double seconds) {
   return Ran{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(*folder_ / "out"), read_file(*folder_ / "err")};
 }
 
-std::vector<int> processes_with(const std::string& in_environment) {
+std::string new_mark() {
+  static int count = 0;
+  return fmt::format("NEARMISS_TEST_MARK={}-{}", getpid(), ++count);
+}
+
+std::vector<int> processes_with(const std::string& mark) {
   std::vector<int> found;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const int process = std::atoi(entry.path().filename().c_str());
     if (process <= 0) continue;
     std::ifstream file(entry.path() / "environ", std::ios::binary);
     for (std::string variable; std::getline(file, variable, '\0');) {
-      if (variable == in_environment) found.push_back(process);
+      if (variable == mark) found.push_back(process);
     }
   }
   return found;
+}
+
+bool nothing_is_left(const std::string& mark) {
+  for (int i = 0; i < 100; ++i) {
+    if (processes_with(mark).empty()) return true;
+    usleep(50'000);
+  }
+  return false;
 }
 
 std::string last_line(const std::string& text) {

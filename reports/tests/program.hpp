@@ -36,8 +36,11 @@ class Started {
   int process_ = -1;
 };
 
-/// Processes that have this, "NAME=value", in their environment: those that a program started with it, and all that they did.
-std::vector<int> processes_with(const std::string& in_environment);
+/// A variable for a program's environment, "NAME=value", by which the program and all that it starts are found.
+std::string new_mark();
+std::vector<int> processes_with(const std::string& mark);
+/// Whether all of them have ended, after a while: the system ends a namespace's processes one after the other.
+bool nothing_is_left(const std::string& mark);
 
 std::string last_line(const std::string& text);
 

@@ -1,11 +1,7 @@
 /// Subjects that misbehave in every way that we know: each costs what it breaks and nothing else. What must be said, whom it
 /// blames, and that the subject beside it has exactly its usual counts.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <sys/shm.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -63,42 +59,14 @@ json tally_of(const json& index, const std::string& subject) {
   return nullptr;
 }
 
-/// A pipe with a name, which whatever a subject leaves behind holds open.
-class Lifeline {
- public:
-  explicit Lifeline(const TemporaryFolder& folder) : name_((folder / "lifeline").string()) {
-    if (mkfifo(name_.c_str(), 0600) != 0) throw std::runtime_error("a named pipe");
-    file_ = open(name_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  }
-  ~Lifeline() { close(file_); }
-  Lifeline(const Lifeline&) = delete;
-  Lifeline& operator=(const Lifeline&) = delete;
-  const std::string& name() const { return name_; }
-  bool is_held() {
-    pollfd p{file_, POLLIN, 0};
-    char byte = 0;
-    for (int i = 0; i < 20; ++i) {  // the kernel closes the files of a killed process a little later
-      poll(&p, 1, 100);
-      if ((p.revents & POLLIN) == 0 || read(file_, &byte, 1) == 0) return false;
-      usleep(50'000);
-    }
-    return true;
-  }
-
- private:
-  std::string name_;
-  int file_ = -1;
-};
-
 void expect_to_cost_only_itself(const Misdeed& m, bool plugin) {
   const TemporaryFolder folder;
-  Lifeline lifeline(folder);
+  const std::string mark = new_mark();
   std::vector<std::string> of = zoo(plugin);
   of.insert(of.end(), {"-s", "zoo"});
   const Ran ran = nearmiss(a_run(of, folder / "r"),
-                           {std::string("NEARMISS_ZOO=") + m.name, "NEARMISS_ZOO_LIFELINE=" + lifeline.name(),
-                            "NEARMISS_ZOO_MARK=" + (folder / "mark").string()});
-  EXPECT_FALSE(lifeline.is_held()) << "something that it started lives";
+                           {std::string("NEARMISS_ZOO=") + m.name, mark, "NEARMISS_ZOO_MARK=" + (folder / "mark").string()});
+  EXPECT_TRUE(nothing_is_left(mark)) << "something that it started lives";
   EXPECT_LT(shmget(0x4e4d, 0, 0), 0) << "its shared memory is left";
   for (const std::string* text : {&ran.out, &ran.err}) {
     EXPECT_EQ(text->find('\033'), std::string::npos) << *text;
