@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cfenv>
+#include <chrono>
 #include <cmath>
 #include <thread>
 
@@ -157,10 +158,11 @@ TEST_P(AnyModes, EveryQueryIsJudgedTheSame) {
   EXPECT_GT(subnormal, 500);
 }
 
-/// A process that is asked begins with the standard ones.
+/// A process that is asked begins with the standard ones, and the process that asks measures in them how long it waits.
 TEST_P(AnyModes, AWorkerHasTheStandardOnes) {
   Worker worker;
   const AnswerFunction tells_its_modes = [](std::span<const double>) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // so long that it is asked how late the answer is
     Answer a;
     a.yes = FloatingPointModes::current() == FloatingPointModes::standard();
     return a;

@@ -283,6 +283,7 @@ void Worker::begin() {
 }
 
 std::string Worker::hello() {
+  const FloatingPointScope standard;
   if (!child_) spawn();
   const std::string line = first_line();
   end();
@@ -290,6 +291,7 @@ std::string Worker::hello() {
 }
 
 void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+  const FloatingPointScope standard;
   count_ = values.size() / inputs_per_case;
   got_ = 0;
   outputs_ = offering.outputs;
@@ -467,6 +469,7 @@ void Worker::adapt(Clock::duration took) {
 }
 
 std::span<const Answer> Worker::receive() {
+  const FloatingPointScope standard;
   for (std::size_t late = 0; got_ < count_ && late < most_late;) {
     if (cannot_start_) {
       const std::string why = std::string("it cannot be started again: ") + cannot_start_->what();
@@ -516,7 +519,10 @@ std::string_view Worker::output(std::size_t case_of_batch) const {
   return {};
 }
 
-double Worker::processor_seconds() const { return child_ ? child_->kept->processor_seconds() : 0; }
+double Worker::processor_seconds() const {
+  const FloatingPointScope standard;
+  return child_ ? child_->kept->processor_seconds() : 0;
+}
 
 std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
   std::vector<Answer> answers;
