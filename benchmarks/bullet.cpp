@@ -27,7 +27,7 @@
 
 #include "benchmarks/contender.hpp"
 #include "benchmarks/shapes_of.hpp"
-#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from oracles/catalogue.def
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
 namespace nearmiss::benchmarks {
 
@@ -394,8 +394,8 @@ void enter_query(const char* name) {
 
 void enter_bullet() {
   tell("Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100));
-#define NEARMISS_QUERY(query) enter_query<#query, collide::inputs::query<btScalar>>(#query);
-#include "oracles/catalogue.def"
+#define NEARMISS_QUERY(query) enter_query<#query, inputs::query<btScalar>>(#query);
+#include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
 }
 

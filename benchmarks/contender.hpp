@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/scenes.hpp"
-#include "impl/subject/answer.hpp"
+#include "impl/catalogue/answer.hpp"
 
 namespace nearmiss::benchmarks {
 

@@ -11,7 +11,7 @@
 
 #include "benchmarks/contender.hpp"
 #include "benchmarks/shapes_of.hpp"
-#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from oracles/catalogue.def
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
 namespace nearmiss::benchmarks {
 
@@ -185,8 +185,8 @@ void enter_query(const char* name) {
 
 void enter_fcl() {
   tell("FCL", FCL_VERSION);
-#define NEARMISS_QUERY(query) enter_query<#query, collide::inputs::query<double>>(#query);
-#include "oracles/catalogue.def"
+#define NEARMISS_QUERY(query) enter_query<#query, inputs::query<double>>(#query);
+#include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
 }
 

@@ -19,7 +19,7 @@
 
 #include "benchmarks/machine.hpp"
 #include "corpus/generator.hpp"
-#include "oracles/hosts.hpp"
+#include "impl/host/hosts.hpp"
 #include "oracles/judge.hpp"
 #include "reports/tally.hpp"
 #include "reports/text.hpp"

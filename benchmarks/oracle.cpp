@@ -22,6 +22,7 @@
 #include "corpus/generator.hpp"
 #include "corpus/raw_numbers.hpp"
 #include "impl/subject/subject.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss::benchmarks {
@@ -46,7 +47,7 @@ struct Pairing {
 
 bool decided_by_interval(const Case& c) {
   const std::vector<double> still(c.values.size(), 0.0);
-  return c.query->oracle.interval(c.values, still, Answer{}, c.scalar).decided();
+  return oracle_of(*c.query).interval(c.values, still, Answer{}, c.scalar).decided();
 }
 
 std::vector<Asked> plain_scenes(const Pairing& p) {

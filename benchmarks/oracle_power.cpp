@@ -17,6 +17,7 @@
 #include "corpus/families.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/lies.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -61,7 +62,7 @@ class Measured {
   /// Empty where the decision changes within the widening or some input in it breaks a rule.
   std::optional<std::pair<Hull, Hull>> enclosure_and_hull(Random& random) {
     const Query& query = *case_.query;
-    const Enclosure wide = query.oracle.interval(case_.values, widening_, about_, case_.scalar);
+    const Enclosure wide = oracle_of(query).interval(case_.values, widening_, about_, case_.scalar);
     if (!wide.decided()) return std::nullopt;
     const auto middle = answer_to(case_.values);
     if (!middle) return std::nullopt;
@@ -105,7 +106,7 @@ class Measured {
   }
   std::optional<Hull> answer_to(const std::vector<double>& values) const {
     if (case_.query->broken(values)) return std::nullopt;
-    const Enclosure e = case_.query->oracle.interval(values, still_, about_, case_.scalar);
+    const Enclosure e = oracle_of(*case_.query).interval(values, still_, about_, case_.scalar);
     if (!e.decided() || e.may_be_yes != about_.yes) return std::nullopt;
     return e.error;
   }

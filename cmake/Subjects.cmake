@@ -27,7 +27,7 @@ function(nearmiss_add_subject name header adapter)
   file(GENERATE OUTPUT ${source} CONTENT
 "// Written by CMake: ${name}.
 #include \"${header}\"
-#include \"oracles/bind.hpp\"
+#include \"impl/subject/bind.hpp\"
 namespace nearmiss {
 Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
 }
@@ -66,7 +66,7 @@ endfunction()
 
 # Writes the source `file` that lists the same subjects as programs of their own.
 function(nearmiss_write_hosts file)  # SUBJECT ...
-  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"oracles/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
+  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"impl/host/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
   foreach(s IN LISTS ARGN)
     get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_NAME)
     string(APPEND text "      {\"${name}\", \"$<TARGET_FILE:nearmiss_host_${s}>\"},\n")
@@ -115,6 +115,11 @@ function(nearmiss_finish_subjects)
   find_package(nlohmann_json REQUIRED)
   set(NEARMISS_HOSTS ${PROJECT_BINARY_DIR}/hosts)
   get_property(subjects GLOBAL PROPERTY NEARMISS_SUBJECTS)
+  find_package(fmt REQUIRED)
+  # What is asked.
+  add_library(nearmiss_catalogue STATIC ${PROJECT_SOURCE_DIR}/impl/catalogue/catalogue.cpp)
+  target_link_libraries(nearmiss_catalogue PUBLIC nearmiss_flags collide PRIVATE fmt::fmt)
+  target_include_directories(nearmiss_catalogue PUBLIC ${NEARMISS_GENERATED})
   # What a host is made of, apart from its subject.
   add_library(nearmiss_host STATIC ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp)
   target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nlohmann_json::nlohmann_json)
@@ -132,9 +137,10 @@ function(nearmiss_finish_subjects)
   nearmiss_write_subjects(${NEARMISS_GENERATED}/subjects/all.cpp ${in_process})
   nearmiss_write_hosts(${NEARMISS_GENERATED}/subjects/hosts.cpp ${subjects})
   add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp
-    ${PROJECT_SOURCE_DIR}/impl/host/keeper.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
+    ${PROJECT_SOURCE_DIR}/impl/host/hosts.cpp ${PROJECT_SOURCE_DIR}/impl/host/keeper.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
     ${PROJECT_SOURCE_DIR}/impl/host/worker.cpp ${PROJECT_SOURCE_DIR}/impl/subject/printable.cpp)
-  target_link_libraries(nearmiss_subjects PUBLIC nearmiss_flags collide nearmiss_host PRIVATE nlohmann_json::nlohmann_json)
+  target_link_libraries(nearmiss_subjects PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+  target_compile_definitions(nearmiss_subjects PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}")
   target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
   add_library(nearmiss_hosts OBJECT ${NEARMISS_GENERATED}/subjects/hosts.cpp)
   target_link_libraries(nearmiss_hosts PUBLIC nearmiss_flags collide)

@@ -436,8 +436,8 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
 
 std::string case_to_cpp(const Case& c) {
   return fmt::format(
-      "const collide::inputs::{}<{}> question{};\n"
-      "const auto answer = question.ask<collide::Fast>();\n",
+      "const nearmiss::inputs::{}<{}> question{};\n"
+      "const auto answer = nearmiss::adapters::ask_collide<collide::Fast>(question);\n",
       c.query->name, name_of(c.scalar), cpp_nested(c, 0, c.query->inputs.size(), 0));
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "impl/subject/precondition.hpp"
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

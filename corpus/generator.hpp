@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/bad_input.hpp"
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

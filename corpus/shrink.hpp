@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

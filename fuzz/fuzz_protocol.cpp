@@ -14,8 +14,8 @@
 #include "impl/host/replies.hpp"
 #include "impl/host/wire.hpp"
 #include "impl/subject/printable.hpp"
-#include "oracles/hosts.hpp"
-#include "oracles/query.hpp"
+#include "impl/host/hosts.hpp"
+#include "impl/catalogue/query.hpp"
 
 const char* const nearmiss::fuzzed_query = "protocol";
 

@@ -26,7 +26,7 @@
 #include "impl/subject/added.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/confirmed.hpp"
-#include "oracles/hosts.hpp"
+#include "impl/host/hosts.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {

@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "impl/subject/floating_point.hpp"
-#include "oracles/arithmetic.hpp"
-#include "oracles/outcomes.hpp"
+#include "oracles/exact/arithmetic.hpp"
+#include "oracles/exact/outcomes.hpp"
 
 #if defined(__FAST_MATH__) || defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "Nearmiss needs IEEE 754 arithmetic: compile without -ffast-math"

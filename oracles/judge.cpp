@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "impl/subject/floating_point.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -49,7 +50,7 @@ class Examination {
 
   Enclosure within(double k) const {
     widen(k);
-    return question_.query->oracle.interval(question_.values, widening_, answer_, question_.scalar);
+    return oracle_of(*question_.query).interval(question_.values, widening_, answer_, question_.scalar);
   }
   void widen(double k) const {
     widening_.resize(question_.values.size());
@@ -62,7 +63,7 @@ class Examination {
     }
   }
   Enclosure exactly(std::vector<Alternative>* list = nullptr) const {
-    return question_.query->oracle.exact(question_.values, answer_, question_.scalar, list);
+    return oracle_of(*question_.query).exact(question_.values, answer_, question_.scalar, list);
   }
   /// The highest rung at which no exact answer matches; empty when the lowest cannot exclude it.
   std::optional<Backward> backward() const {
@@ -103,7 +104,7 @@ class Examination {
   /// True where the place that number `worst` belongs to is proved to be off the surface of every input within k, by
   /// more than that many ulps.
   bool off_surface(int worst, double k, double ulps) const {
-    const Oracle& oracle = question_.query->oracle;
+    const Oracle& oracle = oracle_of(*question_.query);
     if (oracle.may_be_on_surface == nullptr || !answer_.yes) return false;
     widen(k);
     return !oracle.may_be_on_surface(question_.values, widening_, answer_, std::size_t(worst), ulps, question_.scalar);

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "impl/subject/standard.hpp"
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
+#include "oracles/exact/enclosure.hpp"
 
 namespace nearmiss {
 

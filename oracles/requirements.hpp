@@ -8,7 +8,7 @@
 
 #include "impl/subject/precondition.hpp"
 #include "impl/subject/subject.hpp"
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

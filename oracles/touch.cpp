@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -35,7 +36,7 @@ double largest_place_or_size(const Case& c) {
 /// The decision may differ for an input one rounding away: what no touch can do without.
 bool may_flip_next_door(const Case& c) {
   const std::vector<double> wide = widening(*c.query, c.values, c.scalar, 1);
-  return c.query->oracle.interval(c.values, wide, Answer{}, c.scalar).may_be_no;
+  return oracle_of(*c.query).interval(c.values, wide, Answer{}, c.scalar).may_be_no;
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ bool touches_exactly(const Case& question) {
   for (const auto& direction : directions) {
     for (const double sign : {1.0, -1.0}) {
       for (std::size_t i = 0; i < places.size(); ++i) by[places[i]] = sign * scale * direction[i % 3];
-      if (!query.oracle.exact_decision(question.values, by, far_below_rounding)) return true;
+      if (!oracle_of(query).exact_decision(question.values, by, far_below_rounding)) return true;
     }
   }
   return false;

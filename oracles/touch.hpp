@@ -1,7 +1,7 @@
 /// Is a contact an exact touch, which any motion apart, however small, undoes?
 #pragma once
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

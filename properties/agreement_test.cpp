@@ -1,6 +1,8 @@
 /// Each tier of `collide` keeps its contract, as far as the oracle can tell.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "corpus/generator.hpp"
 #include "properties/support.hpp"
 
@@ -27,6 +29,20 @@ TEST_P(EveryTier, PromisesSomethingAboutMostCases) {
     covered += examined(generate(*query, subject->scalar, 1, i), *subject).verdict != Verdict::out_of_domain;
   }
   EXPECT_GE(covered, cases * 8 / 10) << "of " << cases << " cases within the contract's domain";
+}
+
+/// What is rounded to float has to be a float when it arrives, whatever an optimizer thinks of the way there.
+TEST_P(EveryTier, AnswersInNumbersOfItsScalar) {
+  const auto [query, subject] = GetParam();
+  const Offering& offering = subject->offering(query->name);
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const Case c = generate(*query, subject->scalar, 1, i);
+    const Answer answer = offering.answer(c.values);
+    for (std::size_t k = 0; k < query->outputs.size(); ++k) {
+      const double x = answer.values[k];
+      ASSERT_TRUE(!std::isfinite(x) || representable(x, subject->scalar)) << query->outputs[k].name << ", case " << i;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Agreement, EveryTier, testing::ValuesIn(our_pairings()), testing::PrintToStringParamName());

@@ -127,9 +127,9 @@ TEST(CaseToCpp, GivesInputsThatCompileAndMeanTheSame) {
                0,
                {}};
   EXPECT_EQ(case_to_cpp(c),
-            "const collide::inputs::moving_point_sphere<float> question{.point = {1.0f, -0.0f, 0.1f}, "
+            "const nearmiss::inputs::moving_point_sphere<float> question{.point = {1.0f, -0.0f, 0.1f}, "
             ".velocity = {0.0f, 0.0f, -1.0f}, .sphere = {.center = {0.0f, 0.0f, 0.0f}, .radius = 2.0f}, "
-            ".solid = true};\nconst auto answer = question.ask<collide::Fast>();\n");
+            ".solid = true};\nconst auto answer = nearmiss::adapters::ask_collide<collide::Fast>(question);\n");
 }
 
 TEST(FieldsToJson, WritesNumbersThatJsonLacksAsWords) {

@@ -11,6 +11,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -30,7 +31,7 @@ bool is_yes(const char* query, const Values& values) {
 Bounds exact_value(const char* query, const Values& values, std::size_t number) {
   Answer about;
   about.yes = true;
-  return find_query(query)->oracle.exact(values, about, Scalar::float64, nullptr).error[number];
+  return oracle_of(*find_query(query)).exact(values, about, Scalar::float64, nullptr).error[number];
 }
 
 std::string written(const Query& query, const Values& values) {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss::derived {

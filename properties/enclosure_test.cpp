@@ -12,6 +12,7 @@
 #include "corpus/families.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/store.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -63,10 +64,10 @@ class Enclosures : public testing::TestWithParam<std::string> {
     const std::optional<Case> p = perturbed(c, wide, salt);
     if (!p) return 0;
     std::vector<Alternative> answers;
-    query().oracle.exact(p->values, Answer{}, c.scalar, &answers);
+    oracle_of(query()).exact(p->values, Answer{}, c.scalar, &answers);
     for (const Alternative& a : answers) {
       const Answer answer = rounded(query(), a);
-      const Enclosure e = query().oracle.interval(c.values, wide, answer, c.scalar);
+      const Enclosure e = oracle_of(query()).interval(c.values, wide, answer, c.scalar);
       EXPECT_TRUE(answer.yes ? e.may_be_yes : e.may_be_no) << "k = " << k << ", the decision: " << case_to_json(c).dump();
       EXPECT_TRUE(e.may_match) << "k = " << k << ": " << case_to_json(c).dump() << case_to_json(*p).dump();
     }
@@ -116,9 +117,9 @@ TEST_P(Enclosures, GrowWithTheWidening) {
   for (int i = 0; i < cases_per_query; ++i) {
     const Case c = generate(query(), Scalar::float64, 12, std::uint64_t(i));
     const Answer none{};
-    Enclosure before = query().oracle.interval(c.values, widening(query(), c.values, c.scalar, 0), none, c.scalar);
+    Enclosure before = oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, 0), none, c.scalar);
     for (const double k : {1.0, 0x1p4, 0x1p12, 0x1p30, 0x1p44}) {
-      const Enclosure e = query().oracle.interval(c.values, widening(query(), c.values, c.scalar, k), none, c.scalar);
+      const Enclosure e = oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, k), none, c.scalar);
       // After 0 * infinity and its like an enclosure is anything at all; a wider one may not meet them.
       const Enclosure narrower = std::exchange(before, e);
       if (narrower.error.back().low == -HUGE_VAL) continue;
@@ -145,7 +146,7 @@ TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
     const std::vector<double> still(c.values.size(), 0.0);
     for (const Alternative& a : truth_of(c).alternatives) {
       const Answer answer = rounded(query(), a);
-      const Enclosure e = query().oracle.exact(c.values, answer, Scalar::float64, nullptr);
+      const Enclosure e = oracle_of(query()).exact(c.values, answer, Scalar::float64, nullptr);
       // `answer` is off by up to one ulp, and of a continuum of right answers the one nearest to it is meant.
       ASSERT_LE(e.ulps, 2) << case_to_json(c).dump() << ", number " << e.worst;
       ++asked;
@@ -154,7 +155,7 @@ TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
         continue;
       }
       ASSERT_TRUE(e.may_match) << case_to_json(c).dump();
-      ASSERT_TRUE(query().oracle.interval(c.values, still, answer, Scalar::float64).may_match) << "case " << i;
+      ASSERT_TRUE(oracle_of(query()).interval(c.values, still, answer, Scalar::float64).may_match) << "case " << i;
     }
   }
   EXPECT_LE(off, asked / 100);

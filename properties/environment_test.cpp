@@ -12,6 +12,7 @@
 #include "impl/subject/subject.hpp"
 #include "impl/host/worker.hpp"
 #include "oracles/environment.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -102,7 +103,7 @@ struct Said {
   bool on_surface = false;
 };
 Said said(const Case& c, const Answer& answer, const collide::Contract& contract) {
-  const Oracle& oracle = c.query->oracle;
+  const Oracle& oracle = oracle_of(*c.query);
   Said s{judge(c, answer, contract, Detail::full), truth_of(c), {}, {}, widening(*c.query, c.values, c.scalar, 4), false};
   s.interval = oracle.interval(c.values, s.widening, answer, c.scalar);
   s.exact = oracle.exact(c.values, answer, c.scalar, nullptr);

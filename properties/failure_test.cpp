@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "impl/catalogue/queries/sphere_sphere_overlap.hpp"
 #include "impl/subject/adapter.hpp"
 #include "properties/support.hpp"
 #include "reports/related.hpp"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Takes spheres that are apart by less than a millimetre for touching ones.
 struct SlackAdapter {
-  static collide::Decision<double> answer(collide::inputs::sphere_sphere_overlap<double> q) {
+  static collide::Decision<double> answer(inputs::sphere_sphere_overlap<double> q) {
     q.sphere1.radius += 0.001;
     return collide::sphere_sphere_overlap<collide::Fast>(q.sphere1, q.sphere2);
   }
@@ -27,7 +28,7 @@ struct SlackAdapter {
 
 Subject broken_subject() {
   const auto answer = [](std::span<const double> values) {
-    return erase(SlackAdapter::answer(inputs_from<collide::inputs::sphere_sphere_overlap<double>>(values.data())));
+    return erase(SlackAdapter::answer(inputs_from<inputs::sphere_sphere_overlap<double>>(values.data())));
   };
   constexpr collide::Contract promise{.backward = 8, .lowest = -100, .highest = 100};
   return {"slack", "1", Scalar::float64, false, {{"sphere_sphere_overlap", Offer::answers, "", promise, answer}}};
@@ -72,7 +73,7 @@ void expect_told(const std::string& text, const fs::path& report) {
   const std::string replay = fmt::format("replay:  nearmiss replay {}\n", report.string());
   for (const std::string& part : {std::string("seed:    3, index "), std::string("--seed 3 --cases "), replay,
                                   std::string("\"query\": \"sphere_sphere_overlap\""),
-                                  std::string("collide::inputs::sphere_sphere_overlap<double>")}) {
+                                  std::string("nearmiss::inputs::sphere_sphere_overlap<double>")}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
   }
 }

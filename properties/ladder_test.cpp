@@ -7,6 +7,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -33,7 +34,7 @@ std::vector<Answer> answers_about(const Case& c) {
 }
 
 Enclosure at_rung(const Case& c, const Answer& about, int k) {
-  return c.query->oracle.interval(c.values, widening(*c.query, c.values, c.scalar, rung(k)), about, c.scalar);
+  return oracle_of(*c.query).interval(c.values, widening(*c.query, c.values, c.scalar, rung(k)), about, c.scalar);
 }
 
 /// Both enclose the same number, so they share at least one.
@@ -61,7 +62,7 @@ TEST_P(Oracles, ExcludeOnNoRungWhatTheExactStageFinds) {
     for (Scalar scalar : scalars) {
       const Case c = generate(query, scalar, stream, 0);
       for (const Answer& about : answers_about(c)) {
-        const Enclosure exact = query.oracle.exact(c.values, about, scalar, nullptr);
+        const Enclosure exact = oracle_of(query).exact(c.values, about, scalar, nullptr);
         for (int k = 0; k < rungs; ++k) {
           const std::string what = contradiction(query, at_rung(c, about, k), exact);
           if (!what.empty()) return fmt::format("rung {}: {}\n{}", k, what, case_to_json(c).dump(2));

@@ -5,7 +5,7 @@
 
 #include "corpus/generator.hpp"
 #include "corpus/store.hpp"
-#include "nearmiss/catalogue_inputs.hpp"
+#include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -19,15 +19,15 @@ using AnswerTo = Answer (*)(std::span<const double> inputs);
 
 template <template <class> class Inputs, class T>
 Answer answer_without_lanes(std::span<const double> inputs) {
-  return erase(inputs_from<Inputs<T>>(inputs.data()).template ask<WithoutLanes>());
+  return erase(adapters::ask_collide<WithoutLanes>(inputs_from<Inputs<T>>(inputs.data())));
 }
 
 /// A miss is the miss that the answer's type defines, number by number.
 template <template <class> class Inputs, class T>
 bool misses_emptily(std::span<const double> inputs) {
-  const auto answer = inputs_from<Inputs<T>>(inputs.data()).template ask<collide::Fast>();
+  const auto answer = adapters::ask_collide<collide::Fast>(inputs_from<Inputs<T>>(inputs.data()));
   using A = std::remove_cvref_t<decltype(answer)>;
-  if constexpr (A::kind == collide::Kind::impact) {
+  if constexpr (kind_of<A> == Kind::impact) {
     if constexpr (requires { answer.inside; }) {
       if (answer.inside) return true;  // tells the start, too
     }
@@ -77,10 +77,10 @@ TEST_P(FastInLanes, LeavesNothingInAMiss) {
 }
 
 #define NEARMISS_QUERY(name)                                                                                       \
-  Asked{#name, answer_without_lanes<collide::inputs::name, float>, answer_without_lanes<collide::inputs::name, double>, \
-        misses_emptily<collide::inputs::name, float>, misses_emptily<collide::inputs::name, double>},
+  Asked{#name, answer_without_lanes<inputs::name, float>, answer_without_lanes<inputs::name, double>, \
+        misses_emptily<inputs::name, float>, misses_emptily<inputs::name, double>},
 constexpr Asked every[] = {
-#include "oracles/catalogue.def"
+#include "impl/catalogue/catalogue.def"
 };
 #undef NEARMISS_QUERY
 

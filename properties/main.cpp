@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "oracles/hosts.hpp"
+#include "impl/host/hosts.hpp"
 
 int main(int argc, char** argv) try {
   constexpr int keep_what_is_set = 0;

@@ -10,6 +10,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -22,7 +23,7 @@ bool hits_within_one(const Case& c) {
   Answer at_one;
   at_one.yes = true;
   at_one.values[0] = 1;
-  const Enclosure exact = c.query->oracle.exact(c.values, at_one, c.scalar, nullptr);
+  const Enclosure exact = oracle_of(*c.query).exact(c.values, at_one, c.scalar, nullptr);
   const Bounds beyond_one = exact.error[0];
   if (!exact.may_be_yes) return false;
   EXPECT_TRUE(beyond_one.low > 0 || beyond_one.high <= 0) << "the sign of time - 1 is open: " << c.origin;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "properties/derivation.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss::derived {
@@ -41,8 +42,8 @@ Compared compare(const Query& query, int range, int cases) {
     std::copy(reference.values.begin(), reference.values.end(), about.values.begin());
     ++all.cases;
     all.hits += about.yes;
-    const Enclosure exact = query.oracle.exact(c.values, about, c.scalar, nullptr);
-    const Enclosure interval = query.oracle.interval(c.values, still, about, c.scalar);
+    const Enclosure exact = oracle_of(query).exact(c.values, about, c.scalar, nullptr);
+    const Enclosure interval = oracle_of(query).interval(c.values, still, about, c.scalar);
     const bool same = exact.may_be_yes == about.yes && exact.may_be_no != about.yes && exact.may_match;
     const bool enclosed = (about.yes ? interval.may_be_yes : interval.may_be_no) && interval.may_match;
     if (same && enclosed) continue;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "oracles/judge.hpp"
+#include "oracles/exact/oracle.hpp"
 
 namespace nearmiss {
 namespace {
@@ -410,7 +411,7 @@ std::ostream& operator<<(std::ostream& out, const Word& w) {
   return out << (w.yes ? "yes, " : "no, ") << (w.matches ? "right, " : "wrong, ") << w.ulps << " ulps";
 }
 Word word_on(const Asked& a) {
-  const Enclosure e = a.question.query->oracle.exact(a.question.values, a.answer, a.question.scalar, nullptr);
+  const Enclosure e = oracle_of(*a.question.query).exact(a.question.values, a.answer, a.question.scalar, nullptr);
   constexpr double far_off = 0x1p50;
   return {e.may_be_yes, e.may_match, e.may_match && e.ulps <= 1 ? 0 : std::min(e.ulps, far_off)};
 }

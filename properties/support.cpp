@@ -12,6 +12,7 @@
 #include "corpus/shrink.hpp"
 #include "impl/subject/added.hpp"
 #include "oracles/confirmed.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/pretty_json.hpp"
 #include "reports/related.hpp"
@@ -168,7 +169,7 @@ std::string failure_of_relations(const Query& query, const Subject& subject, std
 bool truth_is_yes(const Case& question) {
   const Answer none{};
   const std::vector<double> still(question.values.size(), 0.0);
-  const Oracle& oracle = question.query->oracle;
+  const Oracle& oracle = oracle_of(*question.query);
   Enclosure e = oracle.interval(question.values, still, none, question.scalar);
   if (!e.decided()) e = oracle.exact(question.values, none, question.scalar, nullptr);
   return e.may_be_yes;

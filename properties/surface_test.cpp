@@ -8,6 +8,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -161,7 +162,7 @@ TEST(Surfaces, AreNamedByEveryQueryThatAnswersWithAPlace) {
   std::set<std::string_view> by_hand;
   for (const Placed& p : placed) by_hand.insert(p.query);
   for (const Query& query : catalogue()) {
-    EXPECT_EQ(query.oracle.may_be_on_surface != nullptr, answers_with_a_place(query)) << query.name;
+    EXPECT_EQ(oracle_of(query).may_be_on_surface != nullptr, answers_with_a_place(query)) << query.name;
     EXPECT_EQ(by_hand.contains(query.name), answers_with_a_place(query)) << query.name;
   }
 }
@@ -201,7 +202,7 @@ class OnSurface : public testing::TestWithParam<NamedQuery> {
   /// Every right yes, rounded.
   static std::vector<Answer> right_answers(const Case& c) {
     std::vector<Alternative> list;
-    (void)c.query->oracle.exact(c.values, Answer{}, c.scalar, &list);
+    (void)oracle_of(*c.query).exact(c.values, Answer{}, c.scalar, &list);
     std::vector<Answer> answers;
     for (const Alternative& a : list) {
       Answer answer;
@@ -212,7 +213,7 @@ class OnSurface : public testing::TestWithParam<NamedQuery> {
     return answers;
   }
   bool may_be(const Case& c, std::span<const double> wide, const Answer& a, std::size_t place) const {
-    return query().oracle.may_be_on_surface(c.values, wide, a, place, 1, c.scalar);
+    return oracle_of(query()).may_be_on_surface(c.values, wide, a, place, 1, c.scalar);
   }
 };
 

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "corpus/codec.hpp"
-#include "nearmiss/catalogue_inputs.hpp"
+#include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -23,7 +23,7 @@ struct TextAlone : collide::Fast {};
 using AnswerTo = Answer (*)(std::span<const double> inputs);
 template <template <class> class Inputs, class T>
 Answer answer_of_text(std::span<const double> inputs) {
-  return erase(inputs_from<Inputs<T>>(inputs.data()).template ask<TextAlone>());
+  return erase(adapters::ask_collide<TextAlone>(inputs_from<Inputs<T>>(inputs.data())));
 }
 
 struct Texts {
@@ -31,9 +31,9 @@ struct Texts {
   AnswerTo in_float, in_double;
 };
 #define NEARMISS_QUERY(name) \
-  Texts{#name, answer_of_text<collide::inputs::name, float>, answer_of_text<collide::inputs::name, double>},
+  Texts{#name, answer_of_text<inputs::name, float>, answer_of_text<inputs::name, double>},
 constexpr Texts texts[] = {
-#include "oracles/catalogue.def"
+#include "impl/catalogue/catalogue.def"
 };
 #undef NEARMISS_QUERY
 std::ostream& operator<<(std::ostream& out, const Texts& t) { return out << t.query; }

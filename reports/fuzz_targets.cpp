@@ -14,7 +14,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "impl/host/keeper.hpp"
-#include "oracles/hosts.hpp"
+#include "impl/host/hosts.hpp"
 #include "reports/interrupt.hpp"
 
 namespace nearmiss {

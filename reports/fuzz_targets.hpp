@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/query.hpp"
+#include "impl/catalogue/query.hpp"
 
 namespace nearmiss {
 

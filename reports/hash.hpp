@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

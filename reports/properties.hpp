@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/query.hpp"
+#include "impl/catalogue/query.hpp"
 
 namespace nearmiss {
 

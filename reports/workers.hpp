@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "impl/host/worker.hpp"
-#include "oracles/case.hpp"
+#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 

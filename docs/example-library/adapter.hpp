@@ -1,10 +1,9 @@
 /// Skim as a subject of Nearmiss: a function for each query that Skim can answer.
 #pragma once
 
-#include <collide/closest_point_segment.hpp>
-#include <collide/moving_point_sphere.hpp>
-#include <collide/sphere_sphere_overlap.hpp>
-
+#include "impl/catalogue/queries/closest_point_segment.hpp"
+#include "impl/catalogue/queries/moving_point_sphere.hpp"
+#include "impl/catalogue/queries/sphere_sphere_overlap.hpp"
 #include "impl/subject/adapter.hpp"
 #include "skim.h"
 
@@ -25,12 +24,12 @@ struct Adapter {
     return "Skim has three functions";
   }
 
-  static collide::Decision<float> answer(const collide::inputs::sphere_sphere_overlap<float>& q) {
+  static collide::Decision<float> answer(const nearmiss::inputs::sphere_sphere_overlap<float>& q) {
     return {skim_balls_meet(&q.sphere1.center.x, q.sphere1.radius, &q.sphere2.center.x, q.sphere2.radius) != 0};
   }
 
   /// Skim tells when, but not where: `only` says so. What it cannot be asked is no miss: `CannotAnswer`.
-  static nearmiss::Reply<collide::Impact<float>> answer(const collide::inputs::moving_point_sphere<float>& q) {
+  static nearmiss::Reply<collide::Impact<float>> answer(const nearmiss::inputs::moving_point_sphere<float>& q) {
     if (!q.solid) return nearmiss::CannotAnswer{"Skim's balls are solid"};
     auto impact = collide::Impact<float>::miss();
     float t = 0;
@@ -38,7 +37,7 @@ struct Adapter {
     return nearmiss::only(impact, {"time"});
   }
 
-  static collide::ClosestPoint<float> answer(const collide::inputs::closest_point_segment<float>& q) {
+  static collide::ClosestPoint<float> answer(const nearmiss::inputs::closest_point_segment<float>& q) {
     collide::ClosestPoint<float> nearest;
     skim_nearest_on_segment(&q.segment.v0.x, &q.segment.v1.x, &q.point.x, &nearest.point.x);
     return nearest;

@@ -27,11 +27,11 @@
 
 #include "impl/adapters/motion.hpp"
 #include "impl/subject/adapter.hpp"
-#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from oracles/catalogue.def
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
 namespace nearmiss::adapters {
 
-namespace in = collide::inputs;
+namespace in = inputs;
 
 /// The questions whose numbers are btScalars, asked in doubles.
 struct BulletInDoubles {

@@ -3,7 +3,10 @@
 
 #include <collide/tiers.hpp>
 
+#include "impl/adapters/collide_function.hpp"
 #include "impl/subject/adapter.hpp"
+#include "nearmiss/catalogue_inputs.hpp"   // written by CMake from impl/catalogue/catalogue.def
+#include "nearmiss/collide_functions.hpp"  // likewise
 
 namespace nearmiss::adapters {
 
@@ -14,13 +17,12 @@ struct Collide {
   static std::string version() { return "0.1.0"; }
 
   template <class Q>
-    requires requires(const Q& q) { q.template ask<Tier>(); }
-  static auto answer(const Q& q) {
-    return q.template ask<Tier>();
+  static typename Q::Answer answer(const Q& q) {
+    return ask_collide<Tier>(q);
   }
   template <class Q>
   static collide::Contract contract() {
-    return Tier::template contract<T>(Q::contract(collide::Fast{}));
+    return CollideFunction<Q>::template contract<Tier>();
   }
 };
 

@@ -1,6 +1,6 @@
 /// What an adapter may use to make a library answer queries.
 ///
-/// An adapter is a struct with a `static auto answer(const collide::inputs::QUERY<Number>&)` for each
+/// An adapter is a struct with a `static auto answer(const inputs::QUERY<Number>&)` for each
 /// query that its library can answer. It returns the query's answer type, or one of the wrappers below.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 #include <collide/contract.hpp>
 
-#include "impl/subject/answer.hpp"
+#include "impl/catalogue/answer.hpp"
 
 namespace nearmiss {
 

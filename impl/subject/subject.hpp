@@ -13,7 +13,7 @@
 
 #include <collide/contract.hpp>
 
-#include "impl/subject/answer.hpp"
+#include "impl/catalogue/answer.hpp"
 #include "impl/subject/standard.hpp"
 
 namespace nearmiss {

@@ -20,11 +20,8 @@ tar -C "$source_folder" --exclude=./build --exclude='./build*' --exclude=./.git 
 here=$source_folder/properties/another_query
 
 # The recipe.
-cp "$here/$query.hpp" "$copy/impl/collide/include/collide/"
-cp "$here/$query.cpp" "$copy/oracles/"
-echo "NEARMISS_QUERY($query)" >>"$copy/oracles/catalogue.def"
-mkdir -p "$copy/corpus/seeds/$query"
-cp "$here"/seeds/*.json "$copy/corpus/seeds/$query/"
+cp -R "$here/overlay/." "$copy"
+echo "NEARMISS_QUERY($query)" >>"$copy/impl/catalogue/catalogue.def"
 sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball holds a point |
 }" "$copy/docs/reference.md"
 grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no table for a query of one's own"

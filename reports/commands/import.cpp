@@ -6,6 +6,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/nyu_ccd.hpp"
+#include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/explain.hpp"
@@ -32,7 +33,7 @@ bool exactly_collides(const Case& question) {
   Answer at_end;
   at_end.yes = true;
   at_end.values[0] = end_of_time;
-  const Enclosure e = question.query->oracle.exact(question.values, at_end, question.scalar, nullptr);
+  const Enclosure e = oracle_of(*question.query).exact(question.values, at_end, question.scalar, nullptr);
   return e.may_be_yes && e.error[0].high <= 0;  // error is the exact time less end_of_time
 }
 

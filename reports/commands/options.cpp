@@ -8,7 +8,7 @@
 #include <random>
 
 #include "corpus/bad_input.hpp"
-#include "oracles/hosts.hpp"
+#include "impl/host/hosts.hpp"
 #include "reports/run.hpp"
 #include "reports/text.hpp"
 

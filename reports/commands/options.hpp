@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "impl/subject/subject.hpp"
-#include "oracles/query.hpp"
+#include "impl/catalogue/query.hpp"
 
 namespace nearmiss {
 

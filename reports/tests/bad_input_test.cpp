@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "impl/subject/subject.hpp"
-#include "oracles/query.hpp"
+#include "impl/catalogue/query.hpp"
 #include "reports/tests/program.hpp"
 
 namespace nearmiss {

@@ -120,28 +120,16 @@ Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& trian
   return {least <= T(0) && most >= T(0)};
 }
 
-namespace inputs {
-template <class T>
-struct aabox_triangle_overlap {
-  AABox<T> box{};
-  Triangle<T> triangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box", &aabox_triangle_overlap::box),
-                      member("triangle", &aabox_triangle_overlap::triangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::aabox_triangle_overlap<Tier>(box, triangle);
-  }
+/// First order, G the largest position: an edge and a corner seen from its start carry 1 eps of 2 G each,
+/// their product and sum 2 eps: two terms for the box and two for the apex, 4 * 4 * 2 eps G along the unit
+/// axis. The plane: the height 8 eps of 4 G, which moving the apex explains, the normal 3 eps and the sum of
+/// three products 5 eps of 4 G. Along the direction between box and triangle at most sqrt(3) times as much.
+template <class Tier = Fast, class T = double>
+constexpr Contract aabox_triangle_overlap() {
+  return Tier::template contract<T>({.backward = 112, .lowest = lowest_for<T>(5), .highest = highest_for<T>(5)});
+}
 
-  /// First order, G the largest position: an edge and a corner seen from its start carry 1 eps of 2 G each,
-  /// their product and sum 2 eps: two terms for the box and two for the apex, 4 * 4 * 2 eps G along the unit
-  /// axis. The plane: the height 8 eps of 4 G, which moving the apex explains, the normal 3 eps and the sum of
-  /// three products 5 eps of 4 G. Along the direction between box and triangle at most sqrt(3) times as much.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 112, .lowest = lowest_for<T>(5), .highest = highest_for<T>(5)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

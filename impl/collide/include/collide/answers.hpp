@@ -9,20 +9,9 @@
 
 namespace collide {
 
-/// The kinds of answer. Judging depends on the kind, never on the query.
-enum class Kind {
-  decision,   ///< yes or no, perhaps with what explains a yes
-  impact,     ///< a time of contact or a miss
-  points,     ///< points that always exist
-  depth,      ///< an overlap or a separation
-  direction,  ///< a vector that always exists
-  measure,    ///< other numbers that always exist
-};
-
 /// Yes or no. Touching is yes.
 template <class T>
 struct Decision {
-  static constexpr Kind kind = Kind::decision;
   bool answer = false;
 
   bool yes() const noexcept { return answer; }
@@ -36,7 +25,6 @@ struct Decision {
 /// Whether a point lies in a triangle, seen along an axis.
 template <class T>
 struct Containment {
-  static constexpr Kind kind = Kind::decision;
   Vec3<T> weights{};  ///< x, y, z are the weights of v0, v1, v2; their sum is 1; zero outside
   bool inside = false;
 
@@ -50,7 +38,6 @@ struct Containment {
 /// Whether a ray meets a solid, and where.
 template <class T>
 struct RayHit {
-  static constexpr Kind kind = Kind::decision;
   Vec3<T> location{};    ///< where the ray enters, its origin for a start inside; zero for a miss
   bool hit = false;
   bool inside = false;   ///< the ray starts in the solid
@@ -66,7 +53,6 @@ struct RayHit {
 /// Whether two boxes overlap, and what keeps them apart.
 template <class T>
 struct BoxOverlap {
-  static constexpr Kind kind = Kind::decision;
   bool overlap = false;
   int axis = -1;  ///< an axis 0..14 that separates them, the hint for the next time; -1 where they overlap
 
@@ -78,7 +64,6 @@ struct BoxOverlap {
 /// Which axes of two boxes are parallel.
 template <class T>
 struct ParallelAxes {
-  static constexpr Kind kind = Kind::decision;
   bool parallel = false;
   int axis1 = -1, axis2 = -1;  ///< 0..2, of box 1 and of box 2; -1 where none are
 
@@ -93,7 +78,6 @@ struct ParallelAxes {
 /// The first contact of a moving thing with a fixed one.
 template <class T>
 struct Impact {
-  static constexpr Kind kind = Kind::impact;
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
   Vec3<T> location{};                           ///< contact on the fixed object; zero for a miss
   Vec3<T> normal{};                             ///< unit, from the fixed object to the moving one; zero for a miss
@@ -110,7 +94,6 @@ struct Impact {
 /// The first contact of a moving thing with a triangle.
 template <class T>
 struct TriangleImpact {
-  static constexpr Kind kind = Kind::impact;
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
   Vec3<T> location{};                           ///< contact on the triangle; zero for a miss
   Vec3<T> normal{};                             ///< unit, from the triangle to the moving thing; zero for a miss
@@ -129,7 +112,6 @@ struct TriangleImpact {
 /// The first contact of a moving point with a solid that it must enter from outside.
 template <class T>
 struct Entry {
-  static constexpr Kind kind = Kind::impact;
   bool inside = false;                          ///< starts in the solid: a miss
   Vec3<T> location{};                           ///< where it enters; the start, for a start inside; else zero
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
@@ -148,7 +130,6 @@ struct Entry {
 /// One point of the fixed object, nearest to the given one.
 template <class T>
 struct ClosestPoint {
-  static constexpr Kind kind = Kind::points;
   Vec3<T> point{};
 
   static bool yes() noexcept { return true; }
@@ -160,7 +141,6 @@ struct ClosestPoint {
 /// The point of a triangle's perimeter nearest to the given one, and the edge that it lies on.
 template <class T>
 struct EdgePoint {
-  static constexpr Kind kind = Kind::points;
   Vec3<T> point{};
   int edge = 0;  ///< edge i runs from v[i] to v[(i + 1) % 3]
 
@@ -174,7 +154,6 @@ struct EdgePoint {
 /// The nearest points of two fixed objects.
 template <class T>
 struct ClosestPoints {
-  static constexpr Kind kind = Kind::points;
   Vec3<T> point1{};  ///< of the first
   Vec3<T> point2{};  ///< of the second
 
@@ -188,7 +167,6 @@ struct ClosestPoints {
 /// How deep two fixed objects overlap, with one contact.
 template <class T>
 struct Penetration {
-  static constexpr Kind kind = Kind::depth;
   T depth{};          ///< length; 0 when touching, negative when apart
   Vec3<T> normal{};   ///< unit, from the first object into the second; zero when apart
   Vec3<T> contact{};  ///< zero when apart
@@ -204,7 +182,6 @@ struct Penetration {
 /// How deep two boxes overlap, or how far they are apart, along one of fifteen axes.
 template <class T>
 struct BoxPenetration {
-  static constexpr Kind kind = Kind::depth;
   T depth{};          ///< length; 0 when touching; apart: minus the separation along `axis`
   int axis = 0;       ///< 0..14, along which depth is measured; the hint for the next time
   Vec3<T> normal{};   ///< unit, from box 1 into box 2; zero when apart
@@ -234,7 +211,6 @@ struct Corner {
 /// How deep a box reaches behind a plane, with every corner that does.
 template <class T>
 struct CornerContacts {
-  static constexpr Kind kind = Kind::depth;
   T depth{};         ///< of the deepest corner; 0 when touching, negative when apart
   Vec3<T> normal{};  ///< unit, the plane's; zero when apart
   /// Corner i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k.
@@ -251,7 +227,6 @@ struct CornerContacts {
 /// A number that always exists.
 template <class T>
 struct Measure {
-  static constexpr Kind kind = Kind::measure;
   T value{};
 
   static bool yes() noexcept { return true; }
@@ -261,7 +236,6 @@ struct Measure {
 /// What the tools for pairs of boxes share: computed once for a pair.
 template <class T>
 struct BoxBoxInfo {
-  static constexpr Kind kind = Kind::measure;
   Vec3<T> half1{}, half2{};               ///< half extents: from each center to a corner, in its own frame
   Vec3<T> between{};                      ///< center 2 - center 1
   std::array<Vec3<T>, 3> cosine{};        ///< cosine[i].x, .y, .z: axis i of box 1 . axis 0, 1, 2 of box 2
@@ -283,7 +257,6 @@ struct BoxBoxInfo {
 /// A direction after a response to a contact: at most unit length.
 template <class T>
 struct Direction {
-  static constexpr Kind kind = Kind::direction;
   Vec3<T> direction{};
 
   static bool yes() noexcept { return true; }

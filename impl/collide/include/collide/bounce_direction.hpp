@@ -30,33 +30,15 @@ Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, 
   return {of_length<T>(d - u * (T(2) * Tier::dot(d, u)))};
 }
 
-namespace inputs {
-template <class T>
-struct bounce_direction {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  T time{};
-  Vec3<T> location{};
-  Vec3<T> normal{T(0), T(0), T(1)};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &bounce_direction::sphere),
-                      member("velocity", &bounce_direction::velocity, Role::velocity),
-                      member("time", &bounce_direction::time, Role::time),
-                      member("location", &bounce_direction::location, Role::position),
-                      member("normal", &bounce_direction::normal, Role::direction));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::bounce_direction<Tier>(sphere, velocity, time, location, normal);
-  }
+/// First order: the vector to the center carries 3 eps of the positions and of velocity * time; unit
+/// vectors 4 eps, the dot product 3, the reflection 3: what they turn the direction is explained by moving the location
+/// and the velocity by as much. Nothing explains a length other than 1: of_length() leaves its last rounding.
+template <class Tier = Fast, class T = double>
+constexpr Contract bounce_direction() {
+  return Tier::template contract<T>({.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order: the vector to the center carries 3 eps of the positions and of velocity * time; unit
-  /// vectors 4 eps, the dot product 3, the reflection 3: what they turn the direction is explained by moving the location
-  /// and the velocity by as much. Nothing explains a length other than 1: of_length() leaves its last rounding.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

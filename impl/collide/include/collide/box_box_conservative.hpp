@@ -59,24 +59,14 @@ Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) noexcept {
   return {detail::may_reach(info.half1, info.half2, info.between)};
 }
 
-namespace inputs {
-template <class T>
-struct box_box_conservative {
-  Box<T> box1{}, box2{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_conservative::box1), member("box2", &box_box_conservative::box2));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_conservative<Tier>(box1, box2);
-  }
+/// First order: the two sides differ by 4 eps of themselves, and 8 eps are added on purpose: 12 eps of
+/// the sizes, or of |D| in the positions, at most 4 G with G the largest: less than 64 in either.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_conservative() {
+  return Tier::template contract<T>({.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: the two sides differ by 4 eps of themselves, and 8 eps are added on purpose: 12 eps of
-  /// the sizes, or of |D| in the positions, at most 4 G with G the largest: less than 64 in either.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

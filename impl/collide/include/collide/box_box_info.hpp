@@ -44,25 +44,15 @@ BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) noexcept {
   return info;
 }
 
-namespace inputs {
-template <class T>
-struct box_box_info {
-  Box<T> box1{}, box2{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_info::box1), member("box2", &box_box_info::box2));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_info<Tier>(box1, box2);
-  }
+/// First order, G the largest position: a number of the relative rotation is known to 4 eps |q1| |q2|,
+/// a cosine to 3 eps more and the 7 eps of its divisor: turning a box by 16 eps explains both. An axis
+/// carries 16 eps, so a part of `between` 19 eps of its length, at most 4 G; `between` itself 1 eps of it.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_info() {
+  return Tier::template contract<T>({.backward = 80, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a number of the relative rotation is known to 4 eps |q1| |q2|,
-  /// a cosine to 3 eps more and the 7 eps of its divisor: turning a box by 16 eps explains both. An axis
-  /// carries 16 eps, so a part of `between` 19 eps of its length, at most 4 G; `between` itself 1 eps of it.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 80, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -91,28 +91,16 @@ BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint =
   return {true, -1};
 }
 
-namespace inputs {
-template <class T>
-struct box_box_overlap {
-  Box<T> box1{}, box2{};
-  int hint = -1;
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_overlap::box1), member("box2", &box_box_overlap::box2),
-                      member("hint", &box_box_overlap::hint, Role::index));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_overlap<Tier>(box1, box2, hint);
-  }
+/// First order: a number of the relative rotation is a sum of four products, known to 4 eps |q1| |q2|,
+/// which turning box 2 by 8 eps explains, the same for every axis. An axis (cosine or cross product)
+/// adds 4 eps of its own length, its gap 5 eps of the lengths along it; `between` carries 8 eps of its
+/// own, at most 4 G with G the largest position: 32 eps of G, 24 eps of the rotations and sizes.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_overlap() {
+  return Tier::template contract<T>({.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: a number of the relative rotation is a sum of four products, known to 4 eps |q1| |q2|,
-  /// which turning box 2 by 8 eps explains, the same for every axis. An axis (cosine or cross product)
-  /// adds 4 eps of its own length, its gap 5 eps of the lengths along it; `between` carries 8 eps of its
-  /// own, at most 4 G with G the largest position: 32 eps of G, 24 eps of the rotations and sizes.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -63,27 +63,15 @@ ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) noex
   return {};
 }
 
-namespace inputs {
-template <class T>
-struct box_box_parallel_axis {
-  Box<T> box1{}, box2{};
-  T epsilon{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_parallel_axis::box1), member("box2", &box_box_parallel_axis::box2),
-                      member("epsilon", &box_box_parallel_axis::epsilon, Role::weight));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_parallel_axis<Tier>(box1, box2, epsilon);
-  }
+/// First order: the numbers of the relative rotation are known to 4 eps |q1| |q2|, which turning box 2
+/// by 8 eps explains; the two sides of the comparison carry 4 and 5 eps of themselves, as much as
+/// turning by 5 eps of the angle in question does.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_parallel_axis() {
+  return Tier::template contract<T>({.backward = 32, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: the numbers of the relative rotation are known to 4 eps |q1| |q2|, which turning box 2
-  /// by 8 eps explains; the two sides of the comparison carry 4 and 5 eps of themselves, as much as
-  /// turning by 5 eps of the angle in question does.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 32, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

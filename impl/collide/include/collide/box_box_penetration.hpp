@@ -248,28 +248,16 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
   return detail::contact_of_boxes<Tier>(box1, box2, pair, least);
 }
 
-namespace inputs {
-template <class T>
-struct box_box_penetration {
-  Box<T> box1{}, box2{};
-  int hint = -1;
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_penetration::box1), member("box2", &box_box_penetration::box2),
-                      member("hint", &box_box_penetration::hint, Role::index));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_penetration<Tier>(box1, box2, hint);
-  }
+/// First order, G the largest position: an overlap carries what box_box_overlap's gaps do, 32 eps of G and
+/// 24 eps of rotations and sizes, and 12 eps of itself, and 4 eps more where squares of overlaps were compared; a
+/// vertex is the sum of three edges, known to 9 eps of them and to 9 eps of `between`, and 19 eps of 4 G on the way
+/// back to the world: less than 128 eps of either. Unit: the axes are combined by a unit vector.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_penetration() {
+  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: an overlap carries what box_box_overlap's gaps do, 32 eps of G and
-  /// 24 eps of rotations and sizes, and 12 eps of itself, and 4 eps more where squares of overlaps were compared; a
-  /// vertex is the sum of three edges, known to 9 eps of them and to 9 eps of `between`, and 19 eps of 4 G on the way
-  /// back to the world: less than 128 eps of either. Unit: the axes are combined by a unit vector.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -60,31 +60,14 @@ Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) noexc
   return {distance - (reach1 + reach2)};
 }
 
-namespace inputs {
-template <class T>
-struct box_box_projected_distance {
-  Box<T> box1{}, box2{};
-  int axis = 0;
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_projected_distance::box1),
-                      member("box2", &box_box_projected_distance::box2),
-                      member("axis", &box_box_projected_distance::axis, Role::index));
-  }
-  std::optional<Broken> broken() const {
-    if (axis < 0 || axis >= box_box_axes) return Broken{"axis", "0 to 14", double(axis)};
-    return std::nullopt;
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_projected_distance<Tier>(box1, box2, axis);
-  }
+/// First order: as box_box_overlap, and the division by |q1|^4 |q2|^2 with 12 eps of the gap, which the
+/// lengths along the axis explain.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_projected_distance() {
+  return Tier::template contract<T>({.backward = 80, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: as box_box_overlap, and the division by |q1|^4 |q2|^2 with 12 eps of the gap, which the
-  /// lengths along the axis explain.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 80, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

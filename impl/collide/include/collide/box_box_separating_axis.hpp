@@ -36,31 +36,14 @@ Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int
   return {detail::at_most_one(axes1[(i + 1) % 3] * (cross[0] / scale) + axes1[(i + 2) % 3] * (cross[1] / scale))};
 }
 
-namespace inputs {
-template <class T>
-struct box_box_separating_axis {
-  Box<T> box1{}, box2{};
-  int axis = 0;
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_separating_axis::box1),
-                      member("box2", &box_box_separating_axis::box2),
-                      member("axis", &box_box_separating_axis::axis, Role::index));
-  }
-  std::optional<Broken> broken() const {
-    if (axis < 0 || axis >= box_box_axes) return Broken{"axis", "0 to 14", double(axis)};
-    return std::nullopt;
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_box_separating_axis<Tier>(box1, box2, axis);
-  }
+/// First order: an axis carries 16 eps, explained by turning its box; a cross product 8 eps of the
+/// relative rotation, 4 + 7 eps of its length, and the 16 eps of the axes of box 1 with 3 for the sum.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_box_separating_axis() {
+  return Tier::template contract<T>({.backward = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: an axis carries 16 eps, explained by turning its box; a cross product 8 eps of the
-  /// relative rotation, 4 + 7 eps of its length, and the 16 eps of the axes of box 1 with 3 for the sum.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -89,27 +89,16 @@ CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane
   return contacts;
 }
 
-namespace inputs {
-template <class T>
-struct box_plane_penetration {
-  Box<T> box{};
-  Plane<T> plane{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("box", &box_plane_penetration::box), member("plane", &box_plane_penetration::plane));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::box_plane_penetration<Tier>(box, plane);
-  }
+/// First order: an axis carries 16 eps and a side 1 eps more, of the half extents or by turning the box; a
+/// corner is the sum of four such, 3 eps of each more. Its height above the plane 4 eps of |n| times the
+/// center and each side, 3 eps of the sum, which moving the center, the half extents and the offset
+/// explains; the norm and the quotient 4 eps.
+template <class Tier = Fast, class T = double>
+constexpr Contract box_plane_penetration() {
+  return Tier::template contract<T>({.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: an axis carries 16 eps and a side 1 eps more, of the half extents or by turning the box; a
-  /// corner is the sum of four such, 3 eps of each more. Its height above the plane 4 eps of |n| times the
-  /// center and each side, 3 eps of the sum, which moving the center, the half extents and the offset
-  /// explains; the norm and the quotient 4 eps.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -69,28 +69,16 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
   return by < T(0) ? ClosestPoint<T>{ridge.on(v0, v2)} : on(edge, foot[edge]);
 }
 
-namespace inputs {
-template <class T>
-struct closest_point_rectangle {
-  Rectangle<T> rectangle{};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("rectangle", &closest_point_rectangle::rectangle),
-                      member("point", &closest_point_rectangle::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_point_rectangle<Tier>(rectangle, point);
-  }
+/// First order, G the largest position: differences carry 1 eps of 2 G, a share of the diagonal 4 eps of
+/// the distance (at most 4 G) along it, the height 6 eps of 4 G, which moving the corners explains; the
+/// foot measured along the height 6 eps of 4 G, sums and products 3 eps of 2 G: in all 2 + 16 + 24 + 24 + 6.
+/// An edge costs less: 46, as in closest_point_triangle_perimeter.
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_point_rectangle() {
+  return Tier::template contract<T>({.backward = 72, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: differences carry 1 eps of 2 G, a share of the diagonal 4 eps of
-  /// the distance (at most 4 G) along it, the height 6 eps of 4 G, which moving the corners explains; the
-  /// foot measured along the height 6 eps of 4 G, sums and products 3 eps of 2 G: in all 2 + 16 + 24 + 24 + 6.
-  /// An edge costs less: 46, as in closest_point_triangle_perimeter.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 72, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -32,25 +32,13 @@ ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle,
   return {foot[edge].on(v[edge], v[(edge + 1) % 4])};
 }
 
-namespace inputs {
-template <class T>
-struct closest_point_rectangle_perimeter {
-  Rectangle<T> rectangle{};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("rectangle", &closest_point_rectangle_perimeter::rectangle),
-                      member("point", &closest_point_rectangle_perimeter::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_point_rectangle_perimeter<Tier>(rectangle, point);
-  }
+/// First order, G the largest position: as in closest_point_triangle_perimeter.
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_point_rectangle_perimeter() {
+  return Tier::template contract<T>({.backward = 46, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: as in closest_point_triangle_perimeter.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 46, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

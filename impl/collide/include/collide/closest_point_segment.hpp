@@ -27,27 +27,15 @@ ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& 
   return {segment.v0 + along * (projection / length2)};
 }
 
-namespace inputs {
-template <class T>
-struct closest_point_segment {
-  Segment<T> segment{};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("segment", &closest_point_segment::segment),
-                      member("point", &closest_point_segment::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_point_segment<Tier>(segment, point);
-  }
+/// First order, G the largest position: two differences (1 eps of 2 G each), a dot product (3 eps of
+/// |point - v0| |along|: 12 eps G along the segment after the division), division, product and sum
+/// (1 eps of at most 2 G each). Moving the point and the ends by 2 * 2 + 12 + 3 * 2 eps G explains all.
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_point_segment() {
+  return Tier::template contract<T>({.backward = 22, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: two differences (1 eps of 2 G each), a dot product (3 eps of
-  /// |point - v0| |along|: 12 eps G along the segment after the division), division, product and sum
-  /// (1 eps of at most 2 G each). Moving the point and the ends by 2 * 2 + 12 + 3 * 2 eps G explains all.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 22, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

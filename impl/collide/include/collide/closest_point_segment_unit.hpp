@@ -42,28 +42,16 @@ ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, c
   return {prepared.segment.v0 + prepared.direction * distance};
 }
 
-namespace inputs {
-template <class T>
-struct closest_point_segment_unit {
-  Segment<T> segment{};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("segment", &closest_point_segment_unit::segment),
-                      member("point", &closest_point_segment_unit::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_point_segment_unit<Tier>(prepare_segment<Tier>(segment), point);
-  }
+/// First order, G the largest position: two differences (1 eps of 2 G each), a unit vector and a length
+/// (4 eps each, of the segment's 4 G), a dot product (3 eps of |point - v0|, at most 4 G), product and sum
+/// (1 eps of at most 2 G each): 2 * 2 + 2 * 4 * 4 + 3 * 4 + 2 * 2 eps G, which moving the point and the
+/// ends explains.
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_point_segment_unit() {
+  return Tier::template contract<T>({.backward = 52, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: two differences (1 eps of 2 G each), a unit vector and a length
-  /// (4 eps each, of the segment's 4 G), a dot product (3 eps of |point - v0|, at most 4 G), product and sum
-  /// (1 eps of at most 2 G each): 2 * 2 + 2 * 4 * 4 + 3 * 4 + 2 * 2 eps G, which moving the point and the
-  /// ends explains.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 52, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

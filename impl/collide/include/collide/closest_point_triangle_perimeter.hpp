@@ -73,27 +73,15 @@ ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, co
   return {foot[edge].on(v[edge], v[(edge + 1) % 3])};
 }
 
-namespace inputs {
-template <class T>
-struct closest_point_triangle_perimeter {
-  Triangle<T> triangle{};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("triangle", &closest_point_triangle_perimeter::triangle),
-                      member("point", &closest_point_triangle_perimeter::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_point_triangle_perimeter<Tier>(triangle, point);
-  }
+/// First order, G the largest position: a foot as in closest_point_segment, 22 eps G; a comparison takes
+/// two more differences, sums and a dot product, 6 eps of the distance (at most 4 G), which moving the
+/// further end of either edge explains.
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_point_triangle_perimeter() {
+  return Tier::template contract<T>({.backward = 46, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a foot as in closest_point_segment, 22 eps G; a comparison takes
-  /// two more differences, sums and a dot product, 6 eps of the distance (at most 4 G), which moving the
-  /// further end of either edge explains.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 46, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -66,26 +66,14 @@ EdgePoint<T> closest_point_triangle_perimeter_edges(const TriangleEdges<T>& prep
   return {foot[edge].on(v[edge], v[(edge + 1) % 3]), edge};
 }
 
-namespace inputs {
-template <class T>
-struct closest_point_triangle_perimeter_edges {
-  Triangle<T> triangle{};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("triangle", &closest_point_triangle_perimeter_edges::triangle),
-                      member("point", &closest_point_triangle_perimeter_edges::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_point_triangle_perimeter_edges<Tier>(prepare_edges<Tier>(triangle), point);
-  }
+/// First order, G the largest position: a foot as in closest_point_segment_unit, 52 eps G; a comparison
+/// takes two more differences, sums and a dot product, 6 eps of the distance (at most 4 G).
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_point_triangle_perimeter_edges() {
+  return Tier::template contract<T>({.backward = 76, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a foot as in closest_point_segment_unit, 52 eps G; a comparison
-  /// takes two more differences, sums and a dot product, 6 eps of the distance (at most 4 G).
-  static constexpr Contract contract(Fast) {
-    return {.backward = 76, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -33,26 +33,16 @@ ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2
   return {point1, line2.point + line2.direction * along};
 }
 
-namespace inputs {
-template <class T>
-struct closest_points_lines {
-  Line<T> line1{}, line2{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("line1", &closest_points_lines::line1), member("line2", &closest_points_lines::line2));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::closest_points_lines<Tier>(line1, line2);
-  }
+/// First order, G the largest position: the common normal carries 3 eps of |direction1| |direction2|,
+/// which turning the lines by 3 eps explains; the share along line 1 carries 10 eps of the lines'
+/// distance across line 2 (at most 4 G), which moving line 2 explains; its division, product and sum 3 eps,
+/// a turn of both lines; the foot on line 2 another 8 eps of the way along it, a turn again.
+template <class Tier = Fast, class T = double>
+constexpr Contract closest_points_lines() {
+  return Tier::template contract<T>({.backward = 64, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order, G the largest position: the common normal carries 3 eps of |direction1| |direction2|,
-  /// which turning the lines by 3 eps explains; the share along line 1 carries 10 eps of the lines'
-  /// distance across line 2 (at most 4 G), which moving line 2 explains; its division, product and sum 3 eps,
-  /// a turn of both lines; the foot on line 2 another 8 eps of the way along it, a turn again.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -1,4 +1,5 @@
-/// What an implementation promises for a query. The judge reads these numbers and nothing else.
+/// What an implementation promises for a query. Each query has its promise beside its function:
+/// `contracts::moving_sphere_plane<Accurate, float>()`.
 #pragma once
 
 #include <limits>

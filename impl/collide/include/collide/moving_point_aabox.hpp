@@ -63,28 +63,14 @@ Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const
   return answer;
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_aabox {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  AABox<T> aabox{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_aabox::point, Role::position),
-                      member("velocity", &moving_point_aabox::velocity, Role::velocity),
-                      member("aabox", &moving_point_aabox::aabox));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_aabox<Tier>(point, velocity, aabox);
-  }
+/// First order, G the largest position: a gap is known to 1 eps of 2 G, the quotient adds 1 eps, product and
+/// sum 1 eps each of a way of at most 2 G. Point and faces move by 4 * 2 eps G at most.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_aabox() {
+  return Tier::template contract<T>({.backward = 8, .unit = 0, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a gap is known to 1 eps of 2 G, the quotient adds 1 eps, product and
-  /// sum 1 eps each of a way of at most 2 G. Point and faces move by 4 * 2 eps G at most.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 8, .unit = 0, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -28,29 +28,15 @@ Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const 
   return detail::point_enters_box<Tier>(point, velocity, box);
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_box {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Box<T> box{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_box::point, Role::position),
-                      member("velocity", &moving_point_box::velocity, Role::velocity),
-                      member("box", &moving_point_box::box));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_box<Tier>(point, velocity, box);
-  }
+/// First order, G the largest position: an axis carries 16 eps (7 in each product of the quaternion, at
+/// most two of them, and the sums), so a coordinate in the box frame 19 eps of the distance, which is at
+/// most 4 G; the way to the face and back to the world adds 12 eps of 4 G at most.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_box() {
+  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: an axis carries 16 eps (7 in each product of the quaternion, at
-  /// most two of them, and the sums), so a coordinate in the box frame 19 eps of the distance, which is at
-  /// most 4 G; the way to the face and back to the world adds 12 eps of 4 G at most.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -69,29 +69,15 @@ Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, co
   return detail::past_capsule<Tier>(point, T(0), velocity, capsule);
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_capsule {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Capsule<T> capsule{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_capsule::point, Role::position),
-                      member("velocity", &moving_point_capsule::velocity, Role::velocity),
-                      member("capsule", &moving_point_capsule::capsule));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_capsule<Tier>(point, velocity, capsule);
-  }
+/// First order, G the largest position: the axis carries 4 eps, a coordinate along it 8 eps of a distance of
+/// at most 4 G, what is left beside it 10 eps; the closest approach 9 eps of the same distance, its square
+/// and the radius 4 eps more; the way back along the axis 9 eps of 2 G.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_capsule() {
+  return Tier::template contract<T>({.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: the axis carries 4 eps, a coordinate along it 8 eps of a distance of
-  /// at most 4 G, what is left beside it 10 eps; the closest approach 9 eps of the same distance, its square
-  /// and the radius 4 eps more; the way back along the axis 9 eps of 2 G.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

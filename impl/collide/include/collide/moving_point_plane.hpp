@@ -72,30 +72,16 @@ Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, cons
   return detail::contact(time, point + velocity * time, unit<Tier>(plane.normal));
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_plane {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Plane<T> plane{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_plane::point, Role::position),
-                      member("velocity", &moving_point_plane::velocity, Role::velocity),
-                      member("plane", &moving_point_plane::plane));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_plane<Tier>(point, velocity, plane);
-  }
+/// First order: the height is that of a point whose coordinates moved by 4 eps each, over a plane whose
+/// offset moved by 1 eps; the approach that of a velocity moved by 3 eps, 1 eps more for the quotient. The
+/// location adds 2 eps of the way, which is at most as long as point and location together: half of it
+/// moves the point, half the velocity. A unit normal carries 4 eps, which turns the plane.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_plane() {
+  return Tier::template contract<T>({.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: the height is that of a point whose coordinates moved by 4 eps each, over a plane whose
-  /// offset moved by 1 eps; the approach that of a velocity moved by 3 eps, 1 eps more for the quotient. The
-  /// location adds 2 eps of the way, which is at most as long as point and location together: half of it
-  /// moves the point, half the velocity. A unit normal carries 4 eps, which turns the plane.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

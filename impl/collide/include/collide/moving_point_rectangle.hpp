@@ -48,29 +48,15 @@ Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
   return detail::contact(time, point + velocity * time, unit<Tier>(normal));
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_rectangle {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Rectangle<T> rectangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_rectangle::point, Role::position),
-                      member("velocity", &moving_point_rectangle::velocity, Role::velocity),
-                      member("rectangle", &moving_point_rectangle::rectangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_rectangle<Tier>(point, velocity, rectangle);
-  }
+/// First order, as for a triangle: an edge or a corner seen from the point is known to 2 eps of the largest
+/// position G, each product of a cross product carries 3 eps more of 2 G, the dot product 3 eps, for the
+/// plane and again for the edges; the location adds 2 eps of 2 G.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_rectangle() {
+  return Tier::template contract<T>({.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order, as for a triangle: an edge or a corner seen from the point is known to 2 eps of the largest
-  /// position G, each product of a cross product carries 3 eps more of 2 G, the dot product 3 eps, for the
-  /// plane and again for the edges; the location adds 2 eps of 2 G.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -54,31 +54,15 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
   return detail::contact(time, point + way, detail::outward<Tier>(away, velocity));
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_sphere {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Sphere<T> sphere{};
-  bool solid = true;
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_sphere::point, Role::position),
-                      member("velocity", &moving_point_sphere::velocity, Role::velocity),
-                      member("sphere", &moving_point_sphere::sphere),
-                      member("solid", &moving_point_sphere::solid, Role::flag));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_sphere<Tier>(point, velocity, sphere, solid);
-  }
+/// First order, G the largest position: center to point is known to 2 eps G per axis; the closest
+/// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
+/// location 2 eps of 4 G.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_sphere() {
+  return Tier::template contract<T>({.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: center to point is known to 2 eps G per axis; the closest
-  /// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
-  /// location 2 eps of 4 G.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -229,31 +229,17 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
   return detail::contact(time, point + velocity * time, unit<Tier>(n));
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_triangle {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Triangle<T> triangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_triangle::point, Role::position),
-                      member("velocity", &moving_point_triangle::velocity, Role::velocity),
-                      member("triangle", &moving_point_triangle::triangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_triangle<Tier>(point, velocity, triangle);
-  }
+/// First order, G the largest position: an edge or a corner seen from the point is a difference of two
+/// positions, known to 2 eps G; each product of a cross product carries 3 eps more of 2 G, the dot
+/// product 3 eps: corners and point move by at most 2 + 2 * 3 + 3 eps of 2 G each, for the plane and
+/// again for the edges; the location adds 2 eps of 2 G. The velocity takes 3 eps of its own. The text in lanes moves
+/// ends of an edge by 30 eps G for the normal, corners by 12 for the plane, and adds 2 eps of 2 G.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_triangle() {
+  return Tier::template contract<T>({.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order, G the largest position: an edge or a corner seen from the point is a difference of two
-  /// positions, known to 2 eps G; each product of a cross product carries 3 eps more of 2 G, the dot
-  /// product 3 eps: corners and point move by at most 2 + 2 * 3 + 3 eps of 2 G each, for the plane and
-  /// again for the edges; the location adds 2 eps of 2 G. The velocity takes 3 eps of its own. The text in lanes moves
-  /// ends of an edge by 30 eps G for the normal, corners by 12 for the plane, and adds 2 eps of 2 G.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -54,30 +54,16 @@ Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& ve
   return detail::contact(time, point + velocity * time, prepared.unit_normal);
 }
 
-namespace inputs {
-template <class T>
-struct moving_point_triangle_prepared {
-  Vec3<T> point{};
-  Vec3<T> velocity{};
-  Triangle<T> triangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("point", &moving_point_triangle_prepared::point, Role::position),
-                      member("velocity", &moving_point_triangle_prepared::velocity, Role::velocity),
-                      member("triangle", &moving_point_triangle_prepared::triangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_point_triangle_prepared<Tier>(point, velocity, prepare_triangle<Tier>(triangle));
-  }
+/// First order, G the largest position: edges and the way from v0 are known to 1 eps of 2 G; the normal and
+/// the moment carry 3 eps more in each product, the dot products 3 eps: corners and point move by at most
+/// 2 + 3 + 3 eps of 2 G for the plane, and again for the edges, and the third edge 3 eps of the sum; the
+/// location adds 2 eps of 2 G. The velocity takes 3 eps of its own.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_point_triangle_prepared() {
+  return Tier::template contract<T>({.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order, G the largest position: edges and the way from v0 are known to 1 eps of 2 G; the normal and
-  /// the moment carry 3 eps more in each product, the dot products 3 eps: corners and point move by at most
-  /// 2 + 3 + 3 eps of 2 G for the plane, and again for the edges, and the third edge 3 eps of the sum; the
-  /// location adds 2 eps of 2 G. The velocity takes 3 eps of its own.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

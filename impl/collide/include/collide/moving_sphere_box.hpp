@@ -187,30 +187,16 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
   return Impact<T>::miss();
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_box {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Box<T> box{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_box::sphere),
-                      member("velocity", &moving_sphere_box::velocity, Role::velocity),
-                      member("box", &moving_sphere_box::box));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_sphere_box<Tier>(sphere, velocity, box);
-  }
+/// First order, G the largest position: an axis carries 16 eps (7 in each product of the quaternion, at
+/// most two of them, and the sums), so a coordinate in the box frame 19 eps of the distance, which is at
+/// most 4 G; the walk to the contact and the way back to the world add as much as 12 eps of 4 G. Unit:
+/// the axes are combined by a unit vector.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_box() {
+  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order, G the largest position: an axis carries 16 eps (7 in each product of the quaternion, at
-  /// most two of them, and the sums), so a coordinate in the box frame 19 eps of the distance, which is at
-  /// most 4 G; the walk to the contact and the way back to the world add as much as 12 eps of 4 G. Unit:
-  /// the axes are combined by a unit vector.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

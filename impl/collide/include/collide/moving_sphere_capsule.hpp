@@ -31,29 +31,15 @@ Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity
   return detail::past_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_capsule {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Capsule<T> capsule{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_capsule::sphere),
-                      member("velocity", &moving_sphere_capsule::velocity, Role::velocity),
-                      member("capsule", &moving_sphere_capsule::capsule));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_sphere_capsule<Tier>(sphere, velocity, capsule);
-  }
+/// First order, G the largest position: the axis carries 4 eps, a coordinate along it 8 eps of a distance of
+/// at most 4 G, what is left beside it 10 eps; the closest approach 9 eps of the same distance, its square
+/// and the sum of the radii 5 eps more; the way back along the axis 9 eps of 2 G.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_capsule() {
+  return Tier::template contract<T>({.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: the axis carries 4 eps, a coordinate along it 8 eps of a distance of
-  /// at most 4 G, what is left beside it 10 eps; the closest approach 9 eps of the same distance, its square
-  /// and the sum of the radii 5 eps more; the way back along the axis 9 eps of 2 G.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

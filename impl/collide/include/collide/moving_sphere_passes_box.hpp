@@ -90,38 +90,15 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
   return {false};
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_passes_box {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Box<T> box{};
-  T limit{};
-  bool forever = false;  ///< the limit is +infinity, whatever `limit` says
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_passes_box::sphere),
-                      member("velocity", &moving_sphere_passes_box::velocity, Role::velocity),
-                      member("box", &moving_sphere_passes_box::box),
-                      member("limit", &moving_sphere_passes_box::limit, Role::time),
-                      member("forever", &moving_sphere_passes_box::forever, Role::flag));
-  }
-  std::optional<Broken> broken() const {
-    if (limit < T(0)) return Broken{"limit", "not negative", double(limit)};
-    return std::nullopt;
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    const T until = forever ? std::numeric_limits<T>::infinity() : limit;
-    return collide::moving_sphere_passes_box<Tier>(sphere, velocity, box, until);
-  }
+/// First order, G the largest position: a coordinate in the box frame carries 19 eps of the distance, at
+/// most 4 G; one at the nearest time 3 eps more, and the distance itself 3 eps. An error of that time is
+/// of no first order where the slope is zero, and 2 eps of the limit at its end.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_passes_box() {
+  return Tier::template contract<T>({.backward = 128, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a coordinate in the box frame carries 19 eps of the distance, at
-  /// most 4 G; one at the nearest time 3 eps more, and the distance itself 3 eps. An error of that time is
-  /// of no first order where the slope is zero, and 2 eps of the limit at its end.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -35,40 +35,15 @@ Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& 
   return {-Tier::beyond_radius(offset, reach) >= T(0)};
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_passes_sphere {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Sphere<T> fixed{};
-  T limit{1};
-  bool forever = false;  ///< no limit, whatever `limit` is
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_passes_sphere::sphere),
-                      member("velocity", &moving_sphere_passes_sphere::velocity, Role::velocity),
-                      member("fixed", &moving_sphere_passes_sphere::fixed),
-                      member("limit", &moving_sphere_passes_sphere::limit, Role::time),
-                      member("forever", &moving_sphere_passes_sphere::forever, Role::flag));
-  }
-  std::optional<Broken> broken() const {
-    if (limit < T(0)) return Broken{"limit", "not negative", double(limit)};
-    return std::nullopt;
-  }
-  /// `limit` itself is finite: no limit has a flag of its own.
-  template <class Tier>
-  Decision<T> ask() const noexcept {
-    if (!(limit >= T(0) && limit <= std::numeric_limits<T>::max())) return {false};
-    const T until = forever ? std::numeric_limits<T>::infinity() : limit;
-    return collide::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, until);
-  }
+/// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
+/// carries 9 eps of that distance (at most 4 G), the way to the limit less; the squares 4 eps of the sum of
+/// the radii.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_passes_sphere() {
+  return Tier::template contract<T>({.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
-  /// carries 9 eps of that distance (at most 4 G), the way to the limit less; the squares 4 eps of the sum of
-  /// the radii.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -86,31 +86,17 @@ Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, 
   return detail::contact(time, (sphere.center + velocity * time) - normal * sphere.radius, normal);
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_plane {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Plane<T> plane{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_plane::sphere),
-                      member("velocity", &moving_sphere_plane::velocity, Role::velocity),
-                      member("plane", &moving_sphere_plane::plane));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_sphere_plane<Tier>(sphere, velocity, plane);
-  }
+/// First order: the height is that of a center whose coordinates moved by 4 eps each, over a plane whose
+/// offset moved by 1 eps; the reach that of a radius moved by 7 eps, and their difference 1 eps more; the
+/// approach that of a velocity moved by 3 eps, 1 eps more for the quotient. The location adds 4 eps of the
+/// way and 4 eps of the radius; the way is at most as long as center and contact together. A unit normal
+/// carries 4 eps, which turns the plane.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_plane() {
+  return Tier::template contract<T>({.backward = 32, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: the height is that of a center whose coordinates moved by 4 eps each, over a plane whose
-  /// offset moved by 1 eps; the reach that of a radius moved by 7 eps, and their difference 1 eps more; the
-  /// approach that of a velocity moved by 3 eps, 1 eps more for the quotient. The location adds 4 eps of the
-  /// way and 4 eps of the radius; the way is at most as long as center and contact together. A unit normal
-  /// carries 4 eps, which turns the plane.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 32, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -33,28 +33,14 @@ Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& veloci
   return {first.time, first.location, first.normal};
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_rectangle {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Rectangle<T> rectangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_rectangle::sphere),
-                      member("velocity", &moving_sphere_rectangle::velocity, Role::velocity),
-                      member("rectangle", &moving_sphere_rectangle::rectangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_sphere_rectangle<Tier>(sphere, velocity, rectangle);
-  }
+/// As moving_sphere_triangle: both triangles are explained by the same moves of the sphere's numbers, of
+/// their own corners, and of the two that they share, twice as many.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_rectangle() {
+  return Tier::template contract<T>({.backward = 256, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// As moving_sphere_triangle: both triangles are explained by the same moves of the sphere's numbers, of
-  /// their own corners, and of the two that they share, twice as many.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 256, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -48,29 +48,15 @@ Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
   return time >= T(0) ? contact_at(time) : Impact<T>::miss();
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_sphere {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Sphere<T> fixed{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_sphere::sphere),
-                      member("velocity", &moving_sphere_sphere::velocity, Role::velocity),
-                      member("fixed", &moving_sphere_sphere::fixed));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_sphere_sphere<Tier>(sphere, velocity, fixed);
-  }
+/// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
+/// carries 9 eps of that distance (at most 4 G), its square and the sum of the radii 5 eps more; the
+/// location 2 eps of 4 G.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_sphere() {
+  return Tier::template contract<T>({.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
-  /// carries 9 eps of that distance (at most 4 G), its square and the sum of the radii 5 eps more; the
-  /// location 2 eps of 4 G.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -473,30 +473,16 @@ TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>&
   return detail::SpherePastTriangle<Tier, T>(sphere, velocity, triangle).impact();
 }
 
-namespace inputs {
-template <class T>
-struct moving_sphere_triangle {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  Triangle<T> triangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &moving_sphere_triangle::sphere),
-                      member("velocity", &moving_sphere_triangle::velocity, Role::velocity),
-                      member("triangle", &moving_sphere_triangle::triangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::moving_sphere_triangle<Tier>(sphere, velocity, triangle);
-  }
+/// First order, G the largest position: the center seen from a corner and an edge are known to 2 eps of G,
+/// at most 2 G long; a unit edge adds 5 eps, a moment 5 eps of 4 G^2 and the speed, the root of the chord
+/// half of 8 eps, the way to the contact 3 eps of 4 G and the location 4 eps of 2 G more; the face's
+/// normal takes 5 eps of the edges, its weights as much again: 64 eps together. Unit: a root of three squares.
+template <class Tier = Fast, class T = double>
+constexpr Contract moving_sphere_triangle() {
+  return Tier::template contract<T>({.backward = 128, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order, G the largest position: the center seen from a corner and an edge are known to 2 eps of G,
-  /// at most 2 G long; a unit edge adds 5 eps, a moment 5 eps of 4 G^2 and the speed, the root of the chord
-  /// half of 8 eps, the way to the contact 3 eps of 4 G and the location 4 eps of 2 G more; the face's
-  /// normal takes 5 eps of the edges, its weights as much again: 64 eps together. Unit: a root of three squares.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -29,27 +29,13 @@ Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& nor
           detail::is_inside<Tier>({rectangle.v0, rectangle.v2, rectangle.v3}, axis, point)};
 }
 
-namespace inputs {
-template <class T>
-struct point_in_rectangle {
-  Rectangle<T> rectangle{};
-  Vec3<T> normal{T(0), T(0), T(1)};
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("rectangle", &point_in_rectangle::rectangle),
-                      member("normal", &point_in_rectangle::normal, Role::direction),
-                      member("point", &point_in_rectangle::point, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::point_in_rectangle<Tier>(rectangle, normal, point);
-  }
+/// First order: the sides of the edges as in point_in_triangle, 33.
+template <class Tier = Fast, class T = double>
+constexpr Contract point_in_rectangle() {
+  return Tier::template contract<T>({.backward = 33, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: the sides of the edges as in point_in_triangle, 33.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 33, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

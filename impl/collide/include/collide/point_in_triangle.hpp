@@ -149,36 +149,16 @@ Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& nor
   return {{weights[0], weights[1], weights[2]}, true};
 }
 
-namespace inputs {
-template <class T>
-struct point_in_triangle {
-  Triangle<T> triangle{};
-  Vec3<T> normal{T(0), T(0), T(1)};
-  int axis = -1;
-  Vec3<T> point{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("triangle", &point_in_triangle::triangle),
-                      member("normal", &point_in_triangle::normal, Role::direction),
-                      member("axis", &point_in_triangle::axis, Role::index),
-                      member("point", &point_in_triangle::point, Role::position));
-  }
-  std::optional<Broken> broken() const {
-    if (axis < -1 || axis > 2) return Broken{"axis", "-1, 0, 1 or 2", double(axis)};
-    return std::nullopt;
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::point_in_triangle<Tier>(triangle, normal, axis, point);
-  }
+/// First order, G the largest position: a corner seen from the point carries 1 eps of 2 G; the side of an
+/// edge 3 eps of that distance (at most 3 G), which moving the point by three times as much (the tip of a
+/// triangle cut off by its bounds) explains: 33. The weights: a foot in the plane as in
+/// closest_point_rectangle, 72 eps G, and the edge's instead, within as much.
+template <class Tier = Fast, class T = double>
+constexpr Contract point_in_triangle() {
+  return Tier::template contract<T>({.backward = 105, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a corner seen from the point carries 1 eps of 2 G; the side of an
-  /// edge 3 eps of that distance (at most 3 G), which moving the point by three times as much (the tip of a
-  /// triangle cut off by its bounds) explains: 33. The weights: a foot in the plane as in
-  /// closest_point_rectangle, 72 eps G, and the edge's instead, within as much.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 105, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

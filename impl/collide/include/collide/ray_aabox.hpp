@@ -123,25 +123,14 @@ inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& bo
   return {{entry.at[0], entry.at[1], entry.at[2]}, true, false};
 }
 
-namespace inputs {
-template <class T>
-struct ray_aabox {
-  Ray<T> ray{};
-  AABox<T> aabox{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("ray", &ray_aabox::ray), member("aabox", &ray_aabox::aabox));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::ray_aabox<Tier>(prepare_ray(ray), prepare_aabox(aabox));
-  }
+/// First order, G the largest position: a gap is known to 1 eps of 2 G, inverse and product add 1 eps each,
+/// product and sum 1 eps each of a way of at most 2 G. Origin and faces move by 5 * 2 eps G at most.
+template <class Tier = Fast, class T = double>
+constexpr Contract ray_aabox() {
+  return Tier::template contract<T>({.backward = 10, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a gap is known to 1 eps of 2 G, inverse and product add 1 eps each,
-  /// product and sum 1 eps each of a way of at most 2 G. Origin and faces move by 5 * 2 eps G at most.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 10, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -34,34 +34,18 @@ Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T
   return {slid};
 }
 
-namespace inputs {
-template <class T>
-struct slide_direction {
-  Sphere<T> sphere{};
-  Vec3<T> velocity{};
-  T time{};
-  Vec3<T> location{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &slide_direction::sphere),
-                      member("velocity", &slide_direction::velocity, Role::velocity),
-                      member("time", &slide_direction::time, Role::time),
-                      member("location", &slide_direction::location, Role::position));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::slide_direction<Tier>(sphere, velocity, time, location);
-  }
+/// First order: the vector to the center carries 3 eps of the positions and of velocity * time, unit
+/// vectors 4 eps each, either cross product 3 eps: what they turn the direction is explained by moving the location and
+/// the velocity by as much. The length, with the length of u squared, is off by 20 eps. A turn by k eps changes it by k
+/// cosine eps, cosine that of d and u: 12 explain it where the cosine is above 1/2, with the 20 of the directions 32.
+/// Below, where no turn explains it as the cosine nears 0, of_length() leaves 2^-8 eps, the error of cosine^2, 20 eps of
+/// itself or 10 of the length times it, and a third of 20 cosine^2: a turn by 8 eps, beside the last rounding.
+template <class Tier = Fast, class T = double>
+constexpr Contract slide_direction() {
+  return Tier::template contract<T>({.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+}
 
-  /// First order: the vector to the center carries 3 eps of the positions and of velocity * time, unit
-  /// vectors 4 eps each, either cross product 3 eps: what they turn the direction is explained by moving the location and
-  /// the velocity by as much. The length, with the length of u squared, is off by 20 eps. A turn by k eps changes it by k
-  /// cosine eps, cosine that of d and u: 12 explain it where the cosine is above 1/2, with the 20 of the directions 32.
-  /// Below, where no turn explains it as the cosine nears 0, of_length() leaves 2^-8 eps, the error of cosine^2, 20 eps of
-  /// itself or 10 of the length times it, and a third of 20 cosine^2: a turn by 8 eps, beside the last rounding.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -79,25 +79,14 @@ Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) noexc
   return {Tier::beyond_radius(away, sphere.radius) <= T(0)};
 }
 
-namespace inputs {
-template <class T>
-struct sphere_box_overlap {
-  Sphere<T> sphere{};
-  Box<T> box{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &sphere_box_overlap::sphere), member("box", &sphere_box_overlap::box));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::sphere_box_overlap<Tier>(sphere, box);
-  }
+/// First order, G the largest position: an axis carries 16 eps, a coordinate in the box frame 19 eps of
+/// the distance, at most 4 G; excess, squares, sum and the radius 4 eps more of as much.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_box_overlap() {
+  return Tier::template contract<T>({.backward = 92, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: an axis carries 16 eps, a coordinate in the box frame 19 eps of
-  /// the distance, at most 4 G; excess, squares, sum and the radius 4 eps more of as much.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 92, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -97,27 +97,15 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
   return {sphere.radius + face.distance, normal, sphere.center + normal * sphere.radius};
 }
 
-namespace inputs {
-template <class T>
-struct sphere_box_penetration {
-  Sphere<T> sphere{};
-  Box<T> box{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &sphere_box_penetration::sphere),
-                      member("box", &sphere_box_penetration::box));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::sphere_box_penetration<Tier>(sphere, box);
-  }
+/// First order, G the largest position: an axis carries 16 eps, a coordinate in the box frame 19 eps of
+/// the distance, at most 3.5 G; the way back to the world adds 15 eps of 3.5 G at most, for the length and the
+/// quotient by it count as well where the contact is reached along the normal.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_box_penetration() {
+  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: an axis carries 16 eps, a coordinate in the box frame 19 eps of
-  /// the distance, at most 3.5 G; the way back to the world adds 15 eps of 3.5 G at most, for the length and the
-  /// quotient by it count as well where the contact is reached along the normal.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -30,27 +30,15 @@ Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>&
   return {depth, normal, sphere.center - normal * sphere.radius};
 }
 
-namespace inputs {
-template <class T>
-struct sphere_plane_penetration {
-  Sphere<T> sphere{};
-  Plane<T> plane{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &sphere_plane_penetration::sphere),
-                      member("plane", &sphere_plane_penetration::plane));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::sphere_plane_penetration<Tier>(sphere, plane);
-  }
+/// First order: the dot product carries 4 eps of |n| |center|, which moving the center explains, and 1 eps
+/// of the offset; the norm 3 eps and the quotient 1 eps of the distance, a change of n and the offset;
+/// depth and contact 2 eps each of the center and the radius.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_plane_penetration() {
+  return Tier::template contract<T>({.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order: the dot product carries 4 eps of |n| |center|, which moving the center explains, and 1 eps
-  /// of the offset; the norm 3 eps and the quotient 1 eps of the distance, a change of n and the offset;
-  /// depth and contact 2 eps each of the center and the radius.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -25,25 +25,14 @@ Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sph
   return {Tier::beyond_radius(between, reach) <= T(0)};
 }
 
-namespace inputs {
-template <class T>
-struct sphere_sphere_overlap {
-  Sphere<T> sphere1{}, sphere2{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere1", &sphere_sphere_overlap::sphere1),
-                      member("sphere2", &sphere_sphere_overlap::sphere2));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::sphere_sphere_overlap<Tier>(sphere1, sphere2);
-  }
+/// First order, G the largest position: the distance carries half of 3 + 2 eps (at most 4 G, shared by two
+/// centers: 5 eps G); the reach 1 eps and half of 2 eps of two radii: 4 eps of the largest.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_sphere_overlap() {
+  return Tier::template contract<T>({.backward = 8, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: the distance carries half of 3 + 2 eps (at most 4 G, shared by two
-  /// centers: 5 eps G); the reach 1 eps and half of 2 eps of two radii: 4 eps of the largest.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 8, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

@@ -29,26 +29,15 @@ Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<
   return {depth, normal, sphere1.center + normal * sphere1.radius};
 }
 
-namespace inputs {
-template <class T>
-struct sphere_sphere_penetration {
-  Sphere<T> sphere1{}, sphere2{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere1", &sphere_sphere_penetration::sphere1),
-                      member("sphere2", &sphere_sphere_penetration::sphere2));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::sphere_sphere_penetration<Tier>(sphere1, sphere2);
-  }
+/// First order, G the largest position: a center seen from the other 1 eps of 2 G, its length 3 eps of at
+/// most 4 G, which moving the centers explains; the sum of the radii, the depth and the contact 1 eps each
+/// of as much. The normal's 4 eps of the radius are explained by moving centers and radius.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_sphere_penetration() {
+  return Tier::template contract<T>({.backward = 24, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: a center seen from the other 1 eps of 2 G, its length 3 eps of at
-  /// most 4 G, which moving the centers explains; the sum of the radii, the depth and the contact 1 eps each
-  /// of as much. The normal's 4 eps of the radius are explained by moving centers and radius.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 24, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

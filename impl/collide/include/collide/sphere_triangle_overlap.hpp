@@ -123,26 +123,14 @@ Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& 
   return {false};
 }
 
-namespace inputs {
-template <class T>
-struct sphere_triangle_overlap {
-  Sphere<T> sphere{};
-  Triangle<T> triangle{};
+namespace contracts {
 
-  static constexpr auto members() {
-    return std::tuple(member("sphere", &sphere_triangle_overlap::sphere),
-                      member("triangle", &sphere_triangle_overlap::triangle));
-  }
-  template <class Tier>
-  auto ask() const noexcept {
-    return collide::sphere_triangle_overlap<Tier>(sphere, triangle);
-  }
+/// First order, G the largest position: the foot as in closest_point_rectangle, 72 eps G; the distance
+/// from it 1 eps of 2 G and half of 5 eps of at most 4 G; the radius half of 2 eps.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_triangle_overlap() {
+  return Tier::template contract<T>({.backward = 84, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
 
-  /// First order, G the largest position: the foot as in closest_point_rectangle, 72 eps G; the distance
-  /// from it 1 eps of 2 G and half of 5 eps of at most 4 G; the radius half of 2 eps.
-  static constexpr Contract contract(Fast) {
-    return {.backward = 84, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)};
-  }
-};
-}  // namespace inputs
+}  // namespace contracts
 }  // namespace collide

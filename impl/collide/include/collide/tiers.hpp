@@ -146,7 +146,7 @@ constexpr A nothing() noexcept {
 /// Makes an answer nothing that is a hit with arguments that are not finite.
 template <class A, class... Args>
 constexpr void deny_if_invalid(A& answer, const Args&... args) noexcept {
-  if constexpr (A::kind == Kind::decision || A::kind == Kind::impact || A::kind == Kind::depth) {
+  if constexpr (!requires { A::yes(); }) {
     if (answer.yes() && !all_finite(args...)) answer = nothing<A>();
   }
 }

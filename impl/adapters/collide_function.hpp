@@ -1,0 +1,79 @@
+/// How `collide` is asked what the catalogue asks: which function answers a query, and with which arguments.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <collide/closest_point_segment_unit.hpp>
+#include <collide/closest_point_triangle_perimeter_edges.hpp>
+#include <collide/moving_point_triangle_prepared.hpp>
+#include <collide/ray_aabox.hpp>
+
+#include "impl/catalogue/queries/closest_point_segment_unit.hpp"
+#include "impl/catalogue/queries/closest_point_triangle_perimeter_edges.hpp"
+#include "impl/catalogue/queries/moving_point_triangle_prepared.hpp"
+#include "impl/catalogue/queries/moving_sphere_passes_box.hpp"
+#include "impl/catalogue/queries/moving_sphere_passes_sphere.hpp"
+#include "impl/catalogue/queries/ray_aabox.hpp"
+
+namespace nearmiss::adapters {
+
+/// The function of `collide` that has the query's name, and its contract.
+template <class Q>
+struct CollideFunction;
+
+/// Defines that for one query, whose header of `collide` and whose inputs are included.
+#define NEARMISS_COLLIDE_FUNCTION(query)                        \
+  template <class T>                                            \
+  struct CollideFunction<inputs::query<T>> {                    \
+    template <class Tier, class... Arguments>                   \
+    static auto call(const Arguments&... arguments) noexcept {  \
+      return collide::query<Tier>(arguments...);                \
+    }                                                           \
+    template <class Tier>                                       \
+    static constexpr collide::Contract contract() {             \
+      return collide::contracts::query<Tier, T>();              \
+    }                                                           \
+  };
+
+/// The arguments that the function takes, in a tuple: the members of the inputs, prepared where it takes them prepared.
+template <class Tier, class Q>
+auto arguments(const Q& q) noexcept {
+  return std::apply([&](const auto&... member) { return std::tuple(q.*(member.pointer)...); }, Q::members());
+}
+template <class Tier, class T>
+auto arguments(const inputs::closest_point_segment_unit<T>& q) noexcept {
+  return std::tuple(collide::prepare_segment<Tier>(q.segment), q.point);
+}
+template <class Tier, class T>
+auto arguments(const inputs::closest_point_triangle_perimeter_edges<T>& q) noexcept {
+  return std::tuple(collide::prepare_edges<Tier>(q.triangle), q.point);
+}
+template <class Tier, class T>
+auto arguments(const inputs::moving_point_triangle_prepared<T>& q) noexcept {
+  return std::tuple(q.point, q.velocity, collide::prepare_triangle<Tier>(q.triangle));
+}
+template <class Tier, class T>
+auto arguments(const inputs::ray_aabox<T>& q) noexcept {
+  return std::tuple(collide::prepare_ray(q.ray), collide::prepare_aabox(q.aabox));
+}
+template <class Tier, class T>
+auto arguments(const inputs::moving_sphere_passes_box<T>& q) noexcept {
+  return std::tuple(q.sphere, q.velocity, q.box, q.forever ? std::numeric_limits<T>::infinity() : q.limit);
+}
+/// A limit that is not finite is no limit of the query, which has a flag for that.
+template <class Tier, class T>
+auto arguments(const inputs::moving_sphere_passes_sphere<T>& q) noexcept {
+  const bool valid = q.limit >= T(0) && std::isfinite(q.limit);
+  const T until = q.forever ? std::numeric_limits<T>::infinity() : q.limit;
+  return std::tuple(q.sphere, q.velocity, q.fixed, valid ? until : std::numeric_limits<T>::quiet_NaN());
+}
+
+/// What `collide` answers in that tier.
+template <class Tier, class Q>
+auto ask_collide(const Q& q) noexcept {
+  return std::apply([](const auto&... a) { return CollideFunction<Q>::template call<Tier>(a...); }, arguments<Tier>(q));
+}
+
+}  // namespace nearmiss::adapters

@@ -1,0 +1,106 @@
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include <collide/checked.hpp>
+
+#include "impl/catalogue/query.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+template <class S>
+std::vector<Field> fields_of() {
+  std::vector<Field> fields;
+  S s{};
+  collide::for_each_named_leaf(s, [&](const std::string& path, auto&, Role role) { fields.push_back({path, role}); });
+  return fields;
+}
+
+template <class Inputs>
+std::optional<Invalid> broken_inputs(std::span<const double> values) {
+  static const std::vector<Field> fields = fields_of<Inputs>();
+  for (std::size_t i = 0; i < fields.size(); ++i) {  // what becomes a bool or an int must be one before
+    const double x = values[i];
+    if (fields[i].role == Role::flag && x != 0 && x != 1) return Invalid{fields[i].name, x, "true or false"};
+    if (fields[i].role == Role::index && (x != std::floor(x) || std::abs(x) > 1e6)) {
+      return Invalid{fields[i].name, x, "a small integer"};
+    }
+  }
+  const auto broken = collide::broken_rule(inputs_from<Inputs>(values.data()));
+  if (!broken) return std::nullopt;
+  return Invalid{broken->field.text(), broken->value, std::string(broken->rule)};
+}
+
+template <class Inputs>
+Query make_query(QueryId id, std::string_view name) {
+  using A = typename Inputs::Answer;
+  return {id, name, kind_of<A>, fields_of<Inputs>(), fields_of<A>(), Layout::of<A>(), broken_inputs<Inputs>};
+}
+
+}  // namespace
+
+std::string Invalid::text() const { return fmt::format("{} is {}: it must be {}", field, value, rule); }
+
+std::string Query::member_name(std::size_t part) const {
+  const auto [begin, end, role] = layout.parts[part];
+  const std::string &first = outputs[begin].name, &last = outputs[end - 1].name;
+  if (end - begin == 1) return first;
+  const auto [differs, other] = std::mismatch(first.begin(), first.end(), last.begin(), last.end());
+  const std::size_t dot = first.find_last_of('.', std::size_t(differs - first.begin()));
+  return first.substr(0, dot);
+}
+
+std::string_view name_of(Kind kind) {
+  switch (kind) {
+    case Kind::decision: return "decision";
+    case Kind::impact: return "impact";
+    case Kind::points: return "points";
+    case Kind::depth: return "depth";
+    case Kind::direction: return "direction";
+    case Kind::measure: return "measure";
+  }
+  return "?";
+}
+
+std::string_view name_of(Role role) {
+  switch (role) {
+    case Role::inherited: return "number";
+    case Role::position: return "position";
+    case Role::velocity: return "velocity";
+    case Role::size: return "size";
+    case Role::direction: return "direction";
+    case Role::rotation: return "rotation";
+    case Role::time: return "time";
+    case Role::offset: return "offset";
+    case Role::normal: return "normal";
+    case Role::depth: return "depth";
+    case Role::weight: return "weight";
+    case Role::flag: return "flag";
+    case Role::index: return "index";
+  }
+  return "?";
+}
+
+std::span<const Query> catalogue() {
+  static const std::vector<Query> queries = {
+#define NEARMISS_QUERY(query) make_query<inputs::query<double>>(QueryId::query, #query),
+#include "impl/catalogue/catalogue.def"
+#undef NEARMISS_QUERY
+  };
+  return queries;
+}
+
+const Query& query_of(QueryId id) { return catalogue()[std::size_t(id)]; }
+
+const Query* find_query(std::string_view name) {
+  for (const Query& q : catalogue()) {
+    if (q.name == name) return &q;
+  }
+  return nullptr;
+}
+
+}  // namespace nearmiss

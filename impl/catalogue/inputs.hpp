@@ -1,0 +1,34 @@
+/// What the inputs of a query are made of: the shapes of `collide`, listed members and their roles.
+///
+/// Each file of `queries/` has one query: a struct of its inputs, with the name of the query, that lists its members and
+/// names the type of its answer. Where members depend on each other, `broken()` names the rule that they break.
+#pragma once
+
+#include <optional>
+#include <tuple>
+
+#include <collide/answers.hpp>
+#include <collide/members.hpp>
+#include <collide/shapes.hpp>
+
+namespace nearmiss::inputs {
+
+using collide::AABox;
+using collide::Box;
+using collide::Broken;
+using collide::Capsule;
+using collide::Line;
+using collide::member;
+using collide::Plane;
+using collide::Ray;
+using collide::Rectangle;
+using collide::Role;
+using collide::Segment;
+using collide::Sphere;
+using collide::Triangle;
+using collide::Vec3;
+
+/// Three of each box, and the cross products of the nine pairs.
+inline constexpr int box_box_axes = 15;
+
+}  // namespace nearmiss::inputs

@@ -1,0 +1,21 @@
+/// Which axes of two boxes are parallel.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct box_box_parallel_axis {
+  using Answer = collide::ParallelAxes<T>;
+
+  Box<T> box1{}, box2{};
+  T epsilon{};
+
+  static constexpr auto members() {
+    return std::tuple(member("box1", &box_box_parallel_axis::box1), member("box2", &box_box_parallel_axis::box2),
+                      member("epsilon", &box_box_parallel_axis::epsilon, Role::weight));
+  }
+};
+
+}  // namespace nearmiss::inputs

@@ -1,0 +1,26 @@
+/// The axes along which two boxes may be separated.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct box_box_separating_axis {
+  using Answer = collide::Direction<T>;
+
+  Box<T> box1{}, box2{};
+  int axis = 0;
+
+  static constexpr auto members() {
+    return std::tuple(member("box1", &box_box_separating_axis::box1),
+                      member("box2", &box_box_separating_axis::box2),
+                      member("axis", &box_box_separating_axis::axis, Role::index));
+  }
+  std::optional<Broken> broken() const {
+    if (axis < 0 || axis >= box_box_axes) return Broken{"axis", "0 to 14", double(axis)};
+    return std::nullopt;
+  }
+};
+
+}  // namespace nearmiss::inputs

@@ -1,0 +1,21 @@
+/// The point of a triangle's perimeter nearest to a point.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct closest_point_triangle_perimeter {
+  using Answer = collide::ClosestPoint<T>;
+
+  Triangle<T> triangle{};
+  Vec3<T> point{};
+
+  static constexpr auto members() {
+    return std::tuple(member("triangle", &closest_point_triangle_perimeter::triangle),
+                      member("point", &closest_point_triangle_perimeter::point, Role::position));
+  }
+};
+
+}  // namespace nearmiss::inputs

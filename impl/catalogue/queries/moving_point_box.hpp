@@ -1,0 +1,23 @@
+/// When and where a moving point enters a box.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct moving_point_box {
+  using Answer = collide::Impact<T>;
+
+  Vec3<T> point{};
+  Vec3<T> velocity{};
+  Box<T> box{};
+
+  static constexpr auto members() {
+    return std::tuple(member("point", &moving_point_box::point, Role::position),
+                      member("velocity", &moving_point_box::velocity, Role::velocity),
+                      member("box", &moving_point_box::box));
+  }
+};
+
+}  // namespace nearmiss::inputs

@@ -1,0 +1,23 @@
+/// When and where a moving point enters a capsule.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct moving_point_capsule {
+  using Answer = collide::Impact<T>;
+
+  Vec3<T> point{};
+  Vec3<T> velocity{};
+  Capsule<T> capsule{};
+
+  static constexpr auto members() {
+    return std::tuple(member("point", &moving_point_capsule::point, Role::position),
+                      member("velocity", &moving_point_capsule::velocity, Role::velocity),
+                      member("capsule", &moving_point_capsule::capsule));
+  }
+};
+
+}  // namespace nearmiss::inputs

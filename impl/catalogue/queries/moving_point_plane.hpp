@@ -1,0 +1,23 @@
+/// When and where a moving point meets a one-sided plane.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct moving_point_plane {
+  using Answer = collide::Impact<T>;
+
+  Vec3<T> point{};
+  Vec3<T> velocity{};
+  Plane<T> plane{};
+
+  static constexpr auto members() {
+    return std::tuple(member("point", &moving_point_plane::point, Role::position),
+                      member("velocity", &moving_point_plane::velocity, Role::velocity),
+                      member("plane", &moving_point_plane::plane));
+  }
+};
+
+}  // namespace nearmiss::inputs

@@ -1,0 +1,23 @@
+/// When and where a moving sphere meets a one-sided plane.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct moving_sphere_plane {
+  using Answer = collide::Impact<T>;
+
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Plane<T> plane{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_plane::sphere),
+                      member("velocity", &moving_sphere_plane::velocity, Role::velocity),
+                      member("plane", &moving_sphere_plane::plane));
+  }
+};
+
+}  // namespace nearmiss::inputs

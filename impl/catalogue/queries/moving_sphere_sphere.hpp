@@ -1,0 +1,23 @@
+/// When and where a moving sphere meets a fixed one.
+#pragma once
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+template <class T>
+struct moving_sphere_sphere {
+  using Answer = collide::Impact<T>;
+
+  Sphere<T> sphere{};
+  Vec3<T> velocity{};
+  Sphere<T> fixed{};
+
+  static constexpr auto members() {
+    return std::tuple(member("sphere", &moving_sphere_sphere::sphere),
+                      member("velocity", &moving_sphere_sphere::velocity, Role::velocity),
+                      member("fixed", &moving_sphere_sphere::fixed));
+  }
+};
+
+}  // namespace nearmiss::inputs

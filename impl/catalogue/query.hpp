@@ -1,0 +1,63 @@
+/// A query with its types erased: names and roles of its numbers, its rules.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <collide/members.hpp>
+
+#include "impl/catalogue/answer.hpp"
+#include "impl/catalogue/kind.hpp"
+#include "impl/catalogue/layout.hpp"
+
+namespace nearmiss {
+
+using collide::Role;
+
+std::string_view name_of(Role role);
+
+/// One number of an input or an answer.
+struct Field {
+  std::string name;  ///< "box.center.x"
+  Role role;
+};
+
+/// A rule that an input breaks: which field, its value, what it must be.
+struct Invalid {
+  std::string field;
+  double value;
+  std::string rule;
+  std::string text() const;
+};
+
+/// The queries by name, in the catalogue's order.
+enum class QueryId {
+#define NEARMISS_QUERY(query) query,
+#include "impl/catalogue/catalogue.def"
+#undef NEARMISS_QUERY
+};
+
+struct Query {
+  QueryId id;
+  std::string_view name;
+  Kind kind;
+  std::vector<Field> inputs;
+  std::vector<Field> outputs;
+  Layout layout;  ///< the members of an answer, as runs of its outputs
+  /// The first rule that the inputs break, if any. Expects inputs.size() values.
+  std::optional<Invalid> (*broken)(std::span<const double> values);
+
+  /// "location", "corners.2.point": the outputs' name without their component.
+  std::string member_name(std::size_t part) const;
+};
+
+/// All queries, in the catalogue's order.
+std::span<const Query> catalogue();
+const Query& query_of(QueryId id);
+/// nullptr when the catalogue has no such line.
+const Query* find_query(std::string_view name);
+
+}  // namespace nearmiss

@@ -1,0 +1,340 @@
+#include "impl/host/hosts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <wordexp.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "impl/host/replies.hpp"
+#include "impl/subject/printable.hpp"
+#include "impl/catalogue/query.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t most_of_a_name = 64, most_of_a_text = 500;
+
+/// What is wrong with a hello.
+struct BadHello : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+template <class... Arguments>
+[[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  throw BadHello(fmt::format(text, std::forward<Arguments>(arguments)...));
+}
+
+/// An object of a hello, of which every member must be known.
+class Members {
+ public:
+  Members(const Json& object, std::string path, std::initializer_list<std::string_view> known)
+      : object_(object), path_(std::move(path)) {
+    if (!object.is_object()) refuse("{} is no object", path_);
+    for (const auto& [name, value] : object.items()) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        refuse("{} has '{}', which is none of: {}", path_, name.substr(0, most_of_a_name), fmt::join(known, ", "));
+      }
+    }
+  }
+  std::string text(const char* name, const std::string& otherwise = "", std::size_t most = most_of_a_text) const {
+    const Json* j = find(name);
+    if (j == nullptr) return otherwise;
+    if (!j->is_string()) refuse("{} is no text", of(name));
+    const auto& text = j->get_ref<const std::string&>();
+    if (text.size() > most) refuse("{} has {} bytes, more than {}", of(name), text.size(), most);
+    return printable(text);
+  }
+  bool flag(const char* name) const {
+    const Json* j = find(name);
+    if (j != nullptr && !j->is_boolean()) refuse("{} is neither true nor false", of(name));
+    return j != nullptr && j->get<bool>();
+  }
+  std::optional<int> whole(const char* name) const {
+    const Json* j = find(name);
+    if (j == nullptr) return std::nullopt;
+    constexpr double most = 1e6;
+    if (!j->is_number_integer() || std::abs(j->get<double>()) > most) refuse("{} is no whole number within a million", of(name));
+    return j->get<int>();
+  }
+  /// Infinity where it is null or missing.
+  double bound(const char* name) const {
+    const Json* j = find(name);
+    if (j == nullptr || j->is_null()) return std::numeric_limits<double>::infinity();
+    if (!j->is_number()) refuse("{} is neither a number nor null", of(name));
+    return j->get<double>();
+  }
+  const Json* find(const char* name) const {
+    const auto at = object_.find(name);
+    return at == object_.end() ? nullptr : &*at;
+  }
+  const Json& list(const char* name) const {
+    static const Json none = Json::array();
+    const Json* j = find(name);
+    if (j == nullptr) return none;
+    if (!j->is_array()) refuse("{} is no list", of(name));
+    return *j;
+  }
+
+ private:
+  std::string of(const char* name) const { return fmt::format("{}'s \"{}\"", path_, name); }
+  const Json& object_;
+  std::string path_;
+};
+
+collide::Contract contract_in(const Json* j, const std::string& query) {
+  if (j == nullptr || j->is_null()) return {};
+  const Members m(*j, fmt::format("its contract of {}", query),
+                  {"backward", "forward", "unit", "exact_decisions", "lowest", "highest"});
+  collide::Contract c;
+  c.backward = m.bound("backward"), c.forward = m.bound("forward"), c.unit = m.bound("unit");
+  c.exact_decisions = m.flag("exact_decisions");
+  c.lowest = m.whole("lowest").value_or(c.lowest), c.highest = m.whole("highest").value_or(c.highest);
+  if (!(c.backward >= 0 && c.forward >= 0 && c.unit >= 0)) {
+    refuse("its contract of {} promises errors of at most {}, {} and {}: none may be below 0", query, c.backward, c.forward,
+           c.unit);
+  }
+  if (c.lowest > c.highest) refuse("its contract of {} has lowest {} above highest {}", query, c.lowest, c.highest);
+  return c;
+}
+
+Preconditions requirements_in(const Json& list, const std::string& query) {
+  Preconditions required;
+  for (const Json& j : list) {
+    if (!j.is_string()) refuse("what it requires for {} has an entry that is no text", query);
+    const auto& name = j.get_ref<const std::string&>();
+    const auto is_it = [&](Precondition p) { return name_of(p) == name; };
+    const auto found = std::find_if(all_preconditions.begin(), all_preconditions.end(), is_it);
+    if (found == all_preconditions.end()) {
+      std::vector<std::string_view> names;
+      for (const Precondition p : all_preconditions) names.push_back(name_of(p));
+      refuse("it requires '{}' for {}, which is none of {}", name.substr(0, most_of_a_name), query, fmt::join(names, ", "));
+    }
+    required.add(*found);
+  }
+  return required;
+}
+
+/// How a host's subject is asked where no Worker is at hand.
+struct HostedOffer {
+  std::shared_ptr<const HostProgram> host;
+  Offering offering;
+};
+using HostedOffers = std::deque<HostedOffer>;  // functions are told where they lie
+
+Answer ask_hosted(const void* offer, std::span<const double> inputs) {
+  static std::map<const HostProgram*, std::unique_ptr<Worker>> workers;
+  const auto& [host, offering] = *static_cast<const HostedOffer*>(offer);
+  std::unique_ptr<Worker>& worker = workers[host.get()];
+  if (!worker) worker = std::make_unique<Worker>(worker_limits(), host);
+  return worker->ask(offering, inputs, inputs.size()).front();
+}
+
+void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedOffers& hosted) {
+  const Members m(j, fmt::format("offer {}", position + 1),
+                  {"query", "inputs", "outputs", "by_equivalence", "how", "contract", "requires"});
+  const std::string name = m.text("query");
+  const Query* query = find_query(name);
+  if (query == nullptr) refuse("it offers the query '{}', which the catalogue does not have", name);
+  const int inputs = m.whole("inputs").value_or(int(query->inputs.size()));
+  const int outputs = m.whole("outputs").value_or(int(query->outputs.size()));
+  if (std::size_t(inputs) != query->inputs.size() || std::size_t(outputs) != query->outputs.size()) {
+    refuse("{} has {} inputs and {} outputs, and its hello says {} and {}", name, query->inputs.size(), query->outputs.size(),
+           inputs, outputs);
+  }
+  for (Offering& o : subject.offerings) {
+    if (o.query != name) continue;
+    if (o.offer != Offer::not_offered) refuse("it offers {} twice", name);
+    o.how = m.text("how");
+    o.offer = m.flag("by_equivalence") ? Offer::by_equivalence : Offer::answers;
+    o.contract = contract_in(m.find("contract"), name);
+    o.required = requirements_in(m.list("requires"), name);
+    o.position = position;
+    o.outputs = std::uint32_t(outputs);
+    o.decides = decides(query->kind);
+    o.answer = AnswerFunction(ask_hosted, &hosted.emplace_back(HostedOffer{subject.host, o}));
+  }
+}
+
+HostProgram::Batches batches_in(const std::string& word, bool may_share) {
+  if (may_share) {
+    if (word != "shared") refuse("its \"batches\" is '{}', and a host of this project has \"shared\"", word);
+    return HostProgram::Batches::shared;
+  }
+  if (word == "json") return HostProgram::Batches::json;
+  if (word == "binary") return HostProgram::Batches::binary;
+  refuse("its \"batches\" is '{}': it must be \"json\" or \"binary\"", word);
+}
+
+Subject described(std::string_view hello, HostProgram program) {
+  if (wire::nesting(hello) > wire::most_nested) refuse("its hello is nested more than {} deep", wire::most_nested);
+  const Json j = Json::parse(hello, nullptr, false);
+  if (j.is_discarded()) refuse("what it says first is no JSON: {}", hello.substr(0, std::min<std::size_t>(hello.find('\n'), 60)));
+  const bool may_share = program.batches == HostProgram::Batches::shared;
+  const Members m = may_share ? Members(j, "its hello",
+                                        {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered",
+                                         "referee"})
+                              : Members(j, "its hello",
+                                        {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
+  const std::optional<int> version = m.whole("nearmiss");
+  if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
+  if (*version != wire::version) refuse("it speaks version {} of the protocol, and this is version {}", *version, wire::version);
+  if (const std::string why = m.text("refused"); !why.empty()) refuse("{}", why);
+  Subject s;
+  s.name = m.text("name");
+  if (s.name.empty() || s.name.size() > most_of_a_name ||
+      s.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
+    refuse("its name is '{}': it must be of small letters, digits and '-', at most {}", s.name, most_of_a_name);
+  }
+  s.version = m.text("version");
+  const std::string scalar = m.text("scalar");
+  if (scalar != "float" && scalar != "double") refuse("its scalar is '{}': it must be \"float\" or \"double\"", scalar);
+  s.scalar = scalar == "float" ? Scalar::float32 : Scalar::float64;
+  program.batches = batches_in(m.text("batches"), may_share);
+  program.hello = hello;
+  s.host = std::make_shared<const HostProgram>(std::move(program));
+  s.referee = may_share && m.flag("referee");
+  const Json* not_offered = m.find("not_offered");
+  if (not_offered != nullptr && !not_offered->is_object()) refuse("its \"not_offered\" is no object");
+  for (const Query& q : catalogue()) {
+    Offering& o = s.offerings.emplace_back();
+    o.query = q.name;
+    o.how = "it is not among its offers";
+    if (not_offered == nullptr) continue;
+    if (const auto why = not_offered->find(q.name); why != not_offered->end() && why->is_string()) o.how = printable(why->get<std::string>().substr(0, most_of_a_text));
+  }
+  const auto hosted = std::make_shared<HostedOffers>();
+  std::uint32_t position = 0;
+  if (!may_share && m.list("offers").empty()) refuse("it offers nothing: its \"offers\" is empty");
+  for (const Json& offer : m.list("offers")) take_offer(offer, position++, s, *hosted);
+  s.context = hosted;
+  return s;
+}
+
+std::string host_of_plugins() { return NEARMISS_HOSTS "/plugin"; }
+
+/// Adds what the program says that it is.
+void add_hosted(const std::string& where, HostProgram program, const std::string& plugin, const std::string& command) {
+  std::string hello;
+  try {
+    hello = Worker(worker_limits(), std::make_shared<const HostProgram>(program)).hello();
+  } catch (const HostFailed& e) {
+    throw BadSubject(fmt::format("{}: {}", where, e.what()));
+  }
+  Subject s = subject_from_hello(where, hello, std::move(program));
+  if (find_subject(s.name) != nullptr) throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
+  s.plugin = plugin;
+  s.command = command;
+  add_subject(std::move(s));
+}
+
+std::vector<std::string> parts_of(const char* text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream all(text == nullptr ? "" : text);
+  for (std::string part; std::getline(all, part, separator);) {
+    if (!part.empty()) parts.push_back(part);
+  }
+  return parts;
+}
+
+/// A simple command's words, as a shell has them; of any other (pipes, assignments, several commands) what a shell needs to
+/// run it. How long a program works, and what signal ended it, is known only of one that no shell stands before.
+std::vector<std::string> words_of(const std::string& command) {
+  const std::vector<std::string> by_shell{"/bin/sh", "-c", command};
+  wordexp_t words{};
+  const int error = wordexp(command.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF);
+  if (error == WRDE_NOSPACE) wordfree(&words);
+  if (error != 0) return by_shell;
+  std::vector<std::string> all(words.we_wordv, words.we_wordv + words.we_wordc);
+  wordfree(&words);
+  if (all.empty() || all.front().find('=') != std::string::npos) return by_shell;
+  for (const char* builtin : {"exec", ".", "eval", "if", "while", "until", "for", "case", "!"}) {
+    if (all.front() == builtin) return by_shell;
+  }
+  return all;
+}
+
+std::string quoted(const std::string& text) {
+  std::string all = "'";
+  for (const char c : text) {
+    if (c == '\'') all += "'\\'";
+    all += c;
+  }
+  return all + "'";
+}
+
+/// The command as it runs from any folder: from this one, where a word of it names a file here.
+std::string from_any_folder(const std::string& command, const std::vector<std::string>& words) {
+  const bool by_shell = words.front() == "/bin/sh";
+  const auto names_a_file_here = [](const std::string& word) {
+    std::error_code error;
+    return !word.starts_with('/') && std::filesystem::exists(word, error);
+  };
+  if (!by_shell && std::none_of(words.begin(), words.end(), names_a_file_here)) return command;
+  std::error_code error;
+  const std::string here = std::filesystem::current_path(error).string();
+  if (error) return command;
+  return fmt::format("cd {} && {}{}", quoted(here), by_shell ? "" : "exec ", command);
+}
+
+}  // namespace
+
+Subject subject_from_hello(const std::string& where, std::string_view hello, HostProgram program) {
+  try {
+    return described(hello, std::move(program));
+  } catch (const BadHello& e) {
+    throw BadSubject(fmt::format("{}: {}", where, e.what()));
+  }
+}
+
+void load_plugin(const std::string& file) {
+  const auto refuse_file = [&](const char* why) { throw BadSubject(fmt::format("{}: {}", file, why)); };
+  std::error_code error;
+  if (file.empty()) throw BadSubject("--plugin: the name of its file is empty");
+  if (!std::filesystem::exists(file, error)) refuse_file("there is no such file");
+  if (!std::filesystem::is_regular_file(file, error)) refuse_file("it is not a file");
+  const std::string path = std::filesystem::absolute(file).lexically_normal();  // replays from any folder
+  add_hosted(file, {{host_of_plugins(), path}}, path, "");
+}
+
+void load_command(const std::string& command) {
+  if (command.find_first_not_of(" \t\n") == std::string::npos) throw BadSubject("--command: the command is empty");
+  const std::vector<std::string> words = words_of(command);
+  add_hosted(command, {words, HostProgram::Batches::json}, "", from_any_folder(command, words));
+}
+
+void load_subjects_of_environment() {
+  for (const std::string& file : parts_of(std::getenv(plugins_variable), ':')) load_plugin(file);
+  for (const std::string& command : parts_of(std::getenv(commands_variable), '\n')) load_command(command);
+}
+
+std::vector<Subject> hosted(const std::vector<HostOfBuild>& hosts) {
+  std::vector<std::unique_ptr<Worker>> workers;
+  for (const HostOfBuild& h : hosts) {
+    workers.push_back(std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(HostProgram{{h.file}})));
+    workers.back()->begin();
+  }
+  std::vector<Subject> all;
+  for (std::size_t i = 0; i < hosts.size(); ++i) {
+    const std::string where = fmt::format("the subject {} of this build", hosts[i].name);
+    try {
+      all.push_back(subject_from_hello(where, workers[i]->hello(), {{hosts[i].file}}));
+    } catch (const HostFailed& e) {
+      throw BadSubject(fmt::format("{}: {}", where, e.what()));
+    }
+    workers[i].reset();
+  }
+  return all;
+}
+
+}  // namespace nearmiss

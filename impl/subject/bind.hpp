@@ -1,0 +1,62 @@
+/// Turns an adapter into a Subject: pairs it with every line of the catalogue.
+///
+/// An adapter is a struct with
+///   using Number = double;                         // or float: the scalar in which the library computes
+///   static std::string version();
+///   static constexpr bool referee = true;           // optional
+///   static auto answer(const inputs::QUERY<Number>&);   // one for each query that it answers
+///   template <class Q> static collide::Contract contract();      // optional: its promise for inputs Q
+///   template <class Q> static std::string equivalence();         // optional: "" or by which equivalence
+///   template <class Q> static std::string left_out();            // optional: "" or what of an answer it does not give, and why
+///   template <class Q> static std::string why_not();             // optional: why a query is not offered
+///   template <class Q> static nearmiss::Preconditions needs();   // optional: what it requires of inputs Q
+#pragma once
+
+#include <concepts>
+
+#include "impl/subject/adapter.hpp"
+#include "impl/subject/subject.hpp"
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
+
+namespace nearmiss {
+
+
+template <class Adapter, class Q>
+Offering offering_of(std::string_view query) {
+  Offering o;
+  o.query = query;
+  if constexpr (requires(const Q& q) { Adapter::answer(q); }) {
+    o.offer = Offer::answers;
+    o.answer = [](std::span<const double> values) { return erase(Adapter::answer(inputs_from<Q>(values.data()))); };
+    if constexpr (requires { Adapter::template contract<Q>(); }) o.contract = Adapter::template contract<Q>();
+    if constexpr (requires { Adapter::template needs<Q>(); }) o.required = Adapter::template needs<Q>();
+    if constexpr (requires { Adapter::template equivalence<Q>(); }) {
+      o.how = Adapter::template equivalence<Q>();
+      if (!o.how.empty()) o.offer = Offer::by_equivalence;
+    }
+    if constexpr (requires { Adapter::template left_out<Q>(); }) {
+      const std::string left_out = Adapter::template left_out<Q>();
+      if (!left_out.empty()) o.how += (o.how.empty() ? "" : "; ") + ("without " + left_out);
+    }
+  } else {
+    o.how = "the adapter has no function for it";
+    if constexpr (requires { Adapter::template why_not<Q>(); }) o.how = Adapter::template why_not<Q>();
+  }
+  return o;
+}
+
+template <class Adapter>
+Subject bind(std::string name) {
+  using Number = typename Adapter::Number;
+  Subject s;
+  s.name = std::move(name);
+  s.version = Adapter::version();
+  s.scalar = std::same_as<Number, float> ? Scalar::float32 : Scalar::float64;
+  if constexpr (requires { Adapter::referee; }) s.referee = Adapter::referee;
+#define NEARMISS_QUERY(query) s.offerings.push_back(offering_of<Adapter, inputs::query<Number>>(#query));
+#include "impl/catalogue/catalogue.def"
+#undef NEARMISS_QUERY
+  return s;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,351 @@
+/// A ball that moves past a fixed ball or capsule: one quadratic for each end, one for the tube between them;
+/// its earlier root counts where the contact then belongs to that part. The distance from a convex set is
+/// convex along a line, so the least of these roots is the first contact. Shared by the oracles of round
+/// things.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "oracles/algorithms/first_contact.hpp"
+#include "oracles/algorithms/residual.hpp"
+#include "oracles/algorithms/times.hpp"
+#include "oracles/algorithms/tuples.hpp"
+
+namespace nearmiss::oracle {
+
+/// The moving ball, and all points within `radius` of the segment between two ends.
+template <class N>
+struct RoundMotion {
+  Vector<N> at, step;  // of the moving center
+  N own;               // its radius
+  std::array<Vector<N>, 2> end;
+  N radius;            // of the fixed thing
+  bool is_ball;        // one end
+
+  N reach() const { return own + radius; }
+  Vector<N> axis() const { return minus(end[1], end[0]); }
+};
+
+/// The parts of a capsule; a ball has the first alone.
+enum class Part { first_end, second_end, tube };
+
+/// A contact: the nearest point of the axis and what leads from there to the moving center.
+template <class N>
+struct RoundContact {
+  N time;
+  Vector<N> on_axis, away;
+  Part part;
+};
+
+template <class N>
+struct RoundPast {
+  const RoundMotion<N>& m;
+  const Vector<N> d = m.axis();
+  const N length2 = norm2(d);
+
+  /// The share of the second end, for a center between the ends.
+  N share(const Vector<N>& from_first) const {
+    if (may_be_zero(length2)) return is_enclosure<N> ? join(N(0), N(1)) : N(0);
+    return assume_within(N(inner(d, from_first) / length2), 0.0, 1.0);
+  }
+  bool may_belong_to_end(const Vector<N>& from_end, Part part) const {
+    if (m.is_ball) return true;
+    const N along = inner(d, from_end);
+    return part == Part::first_end ? may_be_at_most_zero(along) : may_be_at_least_zero(along);
+  }
+  bool may_belong_to_tube(const Vector<N>& from_first, const Vector<N>& from_second) const {
+    return may_be_at_least_zero(inner(d, from_first)) && may_be_at_most_zero(inner(d, from_second));
+  }
+  static bool all_surely_zero(const Vector<N>& x) {
+    return surely_zero(x[0]) && surely_zero(x[1]) && surely_zero(x[2]);
+  }
+
+  /// The normals at a center on the axis: those that lead out of that part. Any other normal of the part is one of them.
+  Normals<N> normals_of_axis(Part part) const {
+    if (m.is_ball || surely_zero(length2)) return Normals<N>::any();
+    return Normals<N>::cone({{d, part == Part::first_end ? -1 : 0, part == Part::second_end ? 1 : 0}});
+  }
+  /// Where the center lies on the axis every normal out of it is right, with the place that it leads to. Of a fixed thing
+  /// that is but its axis, all surface, only those against the motion.
+  template <class Out>
+  void yes_on_axis(const RoundContact<N>& c, Normals<N> normals, Out& out) const {
+    constexpr std::size_t location = 1, normal = 4;
+    yes_to_any(NormalWithPlace<N>{std::move(normals), c.on_axis, m.radius, normal, location}, out,
+               [&](const Vector<N>& n, const Vector<N>& place) -> collide::Impact<N> {
+                 return {c.time, answer_vector(place), answer_vector(n)};
+               });
+  }
+
+  /// Where `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does not
+  /// start there, meets no normal that leads along its motion.
+  template <class Out>
+  void yes(const RoundContact<N>& c, const N& distance, bool arrives, Out& out) const {
+    if (may_be_zero(distance)) {
+      const bool only_against = arrives || (all_surely_zero(c.away) && surely_zero(m.radius));
+      const Normals<N> out_of_axis = normals_of_axis(c.part);
+      return yes_on_axis(c, only_against ? out_of_axis.against(m.step) : out_of_axis, out);
+    }
+    const auto unit = [&](const N& x) -> N {
+      if constexpr (is_enclosure<N>) {
+        return assume_within(N(x / distance), -1.0, 1.0);
+      } else {
+        return x / distance;
+      }
+    };
+    const Vector<N> normal{unit(c.away[0]), unit(c.away[1]), unit(c.away[2])};
+    Vector<N> location = plus(c.on_axis, times(normal, m.radius));
+    if constexpr (is_enclosure<N>) {  // as seen from the moving center
+      if (c.time.sup() > 0 && is_moderate(c.time) && is_moderate(m.at) && is_moderate(m.step)) {
+        const Vector<N> seen = minus(plus(m.at, times(m.step, c.time)), times(normal, m.own));
+        for (int i = 0; i < 3; ++i) location[i] = meet(location[i], seen[i]);
+      }
+    }
+    out.yes({c.time, answer_vector(location), answer_vector(normal)});
+  }
+
+  // The start.
+
+  /// A contact at time 0 of that part; tells whether the ball may start apart.
+  template <class Out>
+  bool start(const RoundContact<N>& c, const N& distance2, Out& out) const {
+    const N outside = distance2 - square(m.reach());
+    if (!may_be_at_most_zero(outside)) return true;
+    const N leaving = inner(c.away, m.step);
+    const bool may_overlap = may_be_negative(outside) && may_be_positive(m.own);
+    const bool may_touch = may_be_zero(outside) && may_be_at_most_zero(leaving);
+    if (may_be_negative(outside) && may_be_zero(m.own)) out.no();
+    if (may_be_zero(outside) && may_be_positive(leaving)) out.no();
+    if (may_overlap || may_touch) yes(c, root(assume_at_least_zero(distance2)), false, out);
+    return may_be_positive(outside);
+  }
+
+  template <class Out>
+  bool start(Out& out) const {
+    const Vector<N> from[2] = {minus(m.at, m.end[0]), minus(m.at, m.end[1])};
+    bool may_start_apart = false;
+    const auto from_end = [&](int i, Part part) {
+      if (!may_belong_to_end(from[i], part)) return;
+      may_start_apart = start({N(0), m.end[i], from[i], part}, norm2(from[i]), out) || may_start_apart;
+    };
+    from_end(0, Part::first_end);
+    if (m.is_ball) return may_start_apart;
+    from_end(1, Part::second_end);
+    if (!may_be_positive(length2) || !may_belong_to_tube(from[0], from[1])) return may_start_apart;
+    const N s = share(from[0]);
+    const Vector<N> away = minus(from[0], times(d, s));
+    N distance2 = norm2(away);
+    if (!may_be_zero(length2)) distance2 = meet(distance2, N(norm2(outer(from[0], d)) / length2));
+    const RoundContact<N> c{N(0), plus(m.end[0], times(d, s)), away, Part::tube};
+    return start(c, distance2, out) || may_start_apart;
+  }
+
+  // The roots.
+
+  /// Encloses the times at which the moving center may be within reach; false: never.
+  bool may_be_near(N& time) const {
+    Vector<N> low = m.end[0], high = m.end[0];
+    if constexpr (is_enclosure<N>) {
+      for (int i = 0; i < 3; ++i) {
+        const N ends = join(m.end[0][i], m.end[1][i]);
+        low[i] = ends - m.reach(), high[i] = ends + m.reach();
+      }
+    }
+    time = any_time<N>();
+    return narrow_to_range(time, m.at, m.step, low, high);
+  }
+
+  /// The earlier root of a t^2 - 2 closing t + c, with half the root of the discriminant; narrows `time`.
+  static bool earlier_root(const N& a, const N& closing, const N& c, const N& half, N& time) {
+    const N far = assume_at_least_zero(closing) + half;
+    if constexpr (is_enclosure<N>) {
+      if (!may_be_zero(far) && !narrow(time, N(assume_at_least_zero(c) / far))) return false;
+      if (!may_be_zero(a) && !narrow(time, N((closing - half) / a))) return false;
+      return true;
+    } else {
+      time = c / far;
+      return true;
+    }
+  }
+
+  /// The contacts that may be the first, and a time by which the ball surely reaches the fixed thing.
+  struct Roots {
+    std::vector<RoundContact<N>> list;
+    double surely_by = std::numeric_limits<double>::infinity();
+  };
+
+  void root_of_end(int i, Part part, N time, Roots& roots) const {
+    const Vector<N> from = minus(m.at, m.end[i]);
+    const N closing = -inner(from, m.step), speed2 = norm2(m.step);
+    if (!may_be_positive(closing)) return;
+    const N discriminant = speed2 * square(m.reach()) - norm2(outer(from, m.step));
+    const N outside = norm2(from) - square(m.reach());
+    if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
+    if (!earlier_root(speed2, closing, outside, root(discriminant), time)) return;
+    if (!may_be_at_most_zero(closing) && !may_be_negative(discriminant)) reaches_by(time, roots);
+    add({time, m.end[i], from, part}, m.step, roots.list, [&](const Vector<N>& away) { return may_belong_to_end(away, part); });
+  }
+
+  void root_of_tube(N time, Roots& roots) const {
+    const Vector<N> from = minus(m.at, m.end[0]);
+    if constexpr (is_enclosure<N>) {  // the tube lies in a ball about an end; tells something of short ones alone
+      const N reach = m.reach() + root(length2);
+      const Window near = times_within(from, m.step, square(reach), norm2(outer(from, m.step)));
+      if (near.empty() || !narrow(time, N(near.from, near.to))) return;
+    }
+    const Vector<N> from_d = outer(from, d), step_d = outer(m.step, d);
+    const N closing = -inner(from_d, step_d), a = norm2(step_d);
+    if (!may_be_positive(closing)) return;
+    const N discriminant = length2 * (a * square(m.reach()) - square(inner(d, outer(from, m.step))));
+    const N outside = norm2(from_d) - square(m.reach()) * length2;
+    if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
+    const N half = root(discriminant);
+    // Does it surely touch the line between the ends? What `time` has been narrowed by assumes that it does, and is left out.
+    N of_line = any_time<N>();
+    const bool touches_line = !may_be_at_most_zero(closing) && !may_be_negative(discriminant) &&
+                              earlier_root(a, closing, outside, half, of_line);
+    if (touches_line && surely_beside(of_line, from)) reaches_by(of_line, roots);
+    if (!earlier_root(a, closing, outside, half, time)) return;
+    Vector<N> center;
+    if (!place_of(time, from, center)) return;
+    if (!may_belong_to_tube(center, minus(center, d))) return;
+    const N s = share(center);
+    RoundContact<N> c{time, plus(m.end[0], times(d, s)), minus(center, times(d, s)), Part::tube};
+    if (!narrow_to_reach(c.away)) return;
+    if constexpr (is_enclosure<N>) {
+      if (!may_be_zero(length2) && !narrow_about_middle(c, s)) return;
+    }
+    roots.list.push_back(c);
+  }
+  /// `from_first` moved on by a time that has an end: surely between the ends?
+  bool surely_beside(const N& time, const Vector<N>& from_first) const {
+    if constexpr (is_enclosure<N>) {
+      if (!(time.sup() < std::numeric_limits<double>::infinity())) return false;
+      const Vector<N> center = plus(from_first, times(m.step, time));
+      return !may_be_negative(inner(d, center)) && !may_be_positive(inner(d, minus(center, d)));
+    }
+    return false;  // exact roots are compared
+  }
+  static void reaches_by(const N& time, Roots& roots) {
+    if constexpr (is_enclosure<N>) roots.surely_by = std::min(roots.surely_by, time.sup());
+  }
+
+  /// The same about a fixed time and a fixed share of the second end; false where nothing is left.
+  bool narrow_about_middle(RoundContact<N>& c, const N& s) const {
+    if constexpr (is_enclosure<N>) {
+      if (!is_moderate(m.at) || !is_moderate(m.step) || !is_moderate(m.end[0]) || !is_moderate(m.end[1])) return true;
+      if (!is_moderate(c.time) || !is_moderate(N(N(1) / length2))) return true;
+      const N s0(near_middle(s));
+      const Vector<N> middle = plus(times(m.end[0], N(N(1) - s0)), times(m.end[1], s0));
+      const Vector<N> from = minus(m.at, middle);
+      if (!oracle::narrow_to_reach(from, m.step, &d, length2, m.reach(), c.time)) return false;
+      const Vector<N> center = plus(from, times(m.step, c.time));
+      const Vector<N> on = times(d, N(inner(center, d) / length2));
+      return narrow(c.on_axis, plus(middle, on)) && narrow(c.away, minus(center, on));
+    }
+    return true;
+  }
+
+  /// `from` moved on; unknown where the time has no end.
+  bool place_of(const N& time, const Vector<N>& from, Vector<N>& place) const {
+    if constexpr (is_enclosure<N>) {
+      if (!(time.sup() < std::numeric_limits<double>::infinity())) {
+        for (int i = 0; i < 3; ++i) {
+          const N ends = join(m.end[0][i], m.end[1][i]);
+          const N reach = m.reach();
+          place[i] = join(N(ends - reach), N(ends + reach)) - m.end[0][i];
+        }
+        return true;
+      }
+    }
+    place = plus(from, times(m.step, time));
+    return true;
+  }
+  /// What leads from the axis to a contact is as long as both radii; false where it cannot be.
+  bool narrow_to_reach(Vector<N>& away) const {
+    if constexpr (is_enclosure<N>) {
+      const N any(-m.reach().sup(), m.reach().sup());
+      return narrow(away, {any, any, any});
+    }
+    return true;
+  }
+
+  template <class Belongs>
+  void add(RoundContact<N> c, const Vector<N>& step, std::vector<RoundContact<N>>& roots, Belongs belongs) const {
+    if constexpr (is_enclosure<N>) {
+      if (c.time.sup() < std::numeric_limits<double>::infinity()) {
+        c.away = plus(c.away, times(step, c.time));
+        if (!narrow_to_reach(c.away)) return;
+      } else {
+        c.away.fill(N(-m.reach().sup(), m.reach().sup()));
+      }
+    } else {
+      c.away = plus(c.away, times(step, c.time));
+    }
+    if (belongs(c.away)) roots.push_back(c);
+  }
+
+  Roots roots() const {
+    Roots found;
+    N time;
+    if (!may_be_near(time)) return found;
+    root_of_end(0, Part::first_end, time, found);
+    if (m.is_ball) return found;
+    root_of_end(1, Part::second_end, time, found);
+    if (may_be_positive(length2)) root_of_tube(time, found);
+    if constexpr (is_enclosure<N>) {
+      std::erase_if(found.list, [&](const RoundContact<N>& c) { return c.time.inf() > found.surely_by; });
+      for (RoundContact<N>& c : found.list) c.time = N(c.time.inf(), std::min(c.time.sup(), found.surely_by));
+    }
+    return found;
+  }
+
+  /// Does the ball surely reach the fixed thing at that time, with that share of the second end?
+  bool surely_reaches(double time, double share_of_second) const {
+    const Vector<N> on_axis = plus(m.end[0], times(d, N(share_of_second)));
+    const Vector<N> away = minus(plus(m.at, times(m.step, N(time))), on_axis);
+    return !may_be_positive(N(norm2(away) - square(m.reach())));
+  }
+  /// The same near the closest approach: found in plain doubles, so it proves nothing by itself.
+  bool surely_reaches_somewhere() const {
+    const auto middle = [](const Vector<N>& x, int i) { const Bounds b = bounds(x[i]); return 0.5 * b.low + 0.5 * b.high; };
+    double c[3], v[3], e[3], speed2 = 0, length2_ = 0;
+    for (int i = 0; i < 3; ++i) {
+      c[i] = middle(m.at, i) - middle(m.end[0], i), v[i] = middle(m.step, i), e[i] = middle(d, i);
+      speed2 += v[i] * v[i], length2_ += e[i] * e[i];
+    }
+    // Two closest points in turn: each step is a projection, so it converges, slowly near a parallel.
+    double time = 0, s = 0.5;
+    for (int step = 0; step < 30; ++step) {
+      double along_v = 0, along_e = 0;
+      for (int i = 0; i < 3; ++i) along_v += v[i] * (e[i] * s - c[i]);
+      time = speed2 > 0 ? std::max(0.0, along_v / speed2) : 0;
+      for (int i = 0; i < 3; ++i) along_e += e[i] * (c[i] + v[i] * time);
+      s = length2_ > 0 ? std::clamp(along_e / length2_, 0.0, 1.0) : 0;
+      if (surely_reaches(time, s)) return true;
+      if (m.is_ball) return false;
+    }
+    return false;
+  }
+};
+
+/// All right answers about the ball and the fixed thing.
+template <class N, class Out>
+void report_first_contact(const RoundMotion<N>& m, Out& out) {
+  const RoundPast<N> past{m};
+  if (!past.start(out)) return;
+  const auto roots = past.roots();
+  for (const RoundContact<N>& c : roots.list) {
+    const bool later = std::any_of(roots.list.begin(), roots.list.end(),
+                                   [&](const RoundContact<N>& other) { return may_be_less(other.time, c.time); });
+    if (is_enclosure<N> || !later) past.yes(c, m.reach(), true, out);
+  }
+  if (!out.result().may_be_yes) return out.no();
+  if constexpr (is_enclosure<N>) {
+    const bool surely = roots.surely_by < std::numeric_limits<double>::infinity() || past.surely_reaches_somewhere();
+    if (!surely) out.no();
+  }
+}
+
+}  // namespace nearmiss::oracle

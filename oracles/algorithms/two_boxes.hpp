@@ -1,0 +1,141 @@
+/// Two boxes and their fifteen axes in the world. Shared by the oracles of the queries about pairs of boxes.
+///
+/// An enclosure of a cross product a x b that holds zero may have any direction u at a right angle to a, an axis of one
+/// box, and to b, one of the other. Seen along a, both boxes are polygons but for h |b . u|, h the half extent along b,
+/// which is at most h |a x b|. The polygons' edges stand at a right angle to four axes: the two others of a's box, and a's
+/// cross products with the two others of b's. So
+/// 1. the overlap along u is at least the least of these four minus h |a x b|;
+/// 2. a gap along u is at most the distance of the polygons. That is the gap along one of the four axes, or the distance of
+///    two corners: then two of the axes that stand at an angle of at most 90 degrees, with gaps f and g, enclose it, and it
+///    is at most the root of f^2 + g^2, and at most the larger gap over the cosine of half the angle.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "oracles/exact/outcomes.hpp"
+
+namespace nearmiss::oracle {
+
+template <class N>
+struct TwoBoxes {
+  std::array<Vector<N>, 3> axes1, axes2;
+  Vector<N> center1, center2, half1, half2, between;
+
+  template <class B>
+  TwoBoxes(const B& box1, const B& box2)
+      : axes1(rotation_axes<N>(box1.orientation)), axes2(rotation_axes<N>(box2.orientation)),
+        center1(vector(box1.center)), center2(vector(box2.center)),
+        half1(vector(box1.half)), half2(vector(box2.half)), between(minus(center2, center1)) {}
+
+  /// 0-2 the axes of box 1, 3-5 of box 2, 6 + 3 i + j the cross product of axis i and axis j.
+  Vector<N> axis(int k) const {
+    if (k < 3) return axes1[k];
+    if (k < 6) return axes2[k - 3];
+    Vector<N> cross = outer(axes1[(k - 6) / 3], axes2[(k - 6) % 3]);
+    for (N& x : cross) x = assume_within(x, -1.0, 1.0);
+    return cross;
+  }
+  N cosine(int i, int j) const { return assume_within(inner(axes1[i], axes2[j]), -1.0, 1.0); }
+
+  /// Half the lengths of the boxes' shadows on axis k, times |axis k|. A box reaches its half extent along
+  /// an axis of its own, and nothing of an edge at a right angle to it.
+  N reach1(int k, const Vector<N>& axis) const { return reach(axes1, half1, axis, k < 3 ? k : -1, k < 6 ? -1 : (k - 6) / 3); }
+  N reach2(int k, const Vector<N>& axis) const {
+    return reach(axes2, half2, axis, k >= 3 && k < 6 ? k - 3 : -1, k < 6 ? -1 : (k - 6) % 3);
+  }
+  /// How far the shadows lie apart, times |axis k|; negative where they overlap.
+  N gap(int k, const Vector<N>& axis) const {
+    return magnitude(inner(between, axis)) - reach1(k, axis) - reach2(k, axis);
+  }
+  N gap(int k) const { return gap(k, axis(k)); }
+
+ private:
+  static N reach(const std::array<Vector<N>, 3>& axes, const Vector<N>& half, const Vector<N>& axis, int own,
+                 int orthogonal) {
+    if (own >= 0) return half[own];
+    N sum(0);
+    for (int i = 0; i < 3; ++i) {
+      if (i != orthogonal) sum = sum + half[i] * assume_within(magnitude(inner(axes[i], axis)), 0.0, 1.0);
+    }
+    return sum;
+  }
+};
+
+/// One of the fifteen axes, and how the boxes lie along it.
+template <class N>
+struct PairAxis {
+  Vector<N> direction;  // of any length
+  N gap{0}, length{1};  // times the length
+  bool may_exist = true, must_exist = true;
+  N depth{0};           // minus the gap, of the unit axis; where the axis must exist
+
+  PairAxis() = default;
+  PairAxis(const TwoBoxes<N>& boxes, int k) : direction(boxes.axis(k)), gap(boxes.gap(k, direction)) {
+    if (k >= 6) {
+      const N length2 = norm2(direction);
+      may_exist = may_be_positive(length2);
+      must_exist = !may_be_zero(length2);
+      length = assume_within(root(length2), 0.0, 1.0);
+    }
+    if (must_exist) depth = -gap / length;
+  }
+};
+using PairAxes = std::array<PairAxis<Interval>, inputs::box_box_axes>;
+
+inline double least_depth(const PairAxis<Interval>& a) {
+  return a.must_exist ? a.depth.inf() : -std::numeric_limits<double>::infinity();
+}
+
+/// The four axes at a right angle to a, where a x b is axis k, and the half extent along b.
+struct Across {
+  std::array<int, 4> axis;
+  Interval half;
+};
+/// Once with a of box 1 and once with a of box 2.
+inline std::array<Across, 2> across(const TwoBoxes<Interval>& boxes, int k) {
+  const int i = (k - 6) / 3, j = (k - 6) % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+  const auto cross = [](int of1, int of2) { return 6 + 3 * of1 + of2; };
+  return {Across{{i1, i2, cross(i, j1), cross(i, j2)}, boxes.half2[j]},
+          Across{{3 + j1, 3 + j2, cross(i1, j), cross(i2, j)}, boxes.half1[i]}};
+}
+
+/// What no overlap along a unit vector at a right angle to both edges of axis k is below (1).
+inline double least_depth_across(const TwoBoxes<Interval>& boxes, const PairAxes& axes, int k) {
+  double least = -std::numeric_limits<double>::infinity();
+  for (const Across& a : across(boxes, k)) {
+    double of_four = std::numeric_limits<double>::infinity();
+    for (const int other : a.axis) of_four = std::min(of_four, least_depth(axes[other]));
+    least = std::max(least, (Interval(of_four) - a.half * axes[k].length).inf());
+  }
+  return least;
+}
+
+/// The distance of two corners between two unit axes with these gaps, which are not negative; at least one of the gaps.
+inline double distance_between(const PairAxis<Interval>& a, const PairAxis<Interval>& b, double gap_a, double gap_b) {
+  const Interval cosine = assume_within(magnitude(inner(a.direction, b.direction)) / (a.length * b.length), 0.0, 1.0);
+  const Interval over_half_angle = Interval(std::max(gap_a, gap_b)) * root(Interval(2) / (Interval(1) + cosine));
+  return std::min(over_half_angle.sup(), root(square(Interval(gap_a)) + square(Interval(gap_b))).sup());
+}
+
+/// What no gap along a unit vector at a right angle to both edges of axis k is above (2).
+inline double most_gap_across(const TwoBoxes<Interval>& boxes, const PairAxes& axes, int k) {
+  double most = std::numeric_limits<double>::infinity();
+  for (const Across& a : across(boxes, k)) {
+    std::array<double, 4> gap;
+    for (int m = 0; m < 4; ++m) {
+      gap[m] = std::max(0.0, (a.half * axes[k].length - Interval(least_depth(axes[a.axis[m]]))).sup());
+    }
+    double distance = *std::max_element(gap.begin(), gap.end());
+    for (int m = 1; m < 4 && distance < most; ++m) {
+      for (int l = 0; l < m; ++l) {
+        if (gap[m] == 0 || gap[l] == 0) continue;
+        distance = std::max(distance, distance_between(axes[a.axis[m]], axes[a.axis[l]], gap[m], gap[l]));
+      }
+    }
+    most = std::min(most, distance);
+  }
+  return most;
+}
+
+}  // namespace nearmiss::oracle

@@ -1,0 +1,373 @@
+#include "oracles/exact/nearest_member.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss::oracle {
+
+namespace {
+
+int digits(Scalar s) { return s == Scalar::float32 ? 24 : 53; }
+double unit_of(double largest, Scalar s) { return ulp(std::min(largest, largest_finite(s)), s); }
+
+/// As far as the exact stage looks. A vector within that many ulps has less than twice the largest number of the given
+/// one, or both are subnormal: |x - y| <= 2^(digits - 3) ulp(max(|x|, |y|)) <= max(|x|, |y|) / 4.
+double looked_ulps(Scalar s) { return std::ldexp(1.0, digits(s) - 3); }
+
+template <class T>
+T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+RationalVector moved(const RationalVector& at, const RationalVector& along, const Rational& t) {
+  return {at[0] + along[0] * t, at[1] + along[1] * t, at[2] + along[2] * t};
+}
+
+/// { x : low <= x <= high }.
+struct RationalBox {
+  RationalVector low, high;
+
+  bool empty() const { return low[0] > high[0] || low[1] > high[1] || low[2] > high[2]; }
+  bool contains(const RationalVector& x) const {
+    for (int i = 0; i < 3; ++i) {
+      if (x[i] < low[i] || high[i] < x[i]) return false;
+    }
+    return true;
+  }
+};
+
+RationalBox common(const RationalBox& a, const RationalBox& b) {
+  RationalBox c = a;
+  for (int i = 0; i < 3; ++i) c.low[i] = std::max(c.low[i], b.low[i]), c.high[i] = std::min(c.high[i], b.high[i]);
+  return c;
+}
+
+double largest_of(const GivenVector& g) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (g.told[i] && !std::isnan(g.high[i])) largest = std::max(largest, std::abs(g.high[i]));
+  }
+  return largest;
+}
+
+bool all_told(const GivenVector& g) { return g.told[0] && g.told[1] && g.told[2]; }
+
+/// Every vector within `reach` of the given one, in each number; no member has a number beyond `bound`.
+RationalBox around(const GivenVector& g, const Rational& reach, const Rational& bound) {
+  const Rational largest(largest_finite(g.scalar));
+  RationalBox box;
+  for (int i = 0; i < 3; ++i) {
+    box.low[i] = -bound, box.high[i] = bound;
+    if (!g.told[i] || std::isnan(g.high[i])) continue;
+    if (std::isinf(g.high[i])) {
+      (g.high[i] > 0 ? box.low[i] : box.high[i]) = g.high[i] > 0 ? Rational(largest - reach) : Rational(reach - largest);
+      continue;
+    }
+    const Rational at = Rational(g.high[i]) + Rational(g.low[i]);
+    box.low[i] = std::max(box.low[i], Rational(at - reach)), box.high[i] = std::min(box.high[i], Rational(at + reach));
+  }
+  return box;
+}
+
+/// Every vector within so many ulps lies in one of these boxes, and in these no other: one with the unit of the given
+/// vector and, where a right one may reach the next power of two, where the unit is larger, one for each number that may.
+std::vector<RationalBox> within(const GivenVector& g, double ulps, const Rational& bound) {
+  double largest = largest_of(g);
+  if (!all_told(g)) largest = std::max(largest, CGAL::to_interval(bound).second);
+  const auto reach = [&](double unit) -> Rational { return Rational(ulps) * Rational(unit) + Rational(g.slack); };
+  const double unit = unit_of(largest, g.scalar);
+  std::vector<RationalBox> boxes{around(g, reach(unit), bound)};
+  if (largest == 0 || largest >= largest_finite(g.scalar) / 2) return boxes;
+  const double power = std::ldexp(1.0, std::ilogb(largest) + 1), larger_unit = unit_of(power, g.scalar);
+  if (larger_unit == unit || Rational(largest) + reach(larger_unit) < Rational(power)) return boxes;
+  const RationalBox larger = around(g, reach(larger_unit), bound);
+  for (int i = 0; i < 3; ++i) {
+    RationalBox up = larger, down = larger;
+    up.low[i] = std::max(up.low[i], Rational(power));
+    down.high[i] = std::min(down.high[i], Rational(-power));
+    boxes.push_back(up), boxes.push_back(down);
+  }
+  boxes.erase(std::remove_if(boxes.begin() + 1, boxes.end(), [](const RationalBox& b) { return b.empty(); }), boxes.end());
+  return boxes;
+}
+
+bool in_cone(const RationalVector& x, const Cone& cone) {
+  return std::all_of(cone.begin(), cone.end(), [&](const Side& s) {
+    const Rational height = dot(s.direction, x);
+    return s.level ? height == 0 : height <= 0;
+  });
+}
+
+/// Is there a unit vector in a box and a cone? Both are convex: there is one where some point of what they have in common
+/// is at most as long and some at least as long. The shortest point is that of the box, or lies on an edge of what they
+/// have in common; the longest is a vertex, at the end of such an edge.
+class UnitVectorIn {
+ public:
+  UnitVectorIn(const RationalBox& box, const Cone& cone) : box_(box), cone_(cone) { search(); }
+
+  std::optional<Vector<Exact>> found() const {
+    if (!complete()) return std::nullopt;
+    // short + t along, of length 1
+    const RationalVector along{(*long_)[0] - (*short_)[0], (*long_)[1] - (*short_)[1], (*long_)[2] - (*short_)[2]};
+    const Rational a = dot(along, along), b = dot(*short_, along), c = dot(*short_, *short_) - 1;
+    Exact t(0);
+    if (a != 0) t = (Exact(Rational(-b)) + root(Exact(Rational(b * b - a * c)))) / Exact(a);
+    Vector<Exact> n;
+    for (int i = 0; i < 3; ++i) n[i] = Exact((*short_)[i]) + Exact(along[i]) * t;
+    return n;
+  }
+
+ private:
+  bool complete() const { return short_ && long_; }
+  void add(const RationalVector& x) {
+    const Rational length2 = dot(x, x);
+    if (!short_ && length2 <= 1) short_ = x;
+    if (!long_ && length2 >= 1) long_ = x;
+  }
+
+  void search() {
+    if (box_.empty()) return;
+    RationalVector shortest;
+    for (int i = 0; i < 3; ++i) shortest[i] = std::clamp(Rational(0), box_.low[i], box_.high[i]);
+    if (in_cone(shortest, cone_)) add(shortest);
+    for (int i = 0; i < 3; ++i) edges_of_box(i);
+    for (std::size_t s = 0; s < cone_.size(); ++s) {
+      for (int i = 0; i < 3; ++i) edges_of_side_and_faces(cone_[s].direction, i);
+      for (std::size_t r = 0; r < s; ++r) edge(RationalVector{0, 0, 0}, crossed(cone_[r].direction, cone_[s].direction));
+    }
+  }
+  static RationalVector crossed(const RationalVector& a, const RationalVector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
+  void edges_of_box(int i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    for (const Rational& y : {box_.low[j], box_.high[j]}) {
+      for (const Rational& z : {box_.low[k], box_.high[k]}) {
+        RationalVector at{0, 0, 0}, along{0, 0, 0};
+        at[j] = y, at[k] = z, along[i] = 1;
+        edge(at, along);
+      }
+    }
+  }
+  /// Where a plane through the origin meets the two faces across axis i.
+  void edges_of_side_and_faces(const RationalVector& direction, int i) {
+    RationalVector axis{0, 0, 0};
+    axis[i] = 1;
+    const RationalVector along = crossed(direction, axis);
+    const int j = direction[(i + 1) % 3] != 0 ? (i + 1) % 3 : (i + 2) % 3;
+    if (direction[j] == 0) return;  // parallel to the faces
+    for (const Rational& x : {box_.low[i], box_.high[i]}) {
+      RationalVector at{0, 0, 0};
+      at[i] = x, at[j] = -direction[i] * x / direction[j];
+      edge(at, along);
+    }
+  }
+
+  /// A piece of a line.
+  struct Piece {
+    std::optional<Rational> from, to;
+    bool empty = false;
+
+    /// Cuts off where height + slope t > 0.
+    void cut(const Rational& height, const Rational& slope) {
+      if (slope == 0) {
+        empty = empty || height > 0;
+        return;
+      }
+      const Rational t = -height / slope;
+      if (slope > 0 && (!to || t < *to)) to = t;
+      if (slope < 0 && (!from || *from < t)) from = t;
+      empty = empty || (from && to && *to < *from);
+    }
+  };
+
+  /// The ends of what the line has in the box and the cone, and its point nearest to the origin.
+  void edge(const RationalVector& at, const RationalVector& along) {
+    if (complete()) return;
+    const Rational length2 = dot(along, along);
+    if (length2 == 0) return;
+    Piece piece;
+    for (int i = 0; i < 3 && !piece.empty; ++i) {
+      piece.cut(at[i] - box_.high[i], along[i]);
+      piece.cut(box_.low[i] - at[i], -along[i]);
+    }
+    for (std::size_t s = 0; s < cone_.size() && !piece.empty; ++s) {
+      const Rational height = dot(cone_[s].direction, at), slope = dot(cone_[s].direction, along);
+      piece.cut(height, slope);
+      if (cone_[s].level) piece.cut(-height, -slope);
+    }
+    if (piece.empty) return;
+    add(moved(at, along, *piece.from));
+    add(moved(at, along, *piece.to));
+    add(moved(at, along, std::clamp(Rational(-dot(at, along) / length2), *piece.from, *piece.to)));
+  }
+
+  const RationalBox& box_;
+  const Cone& cone_;
+  std::optional<RationalVector> short_, long_;
+};
+
+/// The part of a convex polygon where sign x[axis] <= sign bound.
+std::vector<RationalVector> clipped(const std::vector<RationalVector>& polygon, int axis, int sign, const Rational& bound) {
+  std::vector<RationalVector> kept;
+  const auto beyond = [&](const RationalVector& x) -> Rational { return sign * (x[axis] - bound); };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const RationalVector &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Rational at_a = beyond(a), at_b = beyond(b);
+    if (at_a <= 0) kept.push_back(a);
+    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
+      const Rational share = at_a / (at_a - at_b);
+      kept.push_back(moved(a, {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, share));
+    }
+  }
+  return kept;
+}
+
+/// The least distance at which `find` finds a member; a shorter one finds none. Up to one ulp it is not told; further away
+/// to one part in 128.
+template <class Nearest, class Find>
+Nearest nearest(Scalar scalar, Find find) {
+  constexpr double share = 0x1p-7;
+  Nearest best;
+  double low = 0, high = looked_ulps(scalar);
+  const auto finds_at = [&](double ulps) {
+    auto member = find(ulps);
+    if (!member) return low = ulps, false;
+    best.member = std::move(member);
+    return high = ulps, true;
+  };
+  if (!finds_at(1)) {
+    if (!finds_at(high)) return best.ulps = {high, HUGE_VAL}, best;
+    while (high > 2 * low) finds_at(std::ldexp(1.0, (std::ilogb(low) + std::ilogb(high) + 1) / 2));
+    while (high - low > high * share) finds_at(0.5 * low + 0.5 * high);
+  }
+  best.ulps = {low, high};
+  return best;
+}
+
+/// What is not known of the given numbers, in the least unit that they may be counted in.
+template <class Nearest>
+Nearest with_slack(Nearest n, const GivenVector& g) {
+  if (g.slack > 0) n.ulps.high += g.slack / unit_of(largest_of(g), g.scalar);
+  return n;
+}
+
+}  // namespace
+
+Vector<Exact> some_normal(const Cone& cone) {
+  for (int i = 0; i < 3; ++i) {
+    for (const int sign : {1, -1}) {
+      RationalVector axis{0, 0, 0};
+      axis[i] = sign;
+      if (in_cone(axis, cone)) return {Exact(axis[0]), Exact(axis[1]), Exact(axis[2])};
+    }
+  }
+  const RationalBox all{{-1, -1, -1}, {1, 1, 1}};
+  const auto found = UnitVectorIn(all, cone).found();
+  if (!found) throw std::logic_error("oracle: a cone without normals");
+  return *found;
+}
+
+NearestNormal nearest_normal(const GivenVector& given, const Cone& cone) {
+  const auto find = [&](double ulps) -> std::optional<Vector<Exact>> {
+    for (const RationalBox& box : within(given, ulps, Rational(1))) {
+      if (auto member = UnitVectorIn(box, cone).found()) return member;
+    }
+    return std::nullopt;
+  };
+  return with_slack(nearest<NearestNormal>(given.scalar, find), given);
+}
+
+NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const Lever& lever) {
+  if (lever.reach == 0) throw std::logic_error("oracle: a place that does not depend on the normal");
+  Rational bound(0);
+  for (const Rational& x : lever.base) bound = std::max(bound, CGAL::abs(x));
+  bound += lever.reach;
+  const auto find = [&](double ulps) -> std::optional<Vector<Exact>> {
+    const std::vector<RationalBox> normals = within(given, ulps, Rational(1));
+    for (RationalBox box : within(lever.place, ulps, bound)) {
+      for (int i = 0; i < 3; ++i) {
+        box.low[i] = (box.low[i] - lever.base[i]) / lever.reach, box.high[i] = (box.high[i] - lever.base[i]) / lever.reach;
+      }
+      for (const RationalBox& other : normals) {
+        const RationalBox both = common(box, other);
+        if (auto member = UnitVectorIn(both, cone).found()) return member;
+      }
+    }
+    return std::nullopt;
+  };
+  return with_slack(nearest<NearestNormal>(given.scalar, find), given);
+}
+
+NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<RationalVector>& corners) {
+  Rational bound(0);
+  for (const RationalVector& corner : corners) {
+    for (const Rational& x : corner) bound = std::max(bound, CGAL::abs(x));
+  }
+  const auto find = [&](double ulps) -> std::optional<RationalVector> {
+    for (const RationalBox& box : within(given, ulps, bound)) {
+      std::vector<RationalVector> left = corners;
+      for (int i = 0; i < 3; ++i) left = clipped(clipped(left, i, 1, box.high[i]), i, -1, box.low[i]);
+      if (!left.empty()) return left.front();
+    }
+    return std::nullopt;
+  };
+  return with_slack(nearest<NearestPoint>(given.scalar, find), given);
+}
+
+// Of a vector that is further off than 2^-8 of the given one's largest number the distance is more than `far_ulps`; of a
+// nearer one the unit is at most that of a number larger by as much.
+
+double far_ulps(Scalar scalar) { return std::ldexp(1.0, digits(scalar) - 10); }
+
+namespace {
+
+bool all_finite(const GivenVector& g) {
+  return all_told(g) && std::isfinite(g.high[0]) && std::isfinite(g.high[1]) && std::isfinite(g.high[2]);
+}
+double near_unit(const GivenVector& g) { return unit_of(largest_of(g) * (1 + 0x1p-8), g.scalar); }
+Vector<Interval> enclosed(const GivenVector& g) {
+  const Interval slack(-g.slack, g.slack);
+  return {Interval(g.high[0]) + g.low[0] + slack, Interval(g.high[1]) + g.low[1] + slack,
+          Interval(g.high[2]) + g.low[2] + slack};
+}
+/// How far apart two numbers are at least.
+double gap(const Interval& a, const Interval& b) {
+  const Interval between = a - b;
+  return Bounds{between.inf(), between.sup()}.nearest_to_zero();
+}
+/// `apart`, of what changes by at most `per_ulp` for each ulp.
+double ulps_across(double apart, const Interval& per_ulp, Scalar scalar) {
+  if (!(apart > 0) || !(per_ulp.sup() > 0)) return 0;
+  return std::clamp((Interval(apart) / Interval(per_ulp.sup())).inf(), 0.0, far_ulps(scalar));
+}
+
+}  // namespace
+
+double least_ulps(const GivenVector& given, const Form& form) {
+  if (!all_finite(given)) return 0;
+  const Interval per_ulp =
+      (magnitude(form.direction[0]) + magnitude(form.direction[1]) + magnitude(form.direction[2])) * near_unit(given);
+  return ulps_across(gap(inner(form.direction, minus(enclosed(given), form.from)), form.value), per_ulp, given.scalar);
+}
+
+double least_ulps(const GivenVector& given, const Vector<Interval>& point, const Interval& distance) {
+  if (!all_finite(given)) return 0;
+  const Interval per_ulp = root(Interval(3)) * near_unit(given);
+  return ulps_across(gap(root(norm2(minus(enclosed(given), point))), distance), per_ulp, given.scalar);
+}
+
+double least_ulps_together(const GivenVector& normal, const GivenVector& place, const Vector<Interval>& base,
+                           const Interval& reach) {
+  if (!all_finite(normal) || !all_finite(place)) return 0;
+  const Vector<Interval> n = enclosed(normal), x = enclosed(place);
+  const Interval per_ulp = Interval(near_unit(place)) + magnitude(reach) * near_unit(normal);
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    most = std::max(most, ulps_across(gap(base[i] + reach * n[i], x[i]), per_ulp, place.scalar));
+  }
+  return most;
+}
+
+}  // namespace nearmiss::oracle

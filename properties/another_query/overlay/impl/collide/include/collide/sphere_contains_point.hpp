@@ -1,0 +1,30 @@
+/// Whether a sphere contains a point.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+namespace collide {
+
+/// Whether `point` lies in the closed ball `sphere`.
+template <class Tier = Fast, class T>
+Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point) noexcept {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift([](auto by, const auto&... a) { return sphere_contains_point<decltype(by)>(a...); }, sphere, point);
+  }
+  const Vec3<T> m = point - sphere.center;
+  return {Tier::dot(m, m) <= sphere.radius * sphere.radius};
+}
+
+namespace contracts {
+
+/// First order, G the largest position: a difference carries 2 eps G, the squares 4 eps.
+template <class Tier = Fast, class T = double>
+constexpr Contract sphere_contains_point() {
+  return Tier::template contract<T>({.backward = 16, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+}
+
+}  // namespace contracts
+}  // namespace collide

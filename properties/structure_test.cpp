@@ -1,0 +1,137 @@
+/// The direction of includes: a room includes itself and what stands to its left in the order of docs/architecture.md. An
+/// oracle sees nothing of the implementation but shapes, answers and their members.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = NEARMISS_SOURCE_FOLDER;
+constexpr std::string_view collide_headers = "impl/collide/include/";
+
+/// Rooms of the same rank do not include each other.
+struct Room {
+  std::string_view folder;
+  int rank;
+};
+constexpr Room rooms[] = {
+    {"impl/collide", 0},      {"impl/catalogue", 1},
+    {"impl/plugin", 1},       {"impl/subject", 2},
+    {"impl/adapters", 3},     {"impl/host", 3},
+    {"oracles/exact", 4},     {"oracles/algorithms", 5},
+    {"oracles", 6},           {"corpus", 7},
+    {"reports", 8},           {"reports/commands", 9},
+    {"reports/tests", 10},    {"properties", 10},
+    {"fuzz", 10},             {"benchmarks", 10},
+};
+
+/// The innermost that holds the file.
+const Room& room_of(const std::string& file) {
+  const Room* found = nullptr;
+  for (const Room& r : rooms) {
+    const bool within = file.starts_with(std::string(r.folder) + "/");
+    if (within && (found == nullptr || r.folder.size() > found->folder.size())) found = &r;
+  }
+  if (found == nullptr) throw std::runtime_error(file + " is in no room");
+  return *found;
+}
+
+bool is_source(const fs::path& p) { return p.extension() == ".cpp" || p.extension() == ".hpp" || p.extension() == ".h"; }
+
+/// Each source and header of a room, from the top of the project; the overlay of another query is of other rooms.
+std::vector<std::string> sources() {
+  std::set<std::string> tops;
+  for (const Room& r : rooms) tops.insert(std::string(r.folder.substr(0, r.folder.find('/'))));
+  std::vector<std::string> files;
+  for (const std::string& top : tops) {
+    for (const auto& f : fs::recursive_directory_iterator(root / top)) {
+      const std::string name = f.path().lexically_relative(root).generic_string();
+      if (is_source(f.path()) && name.find("/overlay/") == std::string::npos) files.push_back(name);
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The file of this project that an include names; empty for what is not of it, or made by CMake.
+std::optional<std::string> named_by(std::string_view line) {
+  if (!line.starts_with("#include ")) return std::nullopt;
+  const char open = line[9];
+  const std::size_t end = line.find(open == '<' ? '>' : '"', 10);
+  if ((open != '<' && open != '"') || end == std::string_view::npos) return std::nullopt;
+  std::string name(line.substr(10, end - 10));
+  if (name.starts_with("collide/")) name.insert(0, collide_headers);
+  return fs::exists(root / name) ? std::optional(name) : std::nullopt;
+}
+
+std::vector<std::string> includes_of(const std::string& file) {
+  std::ifstream in(root / file);
+  std::vector<std::string> found;
+  for (std::string line; std::getline(in, line);) {
+    if (const auto name = named_by(line)) found.push_back(*name);
+  }
+  return found;
+}
+
+TEST(Structure, IncludesPointToTheLeft) {
+  const std::vector<std::string> files = sources();
+  ASSERT_GT(files.size(), 200u);
+  std::size_t includes = 0;
+  for (const std::string& file : files) {
+    const Room& own = room_of(file);
+    for (const std::string& other : includes_of(file)) {
+      const Room& theirs = room_of(other);
+      ++includes;
+      EXPECT_TRUE(own.folder == theirs.folder || theirs.rank < own.rank) << file << " includes " << other;
+    }
+  }
+  EXPECT_GT(includes, 500u);
+}
+
+/// What an oracle may know of the library: the words in which questions and answers are written.
+TEST(Structure, NoOracleSeesTheImplementation) {
+  const std::set<std::string> vocabulary{"answers.hpp", "members.hpp", "shapes.hpp", "vec3.hpp"};
+  for (const std::string& file : sources()) {
+    if (!file.starts_with("oracles/exact/") && !file.starts_with("oracles/algorithms/")) continue;
+    std::vector<std::string> reached{file};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for (const std::string& other : includes_of(reached[i])) {
+        if (std::find(reached.begin(), reached.end(), other) == reached.end()) reached.push_back(other);
+      }
+    }
+    for (const std::string& other : reached) {
+      if (!other.starts_with("impl/collide/")) continue;
+      EXPECT_TRUE(vocabulary.contains(fs::path(other).filename().string())) << file << " reaches " << other;
+    }
+  }
+}
+
+/// `collide` is a library and nothing else.
+TEST(Structure, TheLibraryKnowsNothingOfItsExaminers) {
+  for (const std::string& file : sources()) {
+    if (!file.starts_with("impl/collide/")) continue;
+    std::ifstream in(root / file);
+    std::stringstream text;
+    text << in.rdbuf();
+    for (const char* word : {"nearmiss", "judge", "harness", "oracle", "fuzz", " ask(", "ask<"}) {
+      EXPECT_EQ(text.str().find(word), std::string::npos) << file << ": " << word;
+    }
+    for (const std::string& other : includes_of(file)) EXPECT_TRUE(other.starts_with("impl/collide/")) << file;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
