@@ -131,7 +131,7 @@ std::string feature_of(const Scene& s) {
 std::set<std::string> ties_of(const Case& c, const Truth& t) {
   const Query& query = *c.query;
   std::set<std::string> ties;
-  if (query.name == "sphere_sphere_penetration" && std::equal(&c.values[0], &c.values[3], &c.values[4])) {
+  if (query.id == QueryId::sphere_sphere_penetration && std::equal(&c.values[0], &c.values[3], &c.values[4])) {
     ties.insert("cone");  // any normal is right where the centers are one; the truth names the one that was asked about
   }
   for (const Alternative& a : t.alternatives) {
@@ -197,7 +197,7 @@ std::vector<std::string> features_of(const Query& query) {
   };
   if (has(query.outputs, "weights")) return {"face", "edge", "vertex"};
   if (has(query.outputs, "edge")) return {"index 0", "index 1", "index 2"};
-  if (query.name == "box_box_overlap" || query.name == "box_box_penetration") {
+  if (has(query.inputs, "hint")) {
     std::vector<std::string> axes;
     for (int i = 0; i < 15; ++i) axes.push_back(fmt::format("index {}", i));
     return axes;
@@ -209,33 +209,13 @@ std::vector<std::string> features_of(const Query& query) {
   return {};
 }
 
-/// Every way in which a query may have several right answers, by the role of what differs, or any normal of a cone; each
-/// has a stated share.
+/// Every way in which a query may have several right answers; each has a stated share.
 std::set<std::string> expected_ties(const Query& query) {
-  static const std::map<std::string_view, std::set<std::string>> ties{
-      {"closest_point_triangle_perimeter", {"position"}},
-      {"closest_point_triangle_perimeter_edges", {"position", "index"}},
-      {"closest_point_rectangle", {"position"}},
-      {"closest_point_rectangle_perimeter", {"position"}},
-      {"point_in_triangle", {"weight"}},
-      {"moving_point_rectangle", {"normal"}},
-      {"moving_point_sphere", {"cone"}},
-      {"moving_point_capsule", {"cone"}},
-      {"moving_point_box", {"cone"}},
-      {"moving_point_aabox", {"normal"}},
-      {"moving_sphere_plane", {"normal"}},
-      {"moving_sphere_triangle", {"cone"}},
-      {"moving_sphere_rectangle", {"position", "normal", "cone"}},
-      {"moving_sphere_sphere", {"cone"}},
-      {"moving_sphere_box", {"position", "normal", "cone"}},
-      {"moving_sphere_capsule", {"position", "cone"}},
-      {"box_box_overlap", {"index"}},
-      {"sphere_sphere_penetration", {"cone"}},
-      {"sphere_box_penetration", {"position", "normal", "cone"}},
-      {"box_box_penetration", {"position", "normal", "depth", "index"}},
-  };
-  const auto found = ties.find(query.name);
-  return found == ties.end() ? std::set<std::string>{} : found->second;
+  std::set<std::string> names;
+  for (const Tie t : all_ties) {
+    if (query.traits.ties.has(t)) names.emplace(name_of(t));
+  }
+  return names;
 }
 
 class GeneratorBalance : public testing::TestWithParam<NamedQuery> {};
@@ -248,10 +228,9 @@ TEST_P(GeneratorBalance, ReachesEveryFeatureTieAndKnifesEdgeOftenEnough) {
     RecordProperty(std::string(name_of(scalar)), b.text());
     const std::string told = fmt::format("{} {}: {}", query.name, name_of(scalar), b.text());
     if (decides(query.kind)) {
-      // Half diagonals that are sums of three squares hardly ever add up to a distance.
-      const int least = query.name == "box_box_conservative" ? 5 : 10;
-      EXPECT_GE(b.knifes_edge, cases * least / 1000) << told;
-      EXPECT_GE(std::min(b.yes, cases - b.yes), cases * (query.name == "box_box_conservative" ? 8 : 12) / 100) << told;
+      const auto [knifes_edge_per_mille, either_percent] = query.traits.balance;
+      EXPECT_GE(b.knifes_edge, cases * knifes_edge_per_mille / 1000) << told;
+      EXPECT_GE(std::min(b.yes, cases - b.yes), cases * either_percent / 100) << told;
     }
     for (const std::string& f : features_of(query)) EXPECT_GE(b.feature(f), cases * 5 / 1000) << f << ": " << told;
     for (const std::string& t : expected_ties(query)) EXPECT_GE(b.tie(t), cases / 2000) << t << ": " << told;

@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Generator, testing::ValuesIn(every_query()), tes
 /// A query that the catalogue does not have: a rule between two positions, as of a box by its corners.
 const Query& corners_query() {
   static const Query made_up = [] {
-    Query q{QueryId{}, "corners", Kind::decision, {}, {}, {}, nullptr};
+    Query q{QueryId{}, "corners", Kind::decision, {}, {}, {}, nullptr, {}};
     for (const char* name : {"box.min.x", "box.min.y", "box.min.z", "box.max.x", "box.max.y", "box.max.z"}) {
       q.inputs.push_back({name, Role::position});
     }

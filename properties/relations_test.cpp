@@ -1,5 +1,5 @@
 /// Answers to related cases are related as the exact ones are: each tier, and the oracle.
-#include "corpus/relations.hpp"
+#include "corpus/relations/verdict.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -204,12 +204,12 @@ TEST_P(RelatedTruths, KeepEveryRelationOfTheirDecisions) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Case c = generate(query, Scalar::float64, 13, i);
     for (const Relation& r : relations()) {
-      const auto partners = r.of(c, i);
-      if (!partners) continue;
+      const auto follow_ups = r.of(c, i);
+      if (!follow_ups) continue;
       std::vector<Answer> others;
-      for (const Case& other : partners->cases) others.push_back(truth(other));
-      ASSERT_NE(partners->compare(truth(c), others), Agreement::decisions_differ)
-          << r.name << "\n" << case_to_json(c).dump() << "\n" << case_to_json(partners->cases[0]).dump();
+      for (const Case& other : follow_ups->cases) others.push_back(truth(other));
+      ASSERT_NE(follow_ups->compare(truth(c), others), Agreement::decisions_differ)
+          << r.name << "\n" << case_to_json(c).dump() << "\n" << case_to_json(follow_ups->cases[0]).dump();
     }
   }
 }
@@ -257,15 +257,15 @@ TEST(Relations, EachApplyToManyCasesOfSomeQuery) {
   for (const Relation& r : relations()) EXPECT_GE(most[r.name], cases / 100) << r.name;
 }
 
-TEST(Relations, GivePartnersThatAreValidAndExactInTheirScalar) {
+TEST(Relations, GiveFollowUpsThatAreValidAndExactInTheirScalar) {
   for (const Query& q : catalogue()) {
     for (Scalar scalar : scalars) {
       for (std::uint64_t i = 0; i < 100; ++i) {
         const Case c = generate(q, scalar, 17, i);
         for (const Relation& r : relations()) {
-          const auto partners = r.of(c, i);
-          if (!partners) continue;
-          for (const Case& other : partners->cases) {
+          const auto follow_ups = r.of(c, i);
+          if (!follow_ups) continue;
+          for (const Case& other : follow_ups->cases) {
             ASSERT_FALSE(other.query->broken(other.values)) << r.name << " " << q.name;
             for (double x : other.values) ASSERT_TRUE(representable(x, scalar)) << r.name << " " << q.name;
           }
@@ -299,15 +299,15 @@ TEST(Relations, AnAnswerThatALostNumberMakesRightIsNoContradiction) {
   const Relation& relation = *find_relation("sphere-as-point");
   const Case c{find_query("moving_sphere_box"), Scalar::float64,
                {0, 1 + 3.5 * error, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1}, "", 0, 0, {}};
-  const Partners partners = *relation.of(c, 0);
+  const FollowUps follow_ups = *relation.of(c, 0);
   Subject measured = *find_subject("collide-certified-double");
   for (Offering& o : measured.offerings) o.contract = {.backward = error / 0x1p-53, .forward = 0x1p53, .unit = 0x1p50};
   const Answer hit = right("moving_point_box", std::vector<double>{0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1});
-  const Answer miss = right("moving_point_box", partners.cases[0].values);
+  const Answer miss = right("moving_point_box", follow_ups.cases[0].values);
   ASSERT_TRUE(hit.yes && !miss.yes);
-  const RelationFinding found = relate(relation, partners, c, {hit, miss}, measured, false);
+  const RelationFinding found = relate(relation, follow_ups, c, {hit, miss}, measured, false);
   EXPECT_FALSE(found.findings[0].is_proved()) << found.findings[0].clause;
-  EXPECT_TRUE(confirmed(partners.cases[0], hit, measured.standard_for("moving_point_box"), Detail::verdict).is_proved());
+  EXPECT_TRUE(confirmed(follow_ups.cases[0], hit, measured.standard_for("moving_point_box"), Detail::verdict).is_proved());
   EXPECT_EQ(found.oracle, "");
 }
 
@@ -318,13 +318,13 @@ TEST(Relations, AnAnswerThatIsNotProvedToBeWrongIsNotYetRight) {
                {3.208552239228606, -3.6878210926869617, 3.9009941126583483, 0.150390625, 0.5017885250901633,
                 -0.4910210782009093, -2.027119566426956, 4.438009534131537, -4.5367018818573035, 2.435438576593205,
                 3.302302239228606, -3.5471960926869617, 3.8697441126583483, 0.021484375}, "", 0, 0, {}};
-  const Partners partners = *relation.of(c, 0);
+  const FollowUps follow_ups = *relation.of(c, 0);
   Subject lenient = *find_subject("collide-certified-double");
   for (Offering& o : lenient.offerings) o.contract = {.backward = 0x1p40};
   const Answer hit = right("moving_sphere_capsule", c.values);
-  const RelationFinding found = relate(relation, partners, c, {Answer{}, hit}, lenient, false);
+  const RelationFinding found = relate(relation, follow_ups, c, {Answer{}, hit}, lenient, false);
   EXPECT_EQ(found.findings[0].verdict, Verdict::not_proved);
-  EXPECT_TRUE(confirmed(partners.cases[0], Answer{}, lenient.standard_for(c.query->name), Detail::verdict).is_proved());
+  EXPECT_TRUE(confirmed(follow_ups.cases[0], Answer{}, lenient.standard_for(c.query->name), Detail::verdict).is_proved());
   EXPECT_EQ(found.oracle, "");
 }
 

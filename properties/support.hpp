@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/relations.hpp"
+#include "corpus/relations/verdict.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 

@@ -24,23 +24,6 @@ int index_of(const std::vector<Field>& fields, Role role) {
   return at == fields.end() ? -1 : int(at - fields.begin());
 }
 
-/// The two things of which the query asks whether they meet: inputs whose names are words of its own
-/// name ("the sphere", "the box"; "box 1", "box 2"). Empty where there are not just two.
-std::vector<std::string> things(const Query& query) {
-  const std::string words = fmt::format("_{}_", query.name);
-  std::vector<std::string> members, found;
-  for (const Field& f : query.inputs) {
-    const std::string member = top_member(f.name);
-    if (!members.empty() && members.back() == member) continue;
-    members.push_back(member);
-    const std::string noun = member.substr(0, member.find_last_not_of("0123456789") + 1);
-    if (words.find(fmt::format("_{}_", noun)) == std::string::npos) continue;
-    found.push_back(noun == member ? fmt::format("the {}", noun)
-                                   : fmt::format("{} {}", noun, member.substr(noun.size())));
-  }
-  return found.size() == 2 ? found : std::vector<std::string>{};
-}
-
 /// Yes and no in the words of the query.
 struct Phrases {
   std::string yes, no;              ///< "the sphere hits the box"
@@ -48,40 +31,28 @@ struct Phrases {
   std::string still_yes, still_no;  ///< "it would still be a hit"
 };
 
-/// The decisions that are no contact of two things.
-struct Decision {
-  std::string_view query, yes, no;
-};
-constexpr Decision decisions[] = {
-    {"point_in_triangle", "the point is in the triangle", "the point is outside of the triangle"},
-    {"point_in_rectangle", "the point is in the rectangle", "the point is outside of the rectangle"},
-    {"box_box_parallel_axis", "an axis of box 1 and one of box 2 are parallel", "no axis of box 1 is parallel to one of box 2"},
-    {"box_box_conservative", "the distance of the centers is at most the sum of the half diagonals",
-     "the distance of the centers is more than the sum of the half diagonals"},
-};
-
 /// A miss is the answer of the query's meaning, whatever touches: a contact that leaves is a miss, and so is a point
 /// that starts inside.
 Phrases phrases(const Query& query) {
-  for (const Decision& d : decisions) {
-    if (d.query != query.name) continue;
-    return {std::string(d.yes), std::string(d.no), "the answer is yes", "the answer is no", "the answer would still be yes",
-            "the answer would still be no"};
+  const auto& [yes, no] = query.traits.decision;
+  if (!yes.empty()) {
+    return {std::string(yes),    std::string(no),                 "the answer is yes",
+            "the answer is no",  "the answer would still be yes", "the answer would still be no"};
   }
-  const std::vector<std::string> two = things(query);
+  const auto& [one, other] = query.traits.operands;
   if (query.kind == Kind::impact || has_role(query.inputs, Role::velocity)) {
-    return {two.empty() ? "it is a hit" : two[0] + " hits " + two[1],
-            two.empty() ? "it is a miss" : two[0] + " does not hit " + two[1],
+    return {one.empty() ? "it is a hit" : fmt::format("{} hits {}", one, other),
+            one.empty() ? "it is a miss" : fmt::format("{} does not hit {}", one, other),
             "it is a hit",
             "it is a miss",
             "it would still be a hit",
             "it would still be a miss"};
   }
-  if (two.empty()) {
+  if (one.empty()) {
     return {"the answer is yes",           "the answer is no", "the answer is yes", "the answer is no",
             "the answer would still be yes", "the answer would still be no"};
   }
-  const std::string both = two[0] + " and " + two[1];
+  const std::string both = fmt::format("{} and {}", one, other);
   return {both + " touch or overlap",          both + " are apart",        "they touch or overlap", "they are apart",
           "they would still touch or overlap", "they would still be apart"};
 }

@@ -126,8 +126,8 @@ Json report_to_json(const RelationReport& r) {
   j["headline"] = headline(r);
   j["explanation"] = explanation(r);
   j["replay"] = r.replay;
-  Json partners = Json::array();
-  for (std::size_t i = 1; i < r.answers.size(); ++i) partners.push_back(partner_to_json(r.answers[i]));
+  Json follow_ups = Json::array();
+  for (std::size_t i = 1; i < r.answers.size(); ++i) follow_ups.push_back(partner_to_json(r.answers[i]));
   j["relation"] = {{"name", r.choice.relation->name},
                    {"what", r.choice.relation->what},
                    {"seed", r.choice.seed},
@@ -136,7 +136,7 @@ Json report_to_json(const RelationReport& r) {
                    {"breach", breach_of(r)},
                    {"breaks_contract", some_contract_is_broken(r)},
                    {"says", what_is_wrong(r)},
-                   {"partners", partners}};
+                   {"follow_ups", follow_ups}};
   return j;
 }
 
@@ -157,18 +157,18 @@ std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::stri
   related.choice.seed = relation["seed"].get<std::uint64_t>();
   related.choice.bit_for_bit = relation.value("bit_for_bit", false);
   if (j.contains("subject") && j["subject"].is_object()) related.subject = j["subject"].value("name", "");
-  const auto partners = related.choice.relation->of(related.question, related.choice.seed);
-  const nlohmann::json stored = relation.value("partners", nlohmann::json::array());
-  bool same = partners && stored.is_array() && stored.size() == partners->cases.size();
+  const auto follow_ups = related.choice.relation->of(related.question, related.choice.seed);
+  const nlohmann::json stored = relation.value("follow_ups", nlohmann::json::array());
+  bool same = follow_ups && stored.is_array() && stored.size() == follow_ups->cases.size();
   for (std::size_t i = 0; same && i < stored.size(); ++i) {
     nlohmann::json question;
     for (const char* key : {"query", "scalar", "inputs"}) {
       if (stored[i].contains(key)) question[key] = stored[i][key];
     }
     const Case partner = case_from_json(question, file);
-    same = partner.query == partners->cases[i].query && partner.values == partners->cases[i].values;
+    same = partner.query == follow_ups->cases[i].query && partner.values == follow_ups->cases[i].values;
   }
-  if (!same) throw malformed(fmt::format("'{}' does not lead from this case to the partners of the file", name));
+  if (!same) throw malformed(fmt::format("'{}' does not lead from this case to the follow_ups of the file", name));
   return related;
 }
 
@@ -179,7 +179,7 @@ RelatedReplay replay(const RelatedCase& related, const std::string& file, std::s
     RelationChoice choice = related.choice;
     choice.bit_for_bit = claims_same_bits(*s) || (choice.bit_for_bit && s->name == related.subject);
     if (s->scalar != related.question.scalar) {
-      // Partners are chosen in a scalar: in another one they would be other cases.
+      // FollowUps are chosen in a scalar: in another one they would be other cases.
       r.unasked.push_back({s->name, fmt::format("the cases are related in {}", name_of(related.question.scalar))});
     } else if (auto report = examine_relation(choice, related.question, *s, workers)) {
       report->replay = replay_command(*s, file);
@@ -195,8 +195,8 @@ RelatedReplay replay(const RelatedCase& related, const std::string& file, std::s
 std::string replay_text(const RelatedCase& related, const RelatedReplay& r) {
   std::string text = fmt::format("{}\nRelation {}: {}\n", r.file, related.choice.relation->name, related.choice.relation->what);
   std::vector<Case> cases{related.question};
-  const auto partners = related.choice.relation->of(related.question, related.choice.seed);
-  cases.insert(cases.end(), partners->cases.begin(), partners->cases.end());
+  const auto follow_ups = related.choice.relation->of(related.question, related.choice.seed);
+  cases.insert(cases.end(), follow_ups->cases.begin(), follow_ups->cases.end());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     text += fmt::format("\nCase {}: {}", i + 1, case_page(cases[i], truth_of(cases[i])));
   }

@@ -152,14 +152,14 @@ void RelationsRun::batch(const Query& query, Scalar scalar, Preconditions requir
 
 void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>& cases,
                               const std::map<const Subject*, std::vector<Answer>>& own) {
-  std::vector<std::optional<Partners>> partners;
+  std::vector<std::optional<FollowUps>> follow_ups;
   std::map<const Query*, std::pair<std::vector<Case>, std::vector<Slot>>> asked;  // a worker is asked one query at a time
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    partners.push_back(relation.of(cases[i], cases[i].index));
-    if (!partners[i]) continue;
-    for (std::size_t k = 0; k < partners[i]->cases.size(); ++k) {
-      auto& [questions, slots] = asked[partners[i]->cases[k].query];
-      questions.push_back(partners[i]->cases[k]);
+    follow_ups.push_back(relation.of(cases[i], cases[i].index));
+    if (!follow_ups[i]) continue;
+    for (std::size_t k = 0; k < follow_ups[i]->cases.size(); ++k) {
+      auto& [questions, slots] = asked[follow_ups[i]->cases[k].query];
+      questions.push_back(follow_ups[i]->cases[k]);
       slots.push_back({i, k + 1});
     }
   }
@@ -168,8 +168,8 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
     if (should_stop()) return;
     std::vector<std::vector<Answer>> answers(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      if (partners[i]) answers[i].resize(1 + partners[i]->cases.size());
-      if (partners[i]) answers[i][0] = first_answers[i];
+      if (follow_ups[i]) answers[i].resize(1 + follow_ups[i]->cases.size());
+      if (follow_ups[i]) answers[i][0] = first_answers[i];
     }
     for (const auto& [query, questions] : asked) {
       if (subject->offering(query->name).answer == nullptr) continue;
@@ -180,15 +180,15 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
     const bool bits = settings_.bit_for_bit || claims_same_bits(*subject);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       // Without an answer to the case itself there is nothing to compare; 'nearmiss run' reports it.
-      if (!partners[i] || first_answers[i].status != Answer::Status::answered) continue;
-      if (!offers_all(*subject, *partners[i])) continue;
-      if (!may_be_asked_all(*subject, *partners[i])) {
+      if (!follow_ups[i] || first_answers[i].status != Answer::Status::answered) continue;
+      if (!offers_all(*subject, *follow_ups[i])) continue;
+      if (!may_be_asked_all(*subject, *follow_ups[i])) {
         ++not_asked_;
         continue;
       }
       try {
         take({subject, &relation, cases[i].query}, {&relation, cases[i].index, bits},
-             relate(relation, *partners[i], cases[i], std::move(answers[i]), *subject, bits));
+             relate(relation, *follow_ups[i], cases[i], std::move(answers[i]), *subject, bits));
       } catch (const InternalError& error) {
         internal_errors_.add(*subject, error);
       }

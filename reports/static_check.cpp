@@ -8,59 +8,24 @@
 #include <optional>
 #include <utility>
 
+#include "corpus/relations/recast.hpp"
+
 namespace nearmiss {
 
 namespace {
 
-/// How the numbers of a moving query become those of a static one. A point is a ball without a radius.
-struct Correspondence {
-  std::string_view moving, fixed;  ///< the queries
-  std::string_view mover, placed;  ///< the moving body in either
-  std::string_view obstacle;       ///< the other one in the moving query; in the static one it is all the rest
-};
-
-constexpr std::array<Correspondence, 8> correspondences = {{
-    {"moving_point_plane", "sphere_plane_penetration", "point", "sphere", "plane"},
-    {"moving_point_triangle", "sphere_triangle_overlap", "point", "sphere", "triangle"},
-    {"moving_point_sphere", "sphere_sphere_overlap", "point", "sphere1", "sphere"},
-    {"moving_point_box", "sphere_box_overlap", "point", "sphere", "box"},
-    {"moving_sphere_plane", "sphere_plane_penetration", "sphere", "sphere", "plane"},
-    {"moving_sphere_triangle", "sphere_triangle_overlap", "sphere", "sphere", "triangle"},
-    {"moving_sphere_sphere", "sphere_sphere_overlap", "sphere", "sphere1", "fixed"},
-    {"moving_sphere_box", "sphere_box_overlap", "sphere", "sphere", "box"},
-}};
-
-const Correspondence* correspondence_of(const Query& moving) {
-  const auto found = std::find_if(correspondences.begin(), correspondences.end(),
-                                  [&](const Correspondence& c) { return c.moving == moving.name; });
-  return found == correspondences.end() ? nullptr : &*found;
-}
-
-double input(const Case& c, const std::string& name) {
-  const auto& fields = c.query->inputs;
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
-  return c.values.at(std::size_t(found - fields.begin()));
-}
-
-/// The scene at that time, in double.
-Case placed_at(const Case& question, const Correspondence& by, double time) {
-  Case c;
-  c.query = find_query(by.fixed);
-  const bool point = by.mover == "point";
-  for (const Field& f : c.query->inputs) {
-    const std::size_t dot = f.name.find('.');
-    const std::string owner = f.name.substr(0, dot), member = f.name.substr(dot + 1);
-    if (owner != by.placed) {
-      c.values.push_back(input(question, fmt::format("{}.{}", by.obstacle, member)));
-    } else if (member == "radius") {
-      c.values.push_back(point ? 0.0 : input(question, fmt::format("{}.radius", by.mover)));
-    } else {  // "center.x"
-      const std::string axis = member.substr(member.find('.') + 1);
-      const double from = input(question, fmt::format("{}.{}", by.mover, point ? axis : member));
-      c.values.push_back(from + input(question, "velocity." + axis) * time);
-    }
-  }
-  return c;
+/// The scene at that time, in double, as a case of the static query.
+Case placed_at(const Case& question, const Link& link, double time) {
+  Case there = question;
+  there.scalar = Scalar::float64;
+  const auto& fields = question.query->inputs;
+  const auto first = [&](Role role) {
+    return std::size_t(std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; }) -
+                       fields.begin());
+  };
+  const std::size_t place = first(Role::position), velocity = first(Role::velocity);  // of what moves: it is named first
+  for (std::size_t k = 0; k < 3; ++k) there.values[place + k] += question.values[velocity + k] * time;
+  return metamorphic::recast(there, link);
 }
 
 /// The time in which the body moves by 2^-10 of the largest size, or else position; 0 where nothing moves.
@@ -98,7 +63,7 @@ std::optional<double> time_in(const Query& query, const Truth& truth) {
 
 std::vector<StaticCheck> static_checks(const Case& question, const Answer& answer, const Truth& truth,
                                        Workers& workers) {
-  const Correspondence* by = correspondence_of(*question.query);
+  const Link* by = metamorphic::link_of(question, Link::Kind::at_rest);
   if (by == nullptr) return {};
   const double step = step_of(question);
   const std::optional<double> answered = time_in(*question.query, answer), exact = time_in(*question.query, truth);
@@ -108,13 +73,13 @@ std::vector<StaticCheck> static_checks(const Case& question, const Answer& answe
   std::vector<StaticCheck> checks;
   for (const auto& [of, time] : times) {
     std::array<Case, 3> scenes;
-    StaticCheck check{"", "", by->fixed, of, {std::max(0.0, time - step), time, time + step}, {}};
+    StaticCheck check{"", "", query_of(by->to).name, of, {std::max(0.0, time - step), time, time + step}, {}};
     for (std::size_t i = 0; i < 3; ++i) scenes[i] = placed_at(question, *by, check.times[i]);
     const bool valid = std::none_of(scenes.begin(), scenes.end(),
                                     [](const Case& c) { return c.query->broken(c.values).has_value(); });
     if (!valid) continue;  // the place is beyond the largest number
     for (const Subject& referee : subjects()) {
-      if (!referee.referee || referee.offering(by->fixed).answer == nullptr) continue;
+      if (!referee.referee || referee.offering(query_of(by->to).name).answer == nullptr) continue;
       const bool holds = std::all_of(scenes.begin(), scenes.end(),
                                      [&](const Case& c) { return in_scalar(c, referee.scalar).has_value(); });
       if (!holds) continue;

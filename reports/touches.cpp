@@ -20,7 +20,7 @@ Touched sum(const std::map<std::string, Touched>& features) {
 
 /// Parallel axes and distances of centers are decisions, but nothing touches there.
 bool is_about_contact(const Query& query) {
-  return decides(query.kind) && query.name != "box_box_parallel_axis" && query.name != "box_box_conservative";
+  return decides(query.kind) && query.traits.touching_is_yes;
 }
 
 }  // namespace

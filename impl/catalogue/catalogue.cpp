@@ -38,7 +38,7 @@ std::optional<Invalid> broken_inputs(std::span<const double> values) {
 template <class Inputs>
 Query make_query(QueryId id, std::string_view name) {
   using A = typename Inputs::Answer;
-  return {id, name, kind_of<A>, fields_of<Inputs>(), fields_of<A>(), Layout::of<A>(), broken_inputs<Inputs>};
+  return {id, name, kind_of<A>, fields_of<Inputs>(), fields_of<A>(), Layout::of<A>(), broken_inputs<Inputs>, Inputs::traits};
 }
 
 }  // namespace
@@ -62,6 +62,18 @@ std::string_view name_of(Kind kind) {
     case Kind::depth: return "depth";
     case Kind::direction: return "direction";
     case Kind::measure: return "measure";
+  }
+  return "?";
+}
+
+std::string_view name_of(Tie tie) {
+  switch (tie) {
+    case Tie::position: return "position";
+    case Tie::normal: return "normal";
+    case Tie::depth: return "depth";
+    case Tie::weight: return "weight";
+    case Tie::index: return "index";
+    case Tie::cone: return "cone";
   }
   return "?";
 }

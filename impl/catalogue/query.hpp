@@ -12,6 +12,7 @@
 #include "impl/catalogue/answer.hpp"
 #include "impl/catalogue/kind.hpp"
 #include "impl/catalogue/layout.hpp"
+#include "impl/catalogue/traits.hpp"
 
 namespace nearmiss {
 
@@ -33,13 +34,6 @@ struct Invalid {
   std::string text() const;
 };
 
-/// The queries by name, in the catalogue's order.
-enum class QueryId {
-#define NEARMISS_QUERY(query) query,
-#include "impl/catalogue/catalogue.def"
-#undef NEARMISS_QUERY
-};
-
 struct Query {
   QueryId id;
   std::string_view name;
@@ -49,6 +43,7 @@ struct Query {
   Layout layout;  ///< the members of an answer, as runs of its outputs
   /// The first rule that the inputs break, if any. Expects inputs.size() values.
   std::optional<Invalid> (*broken)(std::span<const double> values);
+  Traits traits;
 
   /// "location", "corners.2.point": the outputs' name without their component.
   std::string member_name(std::size_t part) const;

@@ -16,6 +16,8 @@ struct aabox_triangle_overlap {
     return std::tuple(member("box", &aabox_triangle_overlap::box),
                       member("triangle", &aabox_triangle_overlap::triangle));
   }
+
+  static constexpr Traits traits{};
 };
 
 }  // namespace nearmiss::inputs

@@ -22,6 +22,8 @@ struct bounce_direction {
                       member("location", &bounce_direction::location, Role::position),
                       member("normal", &bounce_direction::normal, Role::direction));
   }
+
+  static constexpr Traits traits{.directions_are_lines = true};
 };
 
 }  // namespace nearmiss::inputs

@@ -14,6 +14,8 @@ struct box_box_info {
   static constexpr auto members() {
     return std::tuple(member("box1", &box_box_info::box1), member("box2", &box_box_info::box2));
   }
+
+  static constexpr Traits traits{.operands = {"box 1", "box 2"}, .frame = OutputFrame::operands};
 };
 
 }  // namespace nearmiss::inputs

@@ -16,6 +16,16 @@ struct box_box_overlap {
     return std::tuple(member("box1", &box_box_overlap::box1), member("box2", &box_box_overlap::box2),
                       member("hint", &box_box_overlap::hint, Role::index));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::same_decision, .to = QueryId::box_box_penetration},
+      {.kind = Link::Kind::implied_decision, .to = QueryId::box_box_conservative},
+  };
+  static constexpr Traits traits{.operands = {"box 1", "box 2"},
+                                 .grows = true,
+                                 .exchange = Exchange::always,
+                                 .ties = {Tie::index},
+                                 .links = links};
 };
 
 }  // namespace nearmiss::inputs

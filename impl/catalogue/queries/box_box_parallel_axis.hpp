@@ -16,6 +16,12 @@ struct box_box_parallel_axis {
     return std::tuple(member("box1", &box_box_parallel_axis::box1), member("box2", &box_box_parallel_axis::box2),
                       member("epsilon", &box_box_parallel_axis::epsilon, Role::weight));
   }
+
+  static constexpr Traits traits{
+      .operands = {"box 1", "box 2"},
+      .decision = {"an axis of box 1 and one of box 2 are parallel", "no axis of box 1 is parallel to one of box 2"},
+      .touching_is_yes = false,
+      .frame = OutputFrame::order_of_axes};
 };
 
 }  // namespace nearmiss::inputs

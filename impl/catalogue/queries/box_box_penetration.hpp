@@ -16,6 +16,11 @@ struct box_box_penetration {
     return std::tuple(member("box1", &box_box_penetration::box1), member("box2", &box_box_penetration::box2),
                       member("hint", &box_box_penetration::hint, Role::index));
   }
+
+  static constexpr Traits traits{.operands = {"box 1", "box 2"},
+                                 .grows = true,
+                                 .exchange = Exchange::always,
+                                 .ties = {Tie::position, Tie::normal, Tie::depth, Tie::index}};
 };
 
 }  // namespace nearmiss::inputs

@@ -21,6 +21,8 @@ struct box_box_projected_distance {
     if (axis < 0 || axis >= box_box_axes) return Broken{"axis", "0 to 14", double(axis)};
     return std::nullopt;
   }
+
+  static constexpr Traits traits{.operands = {"box 1", "box 2"}, .exchange = Exchange::always};
 };
 
 }  // namespace nearmiss::inputs

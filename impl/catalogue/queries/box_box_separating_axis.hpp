@@ -13,14 +13,15 @@ struct box_box_separating_axis {
   int axis = 0;
 
   static constexpr auto members() {
-    return std::tuple(member("box1", &box_box_separating_axis::box1),
-                      member("box2", &box_box_separating_axis::box2),
+    return std::tuple(member("box1", &box_box_separating_axis::box1), member("box2", &box_box_separating_axis::box2),
                       member("axis", &box_box_separating_axis::axis, Role::index));
   }
   std::optional<Broken> broken() const {
     if (axis < 0 || axis >= box_box_axes) return Broken{"axis", "0 to 14", double(axis)};
     return std::nullopt;
   }
+
+  static constexpr Traits traits{.exchange = Exchange::always, .frame = OutputFrame::order_of_operands};
 };
 
 }  // namespace nearmiss::inputs

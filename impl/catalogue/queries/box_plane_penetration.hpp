@@ -15,6 +15,8 @@ struct box_plane_penetration {
   static constexpr auto members() {
     return std::tuple(member("box", &box_plane_penetration::box), member("plane", &box_plane_penetration::plane));
   }
+
+  static constexpr Traits traits{.operands = {"the box", "the plane"}, .grows = true};
 };
 
 }  // namespace nearmiss::inputs

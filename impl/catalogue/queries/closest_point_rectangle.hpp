@@ -16,6 +16,8 @@ struct closest_point_rectangle {
     return std::tuple(member("rectangle", &closest_point_rectangle::rectangle),
                       member("point", &closest_point_rectangle::point, Role::position));
   }
+
+  static constexpr Traits traits{.operands = {"the rectangle", "the point"}, .ties = {Tie::position}};
 };
 
 }  // namespace nearmiss::inputs

@@ -16,6 +16,8 @@ struct closest_point_rectangle_perimeter {
     return std::tuple(member("rectangle", &closest_point_rectangle_perimeter::rectangle),
                       member("point", &closest_point_rectangle_perimeter::point, Role::position));
   }
+
+  static constexpr Traits traits{.operands = {"the rectangle", "the point"}, .ties = {Tie::position}};
 };
 
 }  // namespace nearmiss::inputs

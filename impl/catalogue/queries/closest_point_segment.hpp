@@ -16,6 +16,11 @@ struct closest_point_segment {
     return std::tuple(member("segment", &closest_point_segment::segment),
                       member("point", &closest_point_segment::point, Role::position));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::prepared, .to = QueryId::closest_point_segment_unit},
+  };
+  static constexpr Traits traits{.operands = {"the segment", "the point"}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

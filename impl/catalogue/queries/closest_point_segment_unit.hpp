@@ -16,6 +16,8 @@ struct closest_point_segment_unit {
     return std::tuple(member("segment", &closest_point_segment_unit::segment),
                       member("point", &closest_point_segment_unit::point, Role::position));
   }
+
+  static constexpr Traits traits{.operands = {"the segment", "the point"}};
 };
 
 }  // namespace nearmiss::inputs

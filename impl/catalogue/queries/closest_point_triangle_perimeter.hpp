@@ -16,6 +16,11 @@ struct closest_point_triangle_perimeter {
     return std::tuple(member("triangle", &closest_point_triangle_perimeter::triangle),
                       member("point", &closest_point_triangle_perimeter::point, Role::position));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::prepared, .to = QueryId::closest_point_triangle_perimeter_edges},
+  };
+  static constexpr Traits traits{.operands = {"the triangle", "the point"}, .ties = {Tie::position}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -16,6 +16,8 @@ struct closest_point_triangle_perimeter_edges {
     return std::tuple(member("triangle", &closest_point_triangle_perimeter_edges::triangle),
                       member("point", &closest_point_triangle_perimeter_edges::point, Role::position));
   }
+
+  static constexpr Traits traits{.operands = {"the triangle", "the point"}, .ties = {Tie::position, Tie::index}};
 };
 
 }  // namespace nearmiss::inputs

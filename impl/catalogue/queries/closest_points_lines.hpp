@@ -14,6 +14,8 @@ struct closest_points_lines {
   static constexpr auto members() {
     return std::tuple(member("line1", &closest_points_lines::line1), member("line2", &closest_points_lines::line2));
   }
+
+  static constexpr Traits traits{.directions_are_lines = true, .exchange = Exchange::unless_nearly_parallel};
 };
 
 }  // namespace nearmiss::inputs

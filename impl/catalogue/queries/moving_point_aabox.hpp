@@ -18,6 +18,13 @@ struct moving_point_aabox {
                       member("velocity", &moving_point_aabox::velocity, Role::velocity),
                       member("aabox", &moving_point_aabox::aabox));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::implied_decision,
+       .to = QueryId::ray_aabox,
+       .renamed = {{{"ray.origin", "point"}, {"ray.direction", "velocity"}}}},
+  };
+  static constexpr Traits traits{.operands = {"the point", "the aabox"}, .ties = {Tie::normal}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,13 @@ struct moving_point_box {
                       member("velocity", &moving_point_box::velocity, Role::velocity),
                       member("box", &moving_point_box::box));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::at_rest,
+       .to = QueryId::sphere_box_overlap,
+       .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
+  };
+  static constexpr Traits traits{.operands = {"the point", "the box"}, .ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

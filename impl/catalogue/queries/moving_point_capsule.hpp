@@ -18,6 +18,15 @@ struct moving_point_capsule {
                       member("velocity", &moving_point_capsule::velocity, Role::velocity),
                       member("capsule", &moving_point_capsule::capsule));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::capsule_as_sphere,
+       .to = QueryId::moving_point_sphere,
+       .renamed = {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}},
+       .set = {"solid", 1},
+       .times_alone = true},
+  };
+  static constexpr Traits traits{.operands = {"the point", "the capsule"}, .ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,16 @@ struct moving_point_plane {
                       member("velocity", &moving_point_plane::velocity, Role::velocity),
                       member("plane", &moving_point_plane::plane));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::point_as_sphere,
+       .to = QueryId::moving_sphere_plane,
+       .renamed = {{{"sphere.center", "point"}}}},
+      {.kind = Link::Kind::at_rest,
+       .to = QueryId::sphere_plane_penetration,
+       .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
+  };
+  static constexpr Traits traits{.operands = {"the point", "the plane"}, .one_sided = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

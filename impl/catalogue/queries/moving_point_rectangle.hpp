@@ -18,6 +18,15 @@ struct moving_point_rectangle {
                       member("velocity", &moving_point_rectangle::velocity, Role::velocity),
                       member("rectangle", &moving_point_rectangle::rectangle));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::halves, .to = QueryId::moving_point_triangle},
+      {.kind = Link::Kind::point_as_sphere,
+       .to = QueryId::moving_sphere_rectangle,
+       .renamed = {{{"sphere.center", "point"}}}},
+  };
+  static constexpr Traits traits{
+      .operands = {"the point", "the rectangle"}, .one_sided = true, .ties = {Tie::normal}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

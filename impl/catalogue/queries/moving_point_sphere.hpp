@@ -20,6 +20,13 @@ struct moving_point_sphere {
                       member("sphere", &moving_point_sphere::sphere),
                       member("solid", &moving_point_sphere::solid, Role::flag));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::at_rest,
+       .to = QueryId::sphere_sphere_overlap,
+       .renamed = {{{"sphere1.center", "point"}, {"sphere1.radius", "-"}, {"sphere2", "sphere"}}}},
+  };
+  static constexpr Traits traits{.operands = {"the point", "the sphere"}, .ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,17 @@ struct moving_point_triangle {
                       member("velocity", &moving_point_triangle::velocity, Role::velocity),
                       member("triangle", &moving_point_triangle::triangle));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::prepared, .to = QueryId::moving_point_triangle_prepared},
+      {.kind = Link::Kind::point_as_sphere,
+       .to = QueryId::moving_sphere_triangle,
+       .renamed = {{{"sphere.center", "point"}}}},
+      {.kind = Link::Kind::at_rest,
+       .to = QueryId::sphere_triangle_overlap,
+       .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
+  };
+  static constexpr Traits traits{.operands = {"the point", "the triangle"}, .one_sided = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,8 @@ struct moving_point_triangle_prepared {
                       member("velocity", &moving_point_triangle_prepared::velocity, Role::velocity),
                       member("triangle", &moving_point_triangle_prepared::triangle));
   }
+
+  static constexpr Traits traits{.operands = {"the point", "the triangle"}, .one_sided = true};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,22 @@ struct moving_sphere_box {
                       member("velocity", &moving_sphere_box::velocity, Role::velocity),
                       member("box", &moving_sphere_box::box));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::within_any_time, .to = QueryId::moving_sphere_passes_box, .set = {"forever", 1}},
+      {.kind = Link::Kind::contained_ball,
+       .to = QueryId::moving_sphere_sphere,
+       .renamed = {{{"fixed.center", "box.center"}}}},
+      {.kind = Link::Kind::sphere_as_point, .to = QueryId::moving_point_box, .renamed = {{{"point", "sphere.center"}}}},
+      {.kind = Link::Kind::box_as_point,
+       .to = QueryId::moving_sphere_sphere,
+       .renamed = {{{"fixed.center", "box.center"}, {"fixed.radius", "-"}}}},
+      {.kind = Link::Kind::at_rest, .to = QueryId::sphere_box_overlap},
+  };
+  static constexpr Traits traits{.operands = {"the sphere", "the box"},
+                                 .grows = true,
+                                 .ties = {Tie::position, Tie::normal, Tie::cone},
+                                 .links = links};
 };
 
 }  // namespace nearmiss::inputs

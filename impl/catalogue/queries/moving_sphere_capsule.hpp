@@ -18,6 +18,20 @@ struct moving_sphere_capsule {
                       member("velocity", &moving_sphere_capsule::velocity, Role::velocity),
                       member("capsule", &moving_sphere_capsule::capsule));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::contained_ball,
+       .to = QueryId::moving_sphere_sphere,
+       .renamed = {{{"fixed.center", "capsule.p0"}}}},
+      {.kind = Link::Kind::sphere_as_point,
+       .to = QueryId::moving_point_capsule,
+       .renamed = {{{"point", "sphere.center"}}}},
+      {.kind = Link::Kind::capsule_as_sphere,
+       .to = QueryId::moving_sphere_sphere,
+       .renamed = {{{"fixed.center", "capsule.p0"}, {"fixed.radius", "capsule.radius"}}}},
+  };
+  static constexpr Traits traits{
+      .operands = {"the sphere", "the capsule"}, .grows = true, .ties = {Tie::position, Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

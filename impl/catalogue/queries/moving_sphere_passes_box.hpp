@@ -26,6 +26,13 @@ struct moving_sphere_passes_box {
     if (limit < T(0)) return Broken{"limit", "not negative", double(limit)};
     return std::nullopt;
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::contained_ball,
+       .to = QueryId::moving_sphere_passes_sphere,
+       .renamed = {{{"fixed.center", "box.center"}}}},
+  };
+  static constexpr Traits traits{.operands = {"the sphere", "the box"}, .grows = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

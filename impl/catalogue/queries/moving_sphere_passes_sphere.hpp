@@ -26,6 +26,8 @@ struct moving_sphere_passes_sphere {
     if (limit < T(0)) return Broken{"limit", "not negative", double(limit)};
     return std::nullopt;
   }
+
+  static constexpr Traits traits{.grows = true};
 };
 
 }  // namespace nearmiss::inputs

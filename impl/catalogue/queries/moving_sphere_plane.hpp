@@ -18,6 +18,12 @@ struct moving_sphere_plane {
                       member("velocity", &moving_sphere_plane::velocity, Role::velocity),
                       member("plane", &moving_sphere_plane::plane));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::at_rest, .to = QueryId::sphere_plane_penetration},
+  };
+  static constexpr Traits traits{
+      .operands = {"the sphere", "the plane"}, .one_sided = true, .grows = true, .ties = {Tie::normal}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,15 @@ struct moving_sphere_rectangle {
                       member("velocity", &moving_sphere_rectangle::velocity, Role::velocity),
                       member("rectangle", &moving_sphere_rectangle::rectangle));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::halves, .to = QueryId::moving_sphere_triangle},
+  };
+  static constexpr Traits traits{.operands = {"the sphere", "the rectangle"},
+                                 .one_sided = true,
+                                 .grows = true,
+                                 .ties = {Tie::position, Tie::normal, Tie::cone},
+                                 .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -18,6 +18,14 @@ struct moving_sphere_sphere {
                       member("velocity", &moving_sphere_sphere::velocity, Role::velocity),
                       member("fixed", &moving_sphere_sphere::fixed));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::within_any_time, .to = QueryId::moving_sphere_passes_sphere, .set = {"forever", 1}},
+      {.kind = Link::Kind::at_rest,
+       .to = QueryId::sphere_sphere_overlap,
+       .renamed = {{{"sphere1", "sphere"}, {"sphere2", "fixed"}}}},
+  };
+  static constexpr Traits traits{.grows = true, .ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

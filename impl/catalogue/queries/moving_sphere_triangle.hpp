@@ -18,6 +18,15 @@ struct moving_sphere_triangle {
                       member("velocity", &moving_sphere_triangle::velocity, Role::velocity),
                       member("triangle", &moving_sphere_triangle::triangle));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::at_rest, .to = QueryId::sphere_triangle_overlap},
+  };
+  static constexpr Traits traits{.operands = {"the sphere", "the triangle"},
+                                 .one_sided = true,
+                                 .grows = true,
+                                 .ties = {Tie::cone},
+                                 .links = links};
 };
 
 }  // namespace nearmiss::inputs

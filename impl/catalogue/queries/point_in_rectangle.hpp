@@ -18,6 +18,15 @@ struct point_in_rectangle {
                       member("normal", &point_in_rectangle::normal, Role::direction),
                       member("point", &point_in_rectangle::point, Role::position));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::halves, .to = QueryId::point_in_triangle, .set = {"axis", -1}},
+  };
+  static constexpr Traits traits{.operands = {"the rectangle", "the point"},
+                                 .decision = {"the point is in the rectangle", "the point is outside of the rectangle"},
+                                 .projects = true,
+                                 .directions_are_lines = true,
+                                 .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -24,6 +24,12 @@ struct point_in_triangle {
     if (axis < -1 || axis > 2) return Broken{"axis", "-1, 0, 1 or 2", double(axis)};
     return std::nullopt;
   }
+
+  static constexpr Traits traits{.operands = {"the triangle", "the point"},
+                                 .decision = {"the point is in the triangle", "the point is outside of the triangle"},
+                                 .projects = true,
+                                 .directions_are_lines = true,
+                                 .ties = {Tie::weight}};
 };
 
 }  // namespace nearmiss::inputs

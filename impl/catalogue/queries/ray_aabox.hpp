@@ -15,6 +15,8 @@ struct ray_aabox {
   static constexpr auto members() {
     return std::tuple(member("ray", &ray_aabox::ray), member("aabox", &ray_aabox::aabox));
   }
+
+  static constexpr Traits traits{.operands = {"the ray", "the aabox"}};
 };
 
 }  // namespace nearmiss::inputs

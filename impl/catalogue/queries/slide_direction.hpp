@@ -20,6 +20,8 @@ struct slide_direction {
                       member("time", &slide_direction::time, Role::time),
                       member("location", &slide_direction::location, Role::position));
   }
+
+  static constexpr Traits traits{};
 };
 
 }  // namespace nearmiss::inputs

@@ -13,9 +13,19 @@ struct sphere_box_penetration {
   Box<T> box{};
 
   static constexpr auto members() {
-    return std::tuple(member("sphere", &sphere_box_penetration::sphere),
-                      member("box", &sphere_box_penetration::box));
+    return std::tuple(member("sphere", &sphere_box_penetration::sphere), member("box", &sphere_box_penetration::box));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::box_as_point,
+       .to = QueryId::sphere_sphere_penetration,
+       .renamed = {{{"sphere1", "sphere"}, {"sphere2.center", "box.center"}, {"sphere2.radius", "-"}}},
+       .except = {"contact", "normal"}},
+  };
+  static constexpr Traits traits{.operands = {"the sphere", "the box"},
+                                 .grows = true,
+                                 .ties = {Tie::position, Tie::normal, Tie::cone},
+                                 .links = links};
 };
 
 }  // namespace nearmiss::inputs

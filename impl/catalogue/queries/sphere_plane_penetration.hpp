@@ -16,6 +16,8 @@ struct sphere_plane_penetration {
     return std::tuple(member("sphere", &sphere_plane_penetration::sphere),
                       member("plane", &sphere_plane_penetration::plane));
   }
+
+  static constexpr Traits traits{.operands = {"the sphere", "the plane"}, .grows = true};
 };
 
 }  // namespace nearmiss::inputs

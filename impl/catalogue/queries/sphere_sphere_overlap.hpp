@@ -15,6 +15,12 @@ struct sphere_sphere_overlap {
     return std::tuple(member("sphere1", &sphere_sphere_overlap::sphere1),
                       member("sphere2", &sphere_sphere_overlap::sphere2));
   }
+
+  static constexpr Link links[] = {
+      {.kind = Link::Kind::same_decision, .to = QueryId::sphere_sphere_penetration},
+  };
+  static constexpr Traits traits{
+      .operands = {"sphere 1", "sphere 2"}, .grows = true, .exchange = Exchange::always, .links = links};
 };
 
 }  // namespace nearmiss::inputs

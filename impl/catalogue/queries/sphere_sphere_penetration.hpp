@@ -15,6 +15,12 @@ struct sphere_sphere_penetration {
     return std::tuple(member("sphere1", &sphere_sphere_penetration::sphere1),
                       member("sphere2", &sphere_sphere_penetration::sphere2));
   }
+
+  static constexpr Traits traits{.operands = {"sphere 1", "sphere 2"},
+                                 .grows = true,
+                                 .contact_is_of_the_first = true,
+                                 .exchange = Exchange::always,
+                                 .ties = {Tie::cone}};
 };
 
 }  // namespace nearmiss::inputs

@@ -16,6 +16,8 @@ struct sphere_triangle_overlap {
     return std::tuple(member("sphere", &sphere_triangle_overlap::sphere),
                       member("triangle", &sphere_triangle_overlap::triangle));
   }
+
+  static constexpr Traits traits{.operands = {"the sphere", "the triangle"}, .grows = true};
 };
 
 }  // namespace nearmiss::inputs

@@ -1,0 +1,144 @@
+/// Other names of the same operands: corners in another order, operands exchanged, directions turned around, hints.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "corpus/draft.hpp"
+#include "corpus/relations/follow_ups.hpp"
+#include "corpus/relations/operands.hpp"
+
+namespace nearmiss::metamorphic {
+
+namespace {
+
+int swapped_box_axis(int axis) {
+  if (axis < 0 || axis > 14) return axis;
+  if (axis < 6) return (axis + 3) % 6;
+  return 6 + 3 * ((axis - 6) % 3) + (axis - 6) / 3;
+}
+
+/// Of the first two directions.
+bool nearly_parallel_directions(const Case& c) {
+  std::vector<long double> v;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.query->inputs[i].role == Role::direction) v.push_back(c.values[i]);
+  }
+  const long double ax = v.at(0), ay = v.at(1), az = v.at(2), bx = v.at(3), by = v.at(4), bz = v.at(5);
+  const long double cx = ay * bz - az * by, cy = az * bx - ax * bz, cz = ax * by - ay * bx;
+  constexpr long double beyond_rounding = 0x1p-40L;
+  return cx * cx + cy * cy + cz * cz <= beyond_rounding * (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz);
+}
+
+}  // namespace
+
+std::optional<FollowUps> turned_corners(const Case& c, std::uint64_t) {
+  Case other = c;
+  const auto triangles = triangles_of(c), rectangles = rectangles_of(c);
+  for (const std::string& t : triangles) {
+    exchange(other, t + ".v0", t + ".v1");
+    exchange(other, t + ".v1", t + ".v2");
+  }
+  for (const std::string& t : rectangles) {
+    exchange(other, t + ".v0", t + ".v2");
+    exchange(other, t + ".v1", t + ".v3");
+  }
+  for (const std::string& t : operands_with(c, "v1", "v2")) exchange(other, t + ".v0", t + ".v1");
+  for (const std::string& t : operands_with(c, "p1", "p2")) exchange(other, t + ".p0", t + ".p1");
+  if (other.values == c.values) return std::nullopt;
+  const Query& query = *c.query;
+  return counterpart(std::move(other), [&query](const Answer& own) {
+    Answer a = own;
+    for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+      if (vector_at(query.outputs, i) && query.outputs[i].role == Role::weight) {
+        for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + (k + 1) % 3);
+      } else if (query.outputs[i].name == "edge") {
+        if (const int edge = as_index(own.values[i]); edge >= 0) a.values[i] = double((edge + 2) % 3);
+      }
+    }
+    return a;
+  });
+}
+
+/// Corners the other way around, where a shape has no front.
+std::optional<FollowUps> reversed_corners(const Case& c, std::uint64_t) {
+  if (c.query->traits.one_sided) return std::nullopt;
+  Case other = c;
+  for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
+  for (const std::string& t : rectangles_of(c)) exchange(other, t + ".v1", t + ".v3");
+  if (other.values == c.values) return std::nullopt;
+  const Query& query = *c.query;
+  return counterpart(std::move(other), [&query](const Answer& own) {
+    Answer a = own;
+    for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+      if (query.outputs[i].name == "edge") a.values[i] = 2 - own.values[i];
+      if (query.outputs[i].name == "weights.y") carry(a, i, own, i + 1);
+      if (query.outputs[i].name == "weights.z") carry(a, i, own, i - 1);
+    }
+    return a;
+  });
+}
+
+/// The operands whose names end with 1 and 2 change places.
+std::optional<FollowUps> swapped(const Case& c, std::uint64_t) {
+  const Query& query = *c.query;
+  const Exchange allowed = query.traits.exchange;
+  if (allowed == Exchange::none) return std::nullopt;
+  if (allowed == Exchange::unless_nearly_parallel && nearly_parallel_directions(c)) return std::nullopt;
+  Case other = c;
+  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
+    const std::string& name = query.inputs[i].name;
+    const std::size_t dot = name.find('.');
+    if (dot != std::string::npos && dot > 0 && name[dot - 1] == '1') {
+      std::string twin = name;
+      twin[dot - 1] = '2';
+      std::swap(other.values[i], value(other, twin));
+    } else if (query.inputs[i].role == Role::index) {
+      other.values[i] = swapped_box_axis(int(c.values[i]));
+    }
+  }
+  return counterpart(std::move(other), [&query](const Answer& own) {
+    Answer a = own;
+    const auto& out = query.outputs;
+    const std::size_t point2 = index_of(out, "point2.x");
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (out[i].name.starts_with("point1.")) {
+        const std::size_t twin = point2 + i - index_of(out, "point1.x");
+        carry(a, i, own, twin);
+        carry(a, twin, own, i);
+      } else if (out[i].role == Role::normal) {
+        a.values[i] = -own.values[i];
+      } else if (out[i].role == Role::index) {
+        if (const int axis = as_index(own.values[i]); axis >= 0) a.values[i] = swapped_box_axis(axis);
+      } else if (out[i].name.starts_with("contact.") && query.traits.contact_is_of_the_first) {
+        a = without(a, i);  // of the other sphere
+      } else if (query.traits.frame == OutputFrame::order_of_operands) {
+        a = without(a, i);  // a cross product changes its sign
+      }
+    }
+    return a;
+  });
+}
+
+/// The sign of a direction that only names a line or an axis.
+std::optional<FollowUps> reversed_directions(const Case& c, std::uint64_t) {
+  if (!c.query->traits.directions_are_lines) return std::nullopt;
+  Case other = c;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.query->inputs[i].role == Role::direction) other.values[i] = -c.values[i];
+  }
+  return counterpart(std::move(other), [](const Answer& a) { return a; });
+}
+
+std::optional<FollowUps> another_hint(const Case& c, std::uint64_t seed) {
+  if (!has(c, "hint")) return std::nullopt;
+  Case other = c;
+  value(other, "hint") = Random(seed).between(-1, 14);
+  const Query& query = *c.query;
+  return counterpart(std::move(other), [&query](Answer a) {
+    // Apart, any axis that separates is right, with the separation along it.
+    for (std::size_t i = 0; i < query.outputs.size() && !a.yes; ++i) a = without(a, i);
+    return a;
+  });
+}
+
+}  // namespace nearmiss::metamorphic

@@ -1,0 +1,165 @@
+/// Different queries about the same thing, by the links of the catalogue.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "corpus/relations/follow_ups.hpp"
+#include "corpus/relations/operands.hpp"
+#include "corpus/relations/recast.hpp"
+
+namespace nearmiss::metamorphic {
+
+namespace {
+
+bool is_part_of(std::string_view member, std::string_view name) {
+  return !member.empty() && name.starts_with(member) && (name.size() == member.size() || name[member.size()] == '.');
+}
+
+/// The same answer in the members that both answer types have by the same name.
+FollowUps same_answer(const Case& c, const Link& link) {
+  Case other = recast(c, link);
+  const Query &from = *c.query, &to = *other.query;
+  FollowUps follow_ups = counterpart(std::move(other), [&from, &to, except = link.except](const Answer& own) {
+    Answer a = own;
+    for (std::size_t i = 0; i < to.outputs.size(); ++i) {
+      const std::size_t at = index_of(from.outputs, to.outputs[i].name);
+      const bool excepted = std::any_of(except.begin(), except.end(),
+                                        [&](std::string_view member) { return is_part_of(member, to.outputs[i].name); });
+      if (at == from.outputs.size() || excepted) {
+        a = without(a, i);
+      } else {
+        carry(a, i, own, at);
+      }
+    }
+    return a;
+  });
+  // What has fewer numbers has fewer moves that make an answer right.
+  follow_ups.image_keeps_ulps = to.inputs.size() >= from.inputs.size();
+  return follow_ups;
+}
+
+/// What hits here, hits there, no later; at the same time, unless it may be earlier.
+FollowUps hit_at_the_same_time(const Case& c, const Link& link, bool or_earlier = false) {
+  Case other = recast(c, link);
+  const std::size_t ours = index_of(c.query->outputs, "time"), theirs = index_of(other.query->outputs, "time");
+  return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
+    if (!own.yes) return Agreement::same;
+    if (!others[0].yes) return Agreement::decisions_differ;
+    if (!own.gives(ours) || !others[0].gives(theirs)) return Agreement::same;
+    const double t = own.values[ours], s = others[0].values[theirs];
+    const bool alike = or_earlier ? s <= t + slack(scalar, s, t) : std::abs(s - t) <= slack(scalar, s, t);
+    return alike ? Agreement::same : Agreement::numbers_differ;
+  });
+}
+
+bool are_equal(const Case& c, const std::string& a, const std::string& b) {
+  for (const char* k : {".x", ".y", ".z"}) {
+    if (value(c, a + k) != value(c, b + k)) return false;
+  }
+  return true;
+}
+
+bool has_no_extents(const Case& c) {
+  return value(c, "box.half.x") == 0 && value(c, "box.half.y") == 0 && value(c, "box.half.z") == 0;
+}
+
+/// The times of two answers to halves and of the whole, or what can be told of them.
+Agreement first_of_two(const Answer& own, std::span<const Answer> halves, std::size_t ours, std::size_t theirs,
+                       Scalar scalar) {
+  const auto tells = [theirs](const Answer& a) { return !a.yes || a.gives(theirs); };
+  if (!own.yes || !own.gives(ours) || !tells(halves[0]) || !tells(halves[1])) return Agreement::same;
+  const double t = own.values[ours], a = halves[0].values[theirs], b = halves[1].values[theirs];
+  const double first = halves[0].yes && (!halves[1].yes || a < b) ? a : b;
+  return std::abs(t - first) <= slack(scalar, t, first) ? Agreement::same : Agreement::numbers_differ;
+}
+
+}  // namespace
+
+std::optional<FollowUps> prepared(const Case& c, std::uint64_t) {
+  const Link* link = link_of(c, Link::Kind::prepared);
+  return link == nullptr ? std::nullopt : std::optional(same_answer(c, *link));
+}
+
+/// A capsule whose ends are one point, and a box without extents, as the sphere or point that they are. Of a capsule the
+/// inside may differ, where a point starts: then the times alone are compared.
+std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
+  const Link* link = link_of(c, Link::Kind::capsule_as_sphere);
+  if (link != nullptr && are_equal(c, "capsule.p0", "capsule.p1")) {
+    return link->times_alone ? hit_at_the_same_time(c, *link) : same_answer(c, *link);
+  }
+  link = link_of(c, Link::Kind::box_as_point);
+  if (link == nullptr || !has_no_extents(c)) return std::nullopt;
+  return same_answer(c, *link);
+}
+
+/// A moving sphere of radius 0 as the point that it is, and a point as such a sphere, which sees the edges of a
+/// one-sided shape as well.
+std::optional<FollowUps> sphere_as_point(const Case& c, std::uint64_t) {
+  if (const Link* link = link_of(c, Link::Kind::point_as_sphere)) return hit_at_the_same_time(c, *link, true);
+  const Link* link = link_of(c, Link::Kind::sphere_as_point);
+  if (link == nullptr || value(c, "sphere.radius") != 0) return std::nullopt;
+  return same_answer(c, *link);
+}
+
+/// A rectangle is hit, or seen in, where one of its triangles is.
+std::optional<FollowUps> two_triangles(const Case& c, std::uint64_t) {
+  const Link* link = link_of(c, Link::Kind::halves);
+  if (link == nullptr) return std::nullopt;
+  constexpr std::array<Link::Renamed, 1> first = {{{"triangle", "rectangle"}}};
+  constexpr std::array<Link::Renamed, 3> second = {
+      {{"triangle.v0", "rectangle.v0"}, {"triangle.v1", "rectangle.v2"}, {"triangle.v2", "rectangle.v3"}}};
+  const bool impact = c.query->kind == Kind::impact;
+  const std::size_t ours = index_of(c.query->outputs, "time"), theirs = index_of(query_of(link->to).outputs, "time");
+  return ordered({recast(c, *link, first), recast(c, *link, second)},
+                 [=, scalar = c.scalar](const Answer& own, std::span<const Answer> halves) {
+                   if (own.yes != (halves[0].yes || halves[1].yes)) return Agreement::decisions_differ;
+                   return impact ? first_of_two(own, halves, ours, theirs, scalar) : Agreement::same;
+                 });
+}
+
+/// Two queries one of whose yes implies the other's, or is the other's.
+std::optional<FollowUps> same_decision(const Case& c, std::uint64_t) {
+  std::vector<Case> others;
+  std::vector<bool> both_ways;
+  for (const Link& l : c.query->traits.links) {
+    if (l.kind != Link::Kind::same_decision && l.kind != Link::Kind::implied_decision) continue;
+    Case other = recast(c, l);
+    if (!valid(other)) continue;
+    others.push_back(std::move(other));
+    both_ways.push_back(l.kind == Link::Kind::same_decision);
+  }
+  if (others.empty()) return std::nullopt;
+  return ordered(std::move(others), [both_ways](const Answer& own, std::span<const Answer> answers) {
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      if (own.yes == answers[i].yes || (!own.yes && !both_ways[i])) continue;
+      return Agreement::decisions_differ;
+    }
+    return Agreement::same;
+  });
+}
+
+/// What hits, passes through.
+std::optional<FollowUps> hits_pass(const Case& c, std::uint64_t) {
+  const Link* link = link_of(c, Link::Kind::within_any_time);
+  if (link == nullptr) return std::nullopt;
+  return ordered({recast(c, *link)}, [](const Answer& own, std::span<const Answer> others) {
+    return own.yes && !others[0].yes ? Agreement::decisions_differ : Agreement::same;
+  });
+}
+
+/// From the two sides of a flat one-sided shape at most one sees a point come.
+std::optional<FollowUps> other_side(const Case& c, std::uint64_t) {
+  if (!c.query->traits.one_sided || !has(c, "point.x") || !rectangles_of(c).empty()) return std::nullopt;
+  Case other = c;
+  for (const char* name : {"plane.normal.x", "plane.normal.y", "plane.normal.z", "plane.offset"}) {
+    if (has(c, name)) value(other, name) = -value(c, name);
+  }
+  for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
+  return ordered({std::move(other)}, [](const Answer& own, std::span<const Answer> others) {
+    return own.yes && others[0].yes ? Agreement::decisions_differ : Agreement::same;
+  });
+}
+
+}  // namespace nearmiss::metamorphic

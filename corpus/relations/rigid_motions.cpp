@@ -1,0 +1,174 @@
+/// Translations, and rotations by whole quaternions.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "corpus/draft.hpp"
+#include "corpus/relations/exact_sums.hpp"
+#include "corpus/relations/follow_ups.hpp"
+#include "corpus/relations/operands.hpp"
+
+namespace nearmiss::metamorphic {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// Adds `shift` to every position, and moves planes with it; false where that is not exact.
+bool translate(Case& c, const Vector& shift) {
+  const auto& fields = c.query->inputs;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields[i].role == Role::position && vector_at(fields, i)) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto sum = exact_sum(c.values[i + k], shift[k], c.scalar);
+        if (!sum) return false;
+        c.values[i + k] = *sum;
+      }
+    } else if (fields[i].role == Role::offset) {  // after its normal
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto moved = exact_step(c.values[i], -c.values[i - 3 + k], shift[k], c.scalar);
+        if (!moved) return false;
+        c.values[i] = *moved;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<FollowUps> translated(const Case& c, std::uint64_t seed) {
+  Random random(seed);
+  const double unit = random.power_of_two(-2, c.scalar == Scalar::float32 ? 6 : 20);
+  for (const double step : {unit, 1.0, 0.5}) {  // a coarse one where a fine one is not exact
+    Vector shift;
+    for (double& x : shift) x = step * random.between(-8, 8);
+    Case other = c;
+    if (shift == Vector{} || !translate(other, shift) || other.values == c.values) continue;
+    const Query& query = *c.query;
+    auto follow_ups = counterpart_if_valid(std::move(other), [&query, shift](Answer a) {
+      for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+        const bool place = query.outputs[i].role == Role::position && query.kind != Kind::measure;
+        if (!place || !vector_at(query.outputs, i)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+          // Zero stands for no place where there is no contact, and for a corner in front.
+          if (!a.yes || query.outputs[i].name.starts_with("corners.")) a = without(a, i + k);
+          if (a.values[i + k] + shift[k] - shift[k] != a.values[i + k]) a = without(a, i + k);
+          a.values[i + k] += shift[k];
+        }
+      }
+      return a;
+    });
+    if (follow_ups) follow_ups->image_keeps_ulps = false;
+    return follow_ups;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// A rotation whose matrix, times `factor`, has whole numbers only.
+struct WholeRotation {
+  std::array<int, 4> quaternion{};  ///< x, y, z, w
+  int factor = 0;                   ///< its squared length
+  std::array<std::array<int, 3>, 3> rows{};
+};
+
+WholeRotation draw_whole_rotation(Random& random) {
+  WholeRotation r;
+  while (r.factor < 2) {
+    for (int& k : r.quaternion) k = random.one_in(2) ? 0 : random.between(-3, 3);
+    const auto [x, y, z, w] = r.quaternion;
+    r.factor = x * x + y * y + z * z + w * w;
+    r.rows = {{{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+               {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+               {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
+  }
+  return r;
+}
+
+/// The sum of factor times number, where the scalar holds every partial sum exactly.
+template <std::size_t N>
+std::optional<double> exact_combination(const std::array<int, N>& factors, const double* numbers, Scalar scalar) {
+  double sum = 0;
+  for (std::size_t k = 0; k < N; ++k) {
+    const auto next = exact_step(sum, factors[k], numbers[k], scalar);
+    if (!next) return std::nullopt;
+    sum = *next;
+  }
+  return sum;
+}
+
+/// The case turned by the rotation and made `factor` times as large; empty where that is not exact.
+std::optional<Case> turned(const Case& c, const WholeRotation& r) {
+  Case other = c;
+  const auto& fields = c.query->inputs;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    std::optional<double> x = c.values[i];
+    switch (fields[i].role) {
+      case Role::position:
+      case Role::velocity:
+      case Role::direction: {
+        const std::size_t k = std::size_t(last(fields[i].name)[0] - 'x');
+        x = exact_combination(r.rows[k], &c.values[i - k], c.scalar);
+        break;
+      }
+      case Role::rotation: {
+        const auto [a, b, d, w] = r.quaternion;  // the product of the two, a row for each of its numbers
+        const std::array<std::array<int, 4>, 4> product{
+            {{w, -d, b, a}, {d, w, -a, b}, {-b, a, w, d}, {-a, -b, -d, w}}};
+        const std::size_t k = std::string_view("xyzw").find(last(fields[i].name));
+        x = exact_combination(product[k], &c.values[i - k], c.scalar);
+        break;
+      }
+      case Role::size: x = exact_product(r.factor, c.values[i], c.scalar); break;
+      case Role::offset: x = exact_product(r.factor * r.factor, c.values[i], c.scalar); break;
+      default: break;
+    }
+    if (!x) return std::nullopt;
+    other.values[i] = *x;
+  }
+  return other;
+}
+
+}  // namespace
+
+std::optional<FollowUps> rotated(const Case& c, std::uint64_t seed) {
+  // What is seen along an axis of space, or stands upright in it, is not the same when turned; directions and normals
+  // are not exact when turned.
+  const auto& fields = c.query->inputs;
+  const bool upright = std::any_of(fields.begin(), fields.end(), [](const Field& f) { return f.name.ends_with(".min.x"); });
+  const Traits& traits = c.query->traits;
+  const bool turns = !upright && !traits.projects && traits.frame != OutputFrame::operands;
+  if (!turns || c.query->kind == Kind::direction) return std::nullopt;
+  Random random(seed);
+  const WholeRotation r = draw_whole_rotation(random);
+  auto other = turned(c, r);
+  if (!other) return std::nullopt;
+  const Query& query = *c.query;
+  auto follow_ups = counterpart_if_valid(std::move(*other), [&query, r, scalar = c.scalar](const Answer& own) {
+    Answer a = own;
+    for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+      const Role role = query.outputs[i].role;
+      std::optional<double> x = own.values[i];
+      if (role == Role::position) {
+        const std::size_t k = std::size_t(last(query.outputs[i].name)[0] - 'x');
+        if (own.gives(i - k) && own.gives(i - k + 1) && own.gives(i - k + 2)) {
+          x = exact_combination(r.rows[k], &own.values[i - k], scalar);
+        } else {
+          x = std::nullopt;
+        }
+      } else if (role == Role::depth) {
+        x = exact_product(r.factor, own.values[i], scalar);
+      } else if (role == Role::normal) {
+        x = std::nullopt;
+      }
+      if (x) a.values[i] = *x; else a = without(a, i);
+    }
+    return a;
+  });
+  if (follow_ups) follow_ups->image_keeps_ulps = false;
+  return follow_ups;
+}
+
+}  // namespace nearmiss::metamorphic

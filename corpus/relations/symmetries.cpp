@@ -1,0 +1,122 @@
+/// Reflections and permutations of the axes of space.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "corpus/draft.hpp"
+#include "corpus/relations/follow_ups.hpp"
+#include "corpus/relations/operands.hpp"
+
+namespace nearmiss::metamorphic {
+
+namespace {
+
+/// Coordinate k of the image is sign[k] times coordinate from[k]. A box's own axes are permuted alike, so that
+/// its rotation stays one: R' = M R M^-1.
+struct SignedPermutation {
+  std::array<std::size_t, 3> from{0, 1, 2};
+  std::array<double, 3> sign{1, 1, 1};
+
+  bool permutes() const { return from[0] != 0; }
+  bool turns_over() const { return sign[0] * sign[1] * sign[2] < 0; }  // permutations are cyclic here
+  /// Where axis k goes.
+  std::size_t to(std::size_t k) const {
+    return std::size_t(std::find(from.begin(), from.end(), k) - from.begin());
+  }
+  /// Of the fifteen axes of two boxes.
+  int box_axis(int axis) const {
+    if (axis < 0 || axis > 14) return axis;
+    if (axis < 3) return int(to(std::size_t(axis)));
+    if (axis < 6) return 3 + int(to(std::size_t(axis - 3)));
+    return 6 + 3 * int(to(std::size_t(axis - 6) / 3)) + int(to(std::size_t(axis - 6) % 3));
+  }
+};
+
+void apply(const SignedPermutation& m, const double* from, double* to, bool with_signs) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] = (with_signs ? m.sign[k] : 1.0) * from[m.from[k]];
+}
+
+/// The largest magnitude of the normal, along whose axis a point is seen, belongs to one axis only.
+bool one_axis_to_look_along(const Case& c) {
+  if (!c.query->traits.projects) return true;
+  std::array<double, 3> m{std::abs(value(c, "normal.x")), std::abs(value(c, "normal.y")),
+                          std::abs(value(c, "normal.z"))};
+  std::sort(m.begin(), m.end());
+  return m[1] < m[2];
+}
+
+Case image_of(const Case& c, const SignedPermutation& m) {
+  Case other = c;
+  const auto& fields = c.query->inputs;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double* at = &c.values[i];
+    if (is_quaternion(fields, i)) {
+      apply(m, at, &other.values[i], true);  // an axis: a reflection reverses it once more
+      for (std::size_t k = 0; m.turns_over() && k < 3; ++k) other.values[i + k] = -other.values[i + k];
+    } else if (vector_at(fields, i) && fields[i].role != Role::rotation) {
+      apply(m, at, &other.values[i], fields[i].role != Role::size);
+    } else if (fields[i].role == Role::index && c.query->traits.projects) {
+      if (c.values[i] >= 0 && c.values[i] < 3) other.values[i] = double(m.to(std::size_t(c.values[i])));
+    } else if (fields[i].role == Role::index) {
+      other.values[i] = m.box_axis(int(c.values[i]));
+    }
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) {  // corners of axis-aligned boxes
+    if (!fields[i].name.ends_with(".max.x")) continue;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      if (other.values[k] < other.values[k - 3]) std::swap(other.values[k], other.values[k - 3]);
+    }
+  }
+  if (m.turns_over()) {  // the same front
+    for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
+    for (const std::string& t : rectangles_of(c)) exchange(other, t + ".v1", t + ".v3");
+  }
+  return other;
+}
+
+std::optional<FollowUps> moved_by(const Case& c, const SignedPermutation& m) {
+  const OutputFrame frame = c.query->traits.frame;
+  if (frame == OutputFrame::operands || (m.permutes() && frame == OutputFrame::order_of_axes)) return std::nullopt;
+  if (m.permutes() && !one_axis_to_look_along(c)) return std::nullopt;
+  const Query& query = *c.query;
+  const bool weights_of_corners = !triangles_of(c).empty();
+  return counterpart_if_valid(image_of(c, m), [&query, m, weights_of_corners](const Answer& own) {
+    Answer a = own;
+    const auto& out = query.outputs;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (query.traits.frame == OutputFrame::order_of_operands) {  // a cross product may change its sign
+        a = without(a, i);
+      } else if (out[i].name.starts_with("corners.")) {  // in another order
+        a = without(a, i);
+      } else if (vector_at(out, i) && (out[i].role != Role::weight || query.kind == Kind::direction)) {
+        for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + m.from[k], m.sign[k]);
+      } else if (vector_at(out, i) && m.turns_over() && weights_of_corners) {
+        carry(a, i + 1, own, i + 2);
+        carry(a, i + 2, own, i + 1);
+      } else if (out[i].name == "edge") {
+        if (m.turns_over()) a.values[i] = 2 - own.values[i];
+      } else if (out[i].role == Role::index && query.traits.frame != OutputFrame::order_of_axes) {
+        if (const int axis = as_index(own.values[i]); axis >= 0) a.values[i] = m.box_axis(axis);
+      }
+    }
+    return a;
+  });
+}
+
+}  // namespace
+
+std::optional<FollowUps> reflected(const Case& c, std::uint64_t seed) {
+  Random random(seed);
+  SignedPermutation m;
+  const std::size_t which = 1 + random.below(7);
+  for (std::size_t k = 0; k < 3; ++k) m.sign[k] = (which >> k & 1u) != 0 ? -1 : 1;
+  return moved_by(c, m);
+}
+
+std::optional<FollowUps> permuted_axes(const Case& c, std::uint64_t seed) {
+  SignedPermutation m;
+  m.from = Random(seed).one_in(2) ? std::array<std::size_t, 3>{1, 2, 0} : std::array<std::size_t, 3>{2, 0, 1};
+  return moved_by(c, m);
+}
+
+}  // namespace nearmiss::metamorphic
