@@ -21,9 +21,9 @@
 #include "corpus/generator.hpp"
 #include "impl/host/hosts.hpp"
 #include "oracles/judge.hpp"
-#include "reports/tally.hpp"
-#include "reports/text.hpp"
-#include "reports/workers.hpp"
+#include "reports/engine/tally.hpp"
+#include "reports/findings/text.hpp"
+#include "reports/findings/workers.hpp"
 
 namespace nearmiss {
 

@@ -136,11 +136,11 @@ bool has_no_zero_sizes(const Case& c, const Parts& parts) {
 }
 
 /// The ball at the start beside the obstacle, as another query of the catalogue.
-Case beside(const Case& c, std::string_view query, std::vector<double> values) {
-  return {find_query(query), c.scalar, std::move(values), "start", 0, 0, {}};
+Case beside(const Case& c, QueryId query, std::vector<double> values) {
+  return {&query_of(query), c.scalar, std::move(values), "start", 0, 0, {}};
 }
 
-bool overlaps(const Case& c, const Parts::Start& s, std::string_view query, const std::vector<std::size_t>& rest) {
+bool overlaps(const Case& c, const Parts::Start& s, QueryId query, const std::vector<std::size_t>& rest) {
   std::vector<double> values(&c.values[s.place], &c.values[s.place] + 3);
   values.push_back(s.radius ? c.values[*s.radius] : 0.0);
   for (const std::size_t i : rest) values.push_back(c.values[i]);
@@ -155,7 +155,7 @@ bool overlaps_capsule(const Case& c, const Parts::Start& s) {
   values.insert(values.end(), {std::max(own, other), 0, 0, 0});
   values.insert(values.end(), &c.values[s.begin], &c.values[s.begin] + 6);
   values.push_back(std::min(own, other));
-  return exact_decision(beside(c, "moving_sphere_capsule", std::move(values)));
+  return exact_decision(beside(c, QueryId::moving_sphere_capsule, std::move(values)));
 }
 
 bool is_in_aabox(const Case& c, const Parts::Start& s) {
@@ -176,17 +176,17 @@ std::vector<std::size_t> numbers(std::size_t begin, std::size_t count) {
 bool starts_in_touch(const Case& c, const Parts::Start& s) {
   const auto all = numbers(s.begin, s.count);
   switch (s.obstacle) {
-    case Obstacle::plane: return overlaps(c, s, "sphere_plane_penetration", all);
-    case Obstacle::triangle: return overlaps(c, s, "sphere_triangle_overlap", all);
-    case Obstacle::sphere: return overlaps(c, s, "sphere_sphere_overlap", all);
-    case Obstacle::box: return overlaps(c, s, "sphere_box_overlap", all);
+    case Obstacle::plane: return overlaps(c, s, QueryId::sphere_plane_penetration, all);
+    case Obstacle::triangle: return overlaps(c, s, QueryId::sphere_triangle_overlap, all);
+    case Obstacle::sphere: return overlaps(c, s, QueryId::sphere_sphere_overlap, all);
+    case Obstacle::box: return overlaps(c, s, QueryId::sphere_box_overlap, all);
     case Obstacle::capsule: return overlaps_capsule(c, s);
     case Obstacle::aabox: return is_in_aabox(c, s);
     case Obstacle::rectangle: break;
   }
   auto second = numbers(s.begin, 3);  // v0 v2 v3
   for (const std::size_t i : numbers(s.begin + 6, 6)) second.push_back(i);
-  return overlaps(c, s, "sphere_triangle_overlap", numbers(s.begin, 9)) || overlaps(c, s, "sphere_triangle_overlap", second);
+  return overlaps(c, s, QueryId::sphere_triangle_overlap, numbers(s.begin, 9)) || overlaps(c, s, QueryId::sphere_triangle_overlap, second);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "impl/catalogue/queries/sphere_sphere_overlap.hpp"
 #include "impl/subject/adapter.hpp"
 #include "properties/support.hpp"
-#include "reports/related.hpp"
+#include "reports/engine/related.hpp"
 
 namespace nearmiss {
 namespace {

@@ -33,9 +33,10 @@ constexpr Room rooms[] = {
     {"impl/adapters", 3},     {"impl/host", 3},
     {"oracles/exact", 4},     {"oracles/algorithms", 5},
     {"oracles", 6},           {"corpus", 7},
-    {"reports", 8},           {"reports/commands", 9},
-    {"reports/tests", 10},    {"properties", 10},
-    {"fuzz", 10},             {"benchmarks", 10},
+    {"reports/findings", 8},  {"reports/engine", 9},
+    {"reports/commands", 10}, {"reports/tests", 11},
+    {"properties", 11},       {"fuzz", 11},
+    {"benchmarks", 11},
 };
 
 /// The innermost that holds the file.

@@ -14,9 +14,9 @@
 #include "oracles/confirmed.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
-#include "reports/pretty_json.hpp"
-#include "reports/related.hpp"
-#include "reports/run.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/engine/related.hpp"
+#include "reports/engine/run.hpp"
 
 namespace nearmiss {
 

@@ -9,15 +9,15 @@
 #include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/explain.hpp"
-#include "reports/internal_errors.hpp"
-#include "reports/interrupt.hpp"
-#include "reports/pretty_json.hpp"
-#include "reports/progress.hpp"
-#include "reports/report.hpp"
-#include "reports/run.hpp"
-#include "reports/tally.hpp"
-#include "reports/text.hpp"
+#include "reports/findings/explain.hpp"
+#include "reports/engine/internal_errors.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/engine/tally.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
@@ -55,10 +55,10 @@ class NyuCcd {
  public:
   NyuCcd(std::span<const Subject* const> subjects, fs::path out) : out_(std::move(out)) {
     for (const Subject* s : subjects) {
-      if (s->offering(query).answer != nullptr) scores_.emplace_back().subject = s;
+      if (s->offering(query()).answer != nullptr) scores_.emplace_back().subject = s;
     }
   }
-  static constexpr std::string_view query = "moving_point_triangle";
+  static std::string_view query() { return query_of(QueryId::moving_point_triangle).name; }
 
   void take(const GroundTruths& read) {
     queries_ += read.queries;
@@ -119,7 +119,7 @@ class NyuCcd {
   }
   void score(Score& s, const Case& question, const Answer& a, const std::string& where, bool truth) {
     const auto judged =
-        internal_errors_.judged(question, *s.subject, a, s.subject->standard_for(query), Detail::verdict);
+        internal_errors_.judged(question, *s.subject, a, s.subject->standard_for(query()), Detail::verdict);
     if (!judged) return;
     const Finding& f = *judged;
     if (f.is_proved()) ++s.violations;
@@ -168,7 +168,7 @@ std::string NyuCcd::text() const {
       "{} queries: {} fit {}, {} skipped (the corners move differently, or no double holds the relative velocity)\n"
       "The oracle agrees with the truth column on {} of {}; {} of them move parallel to the face, where the\n"
       "one-sided query has no hit by definition.\n",
-      count_text(queries_), count_text(fit_), query, count_text(skipped_),
+      count_text(queries_), count_text(fit_), query(), count_text(skipped_),
       count_text(fit_ - oracle_wrong_.size() - parallel_wrong_.size()), count_text(fit_), count_text(parallel_));
   text += lines_of("The oracle contradicts the truth column:", oracle_wrong_);
   text += lines_of("Motion parallel to the face (not counted against anybody):", parallel_wrong_);
@@ -181,7 +181,7 @@ std::string NyuCcd::text() const {
   text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar, or the case outside of what it\nrequires)\n" +
           table_text(rows, "", 1);
   for (const Score& s : scores_) {
-    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query, s.late, s.gave_up));
+    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query(), s.late, s.gave_up));
   }
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;

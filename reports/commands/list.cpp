@@ -5,9 +5,9 @@
 #include "corpus/store.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/pretty_json.hpp"
-#include "reports/properties.hpp"
-#include "reports/text.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/engine/properties.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

@@ -17,9 +17,9 @@
 #include "oracles/environment.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/manual_page.hpp"
-#include "reports/progress.hpp"
-#include "reports/text.hpp"
-#include "reports/version.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/findings/text.hpp"
+#include "reports/findings/version.hpp"
 
 namespace nearmiss {
 

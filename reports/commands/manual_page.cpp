@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "reports/text.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

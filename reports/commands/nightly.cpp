@@ -10,13 +10,13 @@
 #include "impl/subject/added.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/fuzz_targets.hpp"
-#include "reports/interrupt.hpp"
-#include "reports/property_tests.hpp"
-#include "reports/relations_run.hpp"
-#include "reports/replay.hpp"
-#include "reports/run.hpp"
-#include "reports/text.hpp"
+#include "reports/engine/fuzz_targets.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/property_tests.hpp"
+#include "reports/engine/relations_run.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

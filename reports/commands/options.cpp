@@ -9,8 +9,8 @@
 
 #include "corpus/bad_input.hpp"
 #include "impl/host/hosts.hpp"
-#include "reports/run.hpp"
-#include "reports/text.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

@@ -3,12 +3,12 @@
 #include "corpus/bad_input.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/folder_lock.hpp"
-#include "reports/interrupt.hpp"
-#include "reports/progress.hpp"
-#include "reports/relations_run.hpp"
-#include "reports/run.hpp"
-#include "reports/text.hpp"
+#include "reports/engine/folder_lock.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/engine/relations_run.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

@@ -1,4 +1,4 @@
-#include "reports/replay.hpp"
+#include "reports/engine/replay.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/pretty_json.hpp"
-#include "reports/progress.hpp"
-#include "reports/related.hpp"
-#include "reports/run_folder.hpp"
-#include "reports/text.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/engine/related.hpp"
+#include "reports/engine/run_folder.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

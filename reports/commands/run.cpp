@@ -3,9 +3,9 @@
 #include "corpus/bad_input.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/interrupt.hpp"
-#include "reports/run.hpp"
-#include "reports/text.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

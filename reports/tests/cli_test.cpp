@@ -10,8 +10,8 @@
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/subject.hpp"
-#include "reports/properties.hpp"
-#include "reports/property_tests.hpp"
+#include "reports/engine/properties.hpp"
+#include "reports/engine/property_tests.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -93,7 +93,7 @@ TEST(List, NamesThePropertiesThatRunForEveryQuery) {
   for (const Query& q : catalogue()) {
     const std::vector<std::string> listed = properties_of(q);
     EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), everywhere)
-        << "reports/properties.cpp lists other tests than properties/ has";
+        << "reports/engine/properties.cpp lists other tests than properties/ has";
   }
 }
 

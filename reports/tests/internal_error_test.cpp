@@ -5,7 +5,7 @@
 
 #include "corpus/codec.hpp"
 #include "oracles/confirmed.hpp"
-#include "reports/replay.hpp"
+#include "reports/engine/replay.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 

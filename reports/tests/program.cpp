@@ -15,7 +15,7 @@
 #include <system_error>
 
 #include "corpus/codec.hpp"
-#include "reports/text.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "corpus/codec.hpp"
-#include "reports/explain.hpp"
-#include "reports/report.hpp"
+#include "reports/findings/explain.hpp"
+#include "reports/findings/report.hpp"
 #include "reports/tests/schema.hpp"
 
 namespace nearmiss {

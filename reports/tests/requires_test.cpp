@@ -6,9 +6,9 @@
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
 #include "oracles/requirements.hpp"
-#include "reports/related.hpp"
-#include "reports/replay.hpp"
-#include "reports/run.hpp"
+#include "reports/engine/related.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/engine/run.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 

@@ -1,9 +1,9 @@
 /// What is counted, what is kept, and how numbers are told.
 #include <gtest/gtest.h>
 
-#include "reports/breakage.hpp"
-#include "reports/tally.hpp"
-#include "reports/text.hpp"
+#include "reports/findings/breakage.hpp"
+#include "reports/engine/tally.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oracles/touch.hpp"
-#include "reports/touches.hpp"
+#include "reports/engine/touches.hpp"
 
 namespace nearmiss {
 namespace {

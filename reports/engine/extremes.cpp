@@ -1,0 +1,268 @@
+#include "reports/engine/extremes.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "corpus/bad_input.hpp"
+#include "corpus/codec.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Promises nothing, everywhere: every answer is measured.
+constexpr collide::Contract no_promise{};
+
+void count(ExtremesCell& cell, const Finding& f) {
+  if (f.verdict == Verdict::broke) ++cell.broke;
+  if (f.verdict == Verdict::cannot_answer) ++cell.no_answer;
+  if (f.verdict == Verdict::not_asked) ++cell.not_asked;
+  if (f.verdict == Verdict::broke || f.verdict == Verdict::cannot_answer || f.verdict == Verdict::not_asked) return;
+  ++cell.cases;
+  cell.false_hits += f.has(Disagreement::false_hit);
+  cell.false_misses += f.has(Disagreement::false_miss);
+  cell.not_finite += f.has(Disagreement::not_finite);
+  if (std::isfinite(f.forward_ulps)) cell.forward_ulps = std::max(cell.forward_ulps, f.forward_ulps);
+  if (f.backward) cell.backward_epsilon = std::max(cell.backward_epsilon, f.backward->above);
+}
+
+template <class Member>
+Json matrix(const ExtremesMap& m, Member member) {
+  const std::size_t columns = values_of(m.plane.x).size();
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < m.cells.size(); i += columns) {
+    Json row = Json::array();
+    for (std::size_t k = i; k < i + columns; ++k) row.push_back(member(m.cells[k]));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json axis_to_json(SweepAxis axis) {
+  const auto values = values_of(axis);
+  return {{"axis", name_of(axis).name},
+          {"unit", name_of(axis).unit},
+          {"values", std::vector<double>(values.begin(), values.end())}};
+}
+
+Json map_to_json(const ExtremesMap& m) {
+  return {{"query", m.query->name},
+          {"subject", m.subject->name},
+          {"scalar", name_of(m.subject->scalar)},
+          {"x", axis_to_json(m.plane.x)},
+          {"y", axis_to_json(m.plane.y)},
+          {"cases", matrix(m, [](const ExtremesCell& c) { return c.cases; })},
+          {"false_hits", matrix(m, [](const ExtremesCell& c) { return c.false_hits; })},
+          {"false_misses", matrix(m, [](const ExtremesCell& c) { return c.false_misses; })},
+          {"not_finite", matrix(m, [](const ExtremesCell& c) { return c.not_finite; })},
+          {"broke", matrix(m, [](const ExtremesCell& c) { return c.broke; })},
+          {"no_answer", matrix(m, [](const ExtremesCell& c) { return c.no_answer; })},
+          {"not_asked", matrix(m, [](const ExtremesCell& c) { return c.not_asked; })},
+          {"gave_up", matrix(m, [](const ExtremesCell& c) { return c.gave_up; })},
+          {"forward_ulps", matrix(m, [](const ExtremesCell& c) { return c.forward_ulps; })},
+          {"backward_epsilon", matrix(m, [](const ExtremesCell& c) {
+             return c.backward_epsilon < 0 ? Json(nullptr) : Json(c.backward_epsilon);
+           })}};
+}
+
+bool begun(const ExtremesMap& m) {
+  return std::any_of(m.cells.begin(), m.cells.end(),
+                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer + c.not_asked + c.gave_up > 0; });
+}
+
+/// Puts `text` where the template has `mark`, once.
+[[maybe_unused]] void put(std::string& page, std::string_view mark, std::string_view text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error(fmt::format("extremes.html has no {}", mark));
+  page.replace(at, mark.size(), text);
+}
+
+/// No "</script>" can end the element that the data stand in.
+/// Bytes that are no UTF-8, as an argument may have them, become U+FFFD.
+std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+[[maybe_unused]] std::string for_a_script(std::string text) {
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
+  return text;
+}
+
+}  // namespace
+
+Extremes::Extremes(ExtremesSettings settings)
+    : settings_(std::move(settings)),
+      workers_([this] {
+        progress_.tell(done_, total_, std::nullopt, 0);
+        return !interrupted();
+      }),
+      internal_errors_(settings_.folder) {
+  make_folder(settings_.folder);
+  if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
+    throw BadInput(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
+  }
+  for (const Query* q : settings_.queries) {
+    for (const SweepPlane& plane : planes_of(*q)) {
+      for (const Subject* s : settings_.subjects) {
+        if (s->offering(q->name).answer == nullptr) continue;
+        const std::size_t cells = values_of(plane.x).size() * values_of(plane.y).size();
+        maps_.push_back({q, s, plane, std::vector<ExtremesCell>(cells)});
+        total_ += cells * settings_.cases;
+      }
+    }
+  }
+}
+
+void Extremes::sweep() {
+  for (const Query* q : settings_.queries) {
+    for (const SweepPlane& plane : planes_of(*q)) {
+      for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+        progress_.doing(fmt::format("{}, {} and {}", q->name, name_of(plane.x).name, name_of(plane.y).name));
+        fill(*q, scalar, plane);
+        if (interrupted()) return;
+      }
+    }
+  }
+}
+
+void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) {
+  std::vector<ExtremesMap*> asked;
+  for (ExtremesMap& m : maps_) {
+    const bool same_plane = m.plane.x == plane.x && m.plane.y == plane.y;
+    if (m.query == &query && m.subject->scalar == scalar && same_plane) asked.push_back(&m);
+  }
+  if (asked.empty()) return;
+  const auto xs = values_of(plane.x), ys = values_of(plane.y);
+  for (std::size_t cell = 0; cell < xs.size() * ys.size() && !interrupted(); ++cell) {
+    if (cell % xs.size() == 0) {
+      for (ExtremesMap* m : asked) m->time_outs_in_row = 0;
+    }
+    std::vector<Case> cases;
+    for (std::uint64_t i = 0; i < settings_.cases; ++i) {
+      auto c = sweep_case(query, scalar, settings_.seed, i, plane, xs[cell % xs.size()], ys[cell / xs.size()]);
+      if (c) cases.push_back(std::move(*c));
+    }
+    // Few at once, for one who times out does so in most of them.
+    constexpr std::size_t most = ExtremesMap::most_in_row;
+    for (std::size_t at = 0; at < cases.size() && !interrupted(); at += most) {
+      ask(asked, cell, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
+    }
+    done_ += asked.size() * settings_.cases;
+    progress_.tell(done_, total_, std::nullopt, 0);
+  }
+}
+
+void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases) {
+  std::vector<ExtremesMap*> asked;
+  for (ExtremesMap* m : maps) {
+    if (m->given_up()) {
+      m->cells[cell].gave_up += cases.size();
+    } else {
+      asked.push_back(m);
+      workers_.send(*m->subject, cases);
+    }
+  }
+  for (ExtremesMap* m : asked) {
+    const auto answers = workers_.receive(*m->subject);
+    for (std::size_t i = 0; i < answers.size() && !interrupted(); ++i) {
+      const bool late = answers[i].late;
+      m->time_outs += late;
+      m->time_outs_in_row += late;
+      const Standard standard{no_promise, true, m->subject->offering(m->query->name).required};
+      const auto f = internal_errors_.judged(cases[i], *m->subject, answers[i], standard, Detail::verdict);
+      if (f) count(m->cells[cell], *f);
+    }
+  }
+}
+
+nlohmann::ordered_json Extremes::to_json() const {
+  Json j{{"schema", 1},
+         {"state", interrupted() ? "interrupted" : "finished"},
+         {"command", settings_.command},
+         {"seed", settings_.seed},
+         {"cases_per_cell", settings_.cases},
+         {"maps", Json::array()}};
+  for (const ExtremesMap& m : maps_) {
+    if (begun(m) || !interrupted()) j["maps"].push_back(map_to_json(m));
+  }
+  if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
+  j["environment"] = environment_to_json();
+  return j;
+}
+
+std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) {
+#ifdef NEARMISS_D3_FILE
+  std::string page = read_file(NEARMISS_SOURCE_FOLDER "/reports/extremes.html");
+  put(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
+  put(page, "/*DATA*/", for_a_script(text_of(report)));
+  return page;
+#else
+  (void)report;
+  return std::nullopt;
+#endif
+}
+
+void Extremes::write() const {
+  const Json report = to_json();
+  write_file(settings_.folder / "extremes.json", text_of(report) + "\n");
+  if (const auto drawn = page(report)) write_file(settings_.folder / "extremes.html", *drawn);
+}
+
+std::string Extremes::table() const {
+  std::vector<std::vector<std::string>> rows{
+      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "GAVE UP", "NO ANSWER", "NOT ASKED", "BACKWARD", "FORWARD"}};
+  for (const Query* q : settings_.queries) {
+    bool first = true;
+    for (const Subject* s : settings_.subjects) {
+      ExtremesCell all;
+      bool any = false;
+      for (const ExtremesMap& m : maps_) {
+        if (m.query != q || m.subject != s) continue;
+        any = true;
+        for (const ExtremesCell& c : m.cells) {
+          all.cases += c.cases, all.false_hits += c.false_hits, all.false_misses += c.false_misses;
+          all.not_finite += c.not_finite, all.broke += c.broke, all.no_answer += c.no_answer;
+          all.gave_up += c.gave_up, all.not_asked += c.not_asked;
+          all.forward_ulps = std::max(all.forward_ulps, c.forward_ulps);
+          all.backward_epsilon = std::max(all.backward_epsilon, c.backward_epsilon);
+        }
+      }
+      if (!any) continue;
+      if (std::exchange(first, false)) rows.push_back({std::string(q->name)});
+      rows.push_back({"  " + s->name, count_text(all.cases), count_text(all.false_hits), count_text(all.false_misses),
+                      count_text(all.not_finite), count_text(all.broke), count_text(all.gave_up),
+                      count_text(all.no_answer), count_text(all.not_asked),
+                      all.backward_epsilon < 0 ? "-" : "> " + epsilons_text(all.backward_epsilon),
+                      fmt::format("{:.3g}", all.forward_ulps)});
+    }
+  }
+  return table_text(rows, "", 1);
+}
+
+std::string Extremes::summary() const {
+  const bool drawn = std::filesystem::exists(settings_.folder / "extremes.html");
+  const auto maps = std::uint64_t(std::count_if(maps_.begin(), maps_.end(), begun));
+  std::uint64_t gave_up = 0;
+  for (const ExtremesMap& m : maps_) {
+    for (const ExtremesCell& c : m.cells) gave_up += c.gave_up;
+  }
+  return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
+                     plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"), count_text(gave_up), (settings_.folder / "extremes.json").string(),
+                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3", internal_errors_.text());
+}
+
+int Extremes::exit_code() const {
+  return internal_errors_.count() > 0 ? InternalError::exit_code : interrupted() ? 2 : 0;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,59 @@
+#include "reports/engine/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+using namespace std::chrono_literals;
+
+void say_on_stderr(const std::string& text) noexcept {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), told_(begin_) {}
+
+Progress::~Progress() {
+  if (shown_ && terminal_) say_on_stderr("\r\033[K");
+}
+
+void Progress::doing(std::string what) { what_ = std::move(what); }
+
+void Progress::tell(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
+                    std::uint64_t findings) {
+  const auto now = Clock::now();
+  if (now - told_ < (terminal_ ? Clock::duration(200ms) : Clock::duration(10s))) return;
+  told_ = now;
+  shown_ = true;
+  const std::string text = line(done, total, seconds_left, findings);
+  say_on_stderr(terminal_ ? "\r\033[K" + text : "nearmiss: " + text + "\n");
+}
+
+std::string Progress::line(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
+                           std::uint64_t findings) const {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  const double rate = double(done) / std::max(seconds, 1e-9);
+  if (total && rate > 0) seconds_left = double(*total - std::min(done, *total)) / rate;
+  std::string text = what_.empty() ? "" : what_ + ": ";
+  text += count_text(done) + (total ? " of " + count_text(*total) : "") + " cases, ";
+  text += count_text(findings) + (findings == 1 ? " finding, " : " findings, ");
+  text += count_text(std::uint64_t(rate)) + " cases/s";
+  if (seconds_left) text += ", " + duration_text(*seconds_left) + " left";
+  return text;
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 10) return fmt::format("{:.1f} s", std::max(0.0, seconds));
+  const auto s = std::uint64_t(seconds + 0.5);
+  if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+  if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} s", s);
+}
+
+}  // namespace nearmiss

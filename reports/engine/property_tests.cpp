@@ -1,0 +1,86 @@
+#include "reports/engine/property_tests.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "impl/host/keeper.hpp"
+#include "reports/engine/fuzz_targets.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+/// Those that ask about other cases with another seed.
+constexpr std::string_view with_seeds =
+    "*EveryTier.AnswersKeepTheirContract*:*EveryTierRelated*:*CertifiedPostconditions*:*CertifiedTier*:*Watch*";
+
+/// Where there is time for it, in seconds, the watch of the judge asks about ten times as many answers to each query.
+constexpr double time_for_long_watch = 3 * 3600;
+constexpr std::string_view long_watch = "NEARMISS_WATCH_ANSWERS=1000000";
+
+/// "[       OK ] NAME (12 ms)", or FAILED in place of OK, as GoogleTest prints it while it runs.
+void count(const fs::path& log, PropertyOutcome& o) {
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t name = line.find("] "), time = line.rfind(" (");
+    if (name == std::string::npos || time == std::string::npos || !line.ends_with(" ms)")) continue;
+    if (line.starts_with("[       OK ]")) ++o.passed;
+    if (!line.starts_with("[  FAILED  ]")) continue;
+    o.failed.push_back(line.substr(name + 2, std::min(time, line.find(", where ")) - name - 2));
+  }
+}
+
+}  // namespace
+
+std::optional<fs::path> find_property_tests() {
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  const fs::path program = executable.parent_path().parent_path() / "properties" / "nearmiss_properties";
+  return fs::is_regular_file(program, error) ? std::optional(program) : std::nullopt;
+}
+
+PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget& budget) {
+  const auto begin = Clock::now();
+  const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget.seconds));
+  const fs::path folder = budget.run_folder / "properties";
+  fs::create_directories(folder);
+  PropertyOutcome o;
+  for (std::uint64_t seed = budget.seed; Clock::now() + 1s < end && !budget.cancelled() && o.ended.empty(); ++seed) {
+    const fs::path log = folder / fmt::format("{}.log", seed);
+    std::vector<std::string> environment = telling_of_added(budget.foreign);
+    environment.push_back(fmt::format("NEARMISS_SEED={}", seed));
+    environment.push_back(fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()));
+    if (budget.seconds >= time_for_long_watch) environment.emplace_back(long_watch);
+    environment.push_back(fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed));
+    // GoogleTest takes seeds of its order up to 99999.
+    Program tests;
+    tests.arguments = {program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle", "--gtest_color=no",
+                       fmt::format("--gtest_random_seed={}", 1 + seed % 99999)};
+    tests.environment = std::move(environment);
+    tests.log = log.string();
+    Kept child(tests, Confinement::none());
+    bool stopped = false;
+    while (!child.has_ended(50)) {
+      budget.tick();
+      if (Clock::now() < end && !budget.cancelled()) continue;
+      child.end();  // a test that is not at its end has no result
+      stopped = true;
+    }
+    o.seeds.push_back(seed);
+    count(log, o);
+    if (stopped) break;
+    // GoogleTest's own program leaves with 0 or 1.
+    if (child.exit_code().value_or(2) > 1) o.ended = fmt::format("{}, see {}", child.how_it_ended(), log.string());
+    if (child.exit_code() == 0 && o.passed == 0) o.ended = fmt::format("no test ran, see {}", log.string());
+  }
+  o.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return o;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,352 @@
+#include "reports/engine/relations_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "corpus/bad_input.hpp"
+#include "corpus/codec.hpp"
+#include "corpus/fit.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/engine/tally.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t batch_size = 128;
+/// Reports of one query, subject and relation: so many broken promises, one contradiction, and then what is at least
+/// twice as bad as any before.
+constexpr std::uint64_t first_broken = 3, first_contradictions = 1;
+
+double worst_backward(const RelationFinding& f) {
+  double worst = -1;
+  for (const Finding& one : f.findings) {
+    if (one.backward) worst = std::max(worst, one.backward->above);
+  }
+  return worst;
+}
+
+/// A case of a partner, and where its answer belongs.
+struct Slot {
+  std::size_t of, at;
+};
+
+}  // namespace
+
+void RelationTally::count(const RelationFinding& f) {
+  ++cases;
+  numbers_differ += f.agreement == Agreement::numbers_differ;
+  contradictions += f.breach == Breach::contradiction;
+  bits += f.breach == Breach::bits;
+  contract += f.breach == Breach::contract;
+  broke += f.breach == Breach::broke;
+  oracle += !f.oracle.empty();
+  if (f.breach == Breach::contradiction || f.breach == Breach::contract) {
+    worst_backward = std::max(worst_backward, nearmiss::worst_backward(f));
+  }
+}
+
+void RelationTally::add(const RelationTally& other) {
+  cases += other.cases, numbers_differ += other.numbers_differ, contradictions += other.contradictions;
+  bits += other.bits, contract += other.contract, broke += other.broke, oracle += other.oracle;
+  worst_backward = std::max(worst_backward, other.worst_backward);
+}
+
+RelationsRun::RelationsRun(RelationsSettings settings)
+    : settings_(std::move(settings)),
+      begin_(Clock::now()),
+      workers_([this] {
+        tell_progress();
+        return !should_stop();
+      }),
+      internal_errors_(settings_.folder) {
+  make_folder(settings_.folder);
+}
+
+bool RelationsRun::should_stop() const { return interrupted() || (until_ && Clock::now() >= *until_); }
+
+void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::time_point> until) {
+  until_ = until;
+  struct Stream {
+    const Query* query;
+    Scalar scalar;
+    Preconditions required;  ///< of all subjects that are asked its cases
+    std::uint64_t next = 0;
+    double seconds = 0;
+  };
+  std::vector<Stream> streams;
+  for (const Query* q : settings_.queries) {
+    for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+      std::set<Preconditions> sets;
+      for (const Subject* s : settings_.subjects) {
+        const Offering& o = s->offering(q->name);
+        if (s->scalar == scalar && !(o.answer == nullptr)) sets.insert(o.required);
+      }
+      for (const Preconditions required : sets) streams.push_back({q, scalar, required});
+    }
+  }
+  if (cases) total_ = *cases * streams.size();
+  while (!should_stop()) {
+    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : batch_size; };
+    const auto stream = std::min_element(streams.begin(), streams.end(), [&](const Stream& a, const Stream& b) {
+      return std::pair(left(a) == 0, a.seconds) < std::pair(left(b) == 0, b.seconds);
+    });
+    if (stream == streams.end() || left(*stream) == 0) break;
+    const Clock::time_point begin = Clock::now();
+    const std::size_t count = std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)});
+    progress_.doing(fmt::format("relations of {}", stream->query->name));
+    batch(*stream->query, stream->scalar, stream->required, stream->next, count);
+    stream->next += count;
+    done_ += count;
+    stream->seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    tell_progress();
+  }
+}
+
+void RelationsRun::tell_progress() {
+  std::optional<double> seconds_left;
+  if (until_) seconds_left = std::chrono::duration<double>(*until_ - Clock::now()).count();
+  progress_.tell(done_, total_, seconds_left, bad());
+}
+
+std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<Case>& cases) {
+  std::vector<Answer> answers;
+  if (cases.empty()) return answers;
+  const Query& query = *cases.front().query;
+  Lateness& l = lateness_[{&subject, &query}];
+  const std::size_t most = Workers::capacity_for(query);
+  for (std::size_t at = 0; at < cases.size() && answers.size() == at && !is_given_up(l.late, l.asked); at += most) {
+    workers_.send(subject, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
+    const auto some = workers_.receive(subject);
+    answers.insert(answers.end(), some.begin(), some.end());
+    l.asked += some.size();
+    l.late += std::uint64_t(std::count_if(some.begin(), some.end(), [](const Answer& a) { return a.late; }));
+  }
+  if (!should_stop()) l.gave_up += cases.size() - answers.size();
+  answers.resize(cases.size(), answer_of_given_up());
+  return answers;
+}
+
+void RelationsRun::batch(const Query& query, Scalar scalar, Preconditions required, std::uint64_t first,
+                         std::size_t count) {
+  std::vector<Case> cases(count);
+  for (std::size_t i = 0; i < count; ++i) generate_inside(cases[i], query, scalar, settings_.seed, first + i, required);
+  std::map<const Subject*, std::vector<Answer>> own;
+  for (const Subject* s : settings_.subjects) {
+    const Offering& o = s->offering(query.name);
+    if (s->scalar == scalar && !(o.answer == nullptr) && o.required == required) own[s] = ask(*s, cases);
+  }
+  for (const Relation* r : settings_.relations) {
+    if (should_stop()) return;
+    relate_all(*r, cases, own);
+  }
+}
+
+void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>& cases,
+                              const std::map<const Subject*, std::vector<Answer>>& own) {
+  std::vector<std::optional<FollowUps>> follow_ups;
+  std::map<const Query*, std::pair<std::vector<Case>, std::vector<Slot>>> asked;  // a worker is asked one query at a time
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    follow_ups.push_back(relation.of(cases[i], cases[i].index));
+    if (!follow_ups[i]) continue;
+    for (std::size_t k = 0; k < follow_ups[i]->cases.size(); ++k) {
+      auto& [questions, slots] = asked[follow_ups[i]->cases[k].query];
+      questions.push_back(follow_ups[i]->cases[k]);
+      slots.push_back({i, k + 1});
+    }
+  }
+  if (asked.empty()) return;
+  for (const auto& [subject, first_answers] : own) {
+    if (should_stop()) return;
+    std::vector<std::vector<Answer>> answers(cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (follow_ups[i]) answers[i].resize(1 + follow_ups[i]->cases.size());
+      if (follow_ups[i]) answers[i][0] = first_answers[i];
+    }
+    for (const auto& [query, questions] : asked) {
+      if (subject->offering(query->name).answer == nullptr) continue;
+      const std::vector<Answer> theirs = ask(*subject, questions.first);
+      for (std::size_t n = 0; n < theirs.size(); ++n) answers[questions.second[n].of][questions.second[n].at] = theirs[n];
+    }
+    if (should_stop()) return;  // some of them may be missing
+    const bool bits = settings_.bit_for_bit || claims_same_bits(*subject);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      // Without an answer to the case itself there is nothing to compare; 'nearmiss run' reports it.
+      if (!follow_ups[i] || first_answers[i].status != Answer::Status::answered) continue;
+      if (!offers_all(*subject, *follow_ups[i])) continue;
+      if (!may_be_asked_all(*subject, *follow_ups[i])) {
+        ++not_asked_;
+        continue;
+      }
+      try {
+        take({subject, &relation, cases[i].query}, {&relation, cases[i].index, bits},
+             relate(relation, *follow_ups[i], cases[i], std::move(answers[i]), *subject, bits));
+      } catch (const InternalError& error) {
+        internal_errors_.add(*subject, error);
+      }
+    }
+  }
+}
+
+bool RelationsRun::worth_a_report(const Key& key, const RelationFinding& found, double above) {
+  if (found.breach == Breach::none && found.oracle.empty()) return false;
+  Kept& kept = kept_[{key, found.oracle.empty() ? std::string(name_of(found.breach)) : "oracle"}];
+  const std::uint64_t few = found.breach == Breach::contradiction ? first_contradictions : first_broken;
+  if (kept.count >= few && !(above > 0 && above >= 2 * kept.worst)) return false;
+  ++kept.count;
+  kept.worst = std::max(kept.worst, above);
+  return true;
+}
+
+void RelationsRun::take(const Key& key, const RelationChoice& choice, const RelationFinding& found) {
+  tallies_[key].count(found);
+  const double above = worst_backward(found);
+  if (!worth_a_report(key, found, above)) return;
+  RelationReport r = report_of(choice, found, *key.subject, workers_);
+  const std::string name = fmt::format("{}-{}-{}-{}.json", key.subject->name, choice.relation->name, breach_of(r), id_of(r));
+  const std::filesystem::path below = std::filesystem::path("relations") / key.query->name / name;
+  const std::filesystem::path file = settings_.folder / below;
+  r.replay = replay_command(*key.subject, file.string());
+  make_folder(file.parent_path());
+  write_file(file, pretty_json(report_to_json(r)));
+  written_.push_back({key, below.generic_string(), std::string(breach_of(r)), headline(r), above});
+}
+
+RelationTally RelationsRun::sum() const {
+  RelationTally all;
+  for (const auto& [key, t] : tallies_) all.add(t);
+  return all;
+}
+std::uint64_t RelationsRun::bad() const { return sum().bad(); }
+std::uint64_t RelationsRun::contradicted() const { return sum().oracle + internal_errors_.count(); }
+
+Json RelationsRun::to_json() const {
+  Json j{{"schema", 1},
+         {"state", interrupted() ? "interrupted" : "finished"},
+         {"command", settings_.command},
+         {"seed", settings_.seed},
+         {"tallies", Json::array()},
+         {"gave_up", Json::array()},
+         {"reports", Json::array()}};
+  for (const Query* q : settings_.queries) {
+    for (const Subject* s : settings_.subjects) {
+      for (const Relation* r : settings_.relations) {
+        const auto found = tallies_.find({s, r, q});
+        if (found == tallies_.end()) continue;
+        const RelationTally& t = found->second;
+        j["tallies"].push_back({{"query", q->name},
+                                {"subject", s->name},
+                                {"relation", r->name},
+                                {"cases", t.cases},
+                                {"numbers_differ", t.numbers_differ},
+                                {"contradictions", t.contradictions},
+                                {"bits", t.bits},
+                                {"contract", t.contract},
+                                {"broke", t.broke},
+                                {"oracle", t.oracle},
+                                {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)}});
+      }
+    }
+  }
+  for (const auto& [key, l] : lateness_) {
+    if (l.gave_up == 0) continue;
+    j["gave_up"].push_back({{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
+  }
+  for (const Written& w : written_) {
+    j["reports"].push_back({{"file", w.file},
+                            {"query", w.key.query->name},
+                            {"subject", w.key.subject->name},
+                            {"relation", w.key.relation->name},
+                            {"breach", w.breach},
+                            {"headline", w.headline}});
+  }
+  if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
+  j["environment"] = environment_to_json();
+  return j;
+}
+
+void RelationsRun::write() const { write_file(settings_.folder / "relations.json", pretty_json(to_json())); }
+
+std::string RelationsRun::table() const {
+  std::vector<std::vector<std::string>> rows{
+      {"", "PAIRS", "NUMBERS DIFFER", "CONTRADICT", "BITS", "CONTRACT", "BROKE", "BACKWARD"}};
+  const auto row = [](const std::string& name, const RelationTally& t) -> std::vector<std::string> {
+    return {fmt::format("  {}", name), count_text(t.cases), count_text(t.numbers_differ), count_text(t.contradictions),
+            count_text(t.bits),    count_text(t.contract), count_text(t.broke),
+            t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward)};
+  };
+  for (const Subject* s : settings_.subjects) {
+    RelationTally all;
+    std::vector<std::vector<std::string>> own;
+    for (const Relation* r : settings_.relations) {
+      RelationTally one;
+      for (const Query* q : settings_.queries) {
+        if (const auto t = tallies_.find({s, r, q}); t != tallies_.end()) one.add(t->second);
+      }
+      if (one.cases == 0) continue;
+      all.add(one);
+      own.push_back(row(std::string(r->name), one));
+    }
+    if (own.empty()) continue;
+    rows.push_back({s->name});
+    rows.insert(rows.end(), own.begin(), own.end());
+    if (own.size() > 1) rows.push_back(row("all relations", all));
+  }
+  const std::vector<std::string> lines = given_up();
+  return table_text(rows, "", 1) + (lines.empty() ? "" : fmt::format("\n{}\n", fmt::join(lines, "\n")));
+}
+
+std::vector<std::string> RelationsRun::given_up() const {
+  std::vector<std::string> lines;
+  for (const auto& [key, l] : lateness_) {
+    if (l.gave_up > 0) lines.push_back(given_up_text(key.first->name, key.second->name, l.late, l.gave_up));
+  }
+  return lines;
+}
+
+std::string RelationsRun::worst_findings() const {
+  constexpr std::size_t shown = 12;
+  std::vector<const Written*> worst;
+  for (const Written& w : written_) {
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Written* o) {
+      return o->key.subject == w.key.subject && o->key.relation == w.key.relation && o->breach == w.breach;
+    });
+    if (same == worst.end()) {
+      worst.push_back(&w);
+    } else if (w.above > (*same)->above) {
+      *same = &w;
+    }
+  }
+  // Broken promises before contradictions.
+  std::stable_sort(worst.begin(), worst.end(), [](const Written* a, const Written* b) {
+    return std::pair(a->breach == "contradiction", -a->above) < std::pair(b->breach == "contradiction", -b->above);
+  });
+  std::string text;
+  for (std::size_t i = 0; i < worst.size() && i < shown; ++i) {
+    text += fmt::format("{}\n    {}\n", worst[i]->headline, (settings_.folder / worst[i]->file).string());
+  }
+  if (worst.size() > shown) text += fmt::format("and {} more, see relations.json\n", worst.size() - shown);
+  return text.empty() ? text : text + "\n";
+}
+
+std::string RelationsRun::summary() const {
+  const RelationTally all = sum();
+  std::string text = fmt::format(
+      "{}{} compared in {}: {}, {} within promises; {} in {}", interrupted() ? "interrupted: " : "",
+      plural_text(all.cases, "pair"), duration_text(std::chrono::duration<double>(Clock::now() - begin_).count()),
+      plural_text(all.bad(), "broken promise"), plural_text(all.contradictions, "contradiction"),
+      plural_text(written_.size(), "report"), settings_.folder.string());
+  if (not_asked_ > 0) text += fmt::format("; {} not asked, for what subjects require", plural_text(not_asked_, "pair"));
+  if (all.oracle > 0) text += fmt::format("; Nearmiss contradicts itself {} times", count_text(all.oracle));
+  return text + internal_errors_.text();
+}
+
+}  // namespace nearmiss

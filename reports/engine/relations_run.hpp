@@ -1,0 +1,115 @@
+/// Many cases and those related to them through many subjects, counted by relation, with what is broken as reports.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/engine/internal_errors.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/engine/related.hpp"
+
+namespace nearmiss {
+
+struct RelationsSettings {
+  std::string command;  ///< as typed
+  std::filesystem::path folder;
+  std::vector<const Query*> queries;
+  std::vector<const Subject*> subjects;
+  std::vector<const Relation*> relations;
+  std::uint64_t seed = 1;
+  bool bit_for_bit = false;  ///< every subject claims equal bits, not only those that are known to
+};
+
+/// What came of one relation for one query and subject.
+struct RelationTally {
+  std::uint64_t cases = 0;  ///< answered, and so were all partners
+  std::uint64_t numbers_differ = 0;
+  std::uint64_t contradictions = 0, bits = 0, contract = 0, broke = 0, oracle = 0;
+  double worst_backward = -1;  ///< of the wrong answers, where it is proved
+
+  void count(const RelationFinding& f);
+  void add(const RelationTally& other);
+  std::uint64_t bad() const { return bits + contract + broke; }
+};
+
+class RelationsRun {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Throws BadInput where the folder cannot be made.
+  explicit RelationsRun(RelationsSettings settings);
+
+  /// `cases` of each query, subject and relation, or as many as there is time for. Queries take turns. Stops early
+  /// when interrupted.
+  void run(std::optional<std::uint64_t> cases, std::optional<Clock::time_point> until = std::nullopt);
+  /// Writes relations.json, which reports/relations.schema.json describes, where the findings are.
+  void write() const;
+
+  /// Rows of subject and relation, and sums.
+  std::string table() const;
+  /// Who was not asked any more, a line each; empty where all were asked to the end.
+  std::vector<std::string> given_up() const;
+  std::string worst_findings() const;
+  std::string summary() const;
+  nlohmann::ordered_json to_json() const;
+  std::uint64_t bad() const;
+  /// Where Nearmiss contradicted itself, about one case or about related ones.
+  std::uint64_t contradicted() const;
+  std::uint64_t pairs() const { return sum().cases; }
+  std::uint64_t contradictions() const { return sum().contradictions; }
+  std::size_t reports() const { return written_.size(); }
+
+ private:
+  struct Key {
+    const Subject* subject;
+    const Relation* relation;
+    const Query* query;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Written {
+    Key key;
+    std::string file, breach, headline;
+    double above = -1;
+  };
+  void batch(const Query& query, Scalar scalar, Preconditions required, std::uint64_t first, std::size_t count);
+  void relate_all(const Relation& relation, const std::vector<Case>& cases,
+                  const std::map<const Subject*, std::vector<Answer>>& own);
+  void take(const Key& key, const RelationChoice& choice, const RelationFinding& found);
+  bool worth_a_report(const Key& key, const RelationFinding& found, double above);
+  /// What is not answered for want of patience or time is without an answer.
+  std::vector<Answer> ask(const Subject& subject, const std::vector<Case>& cases);
+  RelationTally sum() const;
+  bool should_stop() const;
+  void tell_progress();
+
+  RelationsSettings settings_;
+  Clock::time_point begin_;
+  std::optional<Clock::time_point> until_;
+  Workers workers_;
+  Progress progress_;
+  std::map<Key, RelationTally> tallies_;
+  struct Kept {
+    std::uint64_t count = 0;
+    double worst = 0;
+  };
+  std::map<std::pair<Key, std::string>, Kept> kept_;
+  /// Of the cases that a subject was asked of one query.
+  struct Lateness {
+    std::uint64_t asked = 0, late = 0, gave_up = 0;
+  };
+  std::map<std::pair<const Subject*, const Query*>, Lateness> lateness_;
+  std::vector<Written> written_;
+  InternalErrors internal_errors_;
+  std::uint64_t done_ = 0;
+  std::uint64_t not_asked_ = 0;  ///< pairs of which a partner is outside of what the subject requires
+  std::optional<std::uint64_t> total_;
+};
+
+}  // namespace nearmiss

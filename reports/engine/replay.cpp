@@ -1,0 +1,195 @@
+#include "reports/engine/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "oracles/requirements.hpp"
+#include "reports/findings/explain.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// "box.center" and its numbers, one row for each vector.
+std::vector<std::vector<std::string>> rows_of(const std::vector<Field>& fields,
+                                              const std::function<std::string(std::size_t)>& number) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string& name = fields[i].name;
+    const std::size_t dot = name.find_last_of('.');
+    const bool component = dot != std::string::npos && dot + 2 == name.size();
+    const std::string owner = component ? name.substr(0, dot) : name;
+    if (rows.empty() || rows.back()[0] != owner || !component) rows.push_back({owner});
+    rows.back().push_back(number(i));
+  }
+  return rows;
+}
+
+std::string inputs_text(const Case& c) {
+  return table_text(rows_of(c.query->inputs, [&](std::size_t i) { return number_text(c.values[i], c.scalar); }), "  ");
+}
+
+std::string vector_text(const std::array<Bounds, 3>& v) {
+  return fmt::format("({}, {}, {})", bounds_text(v[0]), bounds_text(v[1]), bounds_text(v[2]));
+}
+
+std::string alternative_text(const Query& query, const Alternative& a) {
+  std::vector<Field> fields;
+  std::vector<std::size_t> at;
+  for (std::size_t i = 0; i < std::min(a.count, query.outputs.size()); ++i) {
+    if (a.many_normals && query.outputs[i].role == Role::normal) continue;
+    fields.push_back(query.outputs[i]);
+    at.push_back(i);
+  }
+  std::string text = table_text(rows_of(fields, [&](std::size_t i) { return bounds_text(a.values[at[i]]); }), "  ");
+  if (!a.many_normals) return text;
+  if (a.facing.empty()) return text + "  normal  any unit vector\n";
+  text += "  normal  any unit vector n with\n";
+  for (const Alternative::Face& f : a.facing) {
+    text += fmt::format("    {} · n from {} to {}\n", vector_text(f.direction), number_text(f.range.low),
+                        number_text(f.range.high));
+  }
+  return text;
+}
+
+std::string truth_page(const Query& query, const Truth& truth, Scalar scalar) {
+  std::string text = fmt::format("Truth: {}  (decided by {})\n", truth_text(query, truth),
+                                 truth.decided_by == Stage::interval ? "intervals" : "exact arithmetic");
+  for (std::size_t i = 0; i < truth.alternatives.size(); ++i) {
+    if (i > 0) text += "  or\n";
+    text += alternative_text(query, truth.alternatives[i]);
+  }
+  if (truth.margin_at_least > 0) {
+    text += wrapped_text(fmt::format("The decision stays the same if every input number is moved by up to {}.",
+                                     amount_text(truth.margin_at_least, scalar)),
+                         "  ");
+  } else {
+    text += "  The decision is on a knife's edge: no distance to its flip can be shown.\n";
+  }
+  return text;
+}
+
+std::string backward_cell(const Report& r) {
+  if (!r.finding.backward) return "-";
+  return fmt::format("> {} epsilon", epsilons_text(r.finding.backward->above));
+}
+
+std::string findings_table(const Replay& replayed) {
+  const Query& query = *replayed.question.query;
+  std::vector<std::vector<std::string>> rows{{"SUBJECT", "ANSWER", "VERDICT", "DIFFERENCE", "BACKWARD ERROR"}};
+  for (const Report& r : replayed.reports) {
+    rows.push_back({r.subject, answer_text(query, r.answer, r.question.scalar), std::string(name_of(r.finding.verdict)),
+                    r.finding.disagreement == Disagreement::none ? "-" : std::string(name_of(r.finding.disagreement)),
+                    backward_cell(r)});
+  }
+  for (const Replay::Unasked& u : replayed.unasked) rows.push_back({u.subject, "not asked: " + u.why});
+  return table_text(rows);
+}
+
+std::string origin_text(const Case& c) {
+  std::string text = one_line(c.origin, 200);
+  if (c.origin.starts_with("generator")) text += fmt::format(", seed {}, index {}", c.seed, c.index);
+  if (!c.moves.empty()) text += fmt::format(", moves: {}", fmt::join(c.moves, ", "));
+  return text;
+}
+
+/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for a query that this
+/// build does not know: with the names that are near.
+void check_kind(const nlohmann::json& j, const std::string& where) {
+  if (!j.is_object()) return;
+  for (const auto& [member, what] : {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes")}) {
+    if (j.contains("schema") && j.contains(member)) {
+      throw BadInput(fmt::format("{}: it is {}; what can be replayed is a case or a report", where, what));
+    }
+  }
+  const auto is_readable = [](const nlohmann::json& version) {  // the case is written alike in all of them
+    return version.is_number_integer() && version >= 1 && version <= report_schema_version;
+  };
+  if (j.contains("finding") && (!j.contains("schema") || !is_readable(j["schema"]))) {
+    throw BadInput(fmt::format("{}: schema {}; this build reads reports of schema 1 to {}", where,
+                               j.contains("schema") ? "is " + one_line(j["schema"].dump(), 60) : "is missing",
+                               report_schema_version));
+  }
+  if (!j.contains("query") || !j["query"].is_string()) return;
+  std::vector<std::string> names;
+  for (const Query& q : catalogue()) names.emplace_back(q.name);
+  const std::string name = j["query"].get<std::string>();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw BadInput(fmt::format("{}: {}", where, unknown_text("query", name, names)));
+  }
+}
+
+}  // namespace
+
+Case read_case_or_report(const std::filesystem::path& file) {
+  return case_of(parse_json(read_file(file), file.string()), file.string());
+}
+
+Case case_of(const nlohmann::json& j, const std::string& file) {
+  check_kind(j, file);
+  if (!j.is_object() || !j.contains("finding")) return case_from_json(j, file);
+  nlohmann::json question;
+  for (const char* key : {"query", "scalar", "inputs", "origin"}) {
+    if (j.contains(key)) question[key] = j[key];
+  }
+  return case_from_json(question, file);
+}
+
+Measure measure_of(const nlohmann::json& j, const std::string& file) {
+  if (!j.is_object() || !j.contains("finding") || !j.contains("measure") || j["measure"].is_null()) return {};
+  const nlohmann::json& m = j["measure"];
+  const bool whole = m.is_object() && m.contains("error") && m["error"].is_number() && m["error"] > 0 &&
+                     m.contains("for_all") && m["for_all"].is_boolean();
+  if (!whole) throw BadInput(fmt::format("{}: measure is {}; it must have an error above 0 and for_all", file, one_line(m.dump(), 60)));
+  return {m["error"], m["for_all"]};
+}
+
+std::string replay_command(const Subject& subject, const std::string& file) {
+  const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
+  const std::string command = subject.command.empty() ? "" : "--command " + shell_quoted(subject.command) + " ";
+  return "nearmiss replay " + plugin + command + shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
+}
+
+Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
+              Workers& workers) {
+  Replay r{question, file, truth_of(question), {}, {}};
+  for (const Subject* s : subjects) {
+    const Offering& offering = s->offering(question.query->name);
+    const std::optional<Case> same = in_scalar(question, s->scalar);
+    if (offering.answer == nullptr) {
+      r.unasked.push_back({s->name, "not offered"});
+    } else if (!same) {
+      r.unasked.push_back({s->name, fmt::format("a number of the case is not exactly a {}", name_of(s->scalar))});
+    } else if (const Preconditions unmet = unmet_by(*same, offering.required); !unmet.empty()) {
+      r.unasked.push_back({s->name, requires_text(unmet)});
+    } else {
+      r.reports.push_back(examine(*same, *s, workers));
+      r.reports.back().replay = replay_command(*s, file);
+    }
+  }
+  return r;
+}
+
+std::string case_page(const Case& question, const Truth& truth) {
+  const Query& query = *question.query;
+  std::string text =
+      fmt::format("{} ({}), numbers exactly {}", query.name, nearmiss::name_of(query.kind), nearmiss::name_of(question.scalar));
+  if (const std::string origin = origin_text(question); !origin.empty()) text += fmt::format("; from {}", origin);
+  return text + fmt::format("\n\nInputs\n{}\n{}", inputs_text(question), truth_page(query, truth, question.scalar));
+}
+
+std::string replay_text(const Replay& r) {
+  std::string text = fmt::format("{}\n{}\n{}", r.file, case_page(r.question, r.truth), findings_table(r));
+  for (const Report& report : r.reports) {
+    if (report.finding.verdict == Verdict::agrees) continue;
+    text += fmt::format("\n{}", wrapped_text(explanation(report), ""));
+  }
+  return text;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,146 @@
+#include "reports/engine/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "corpus/bad_input.hpp"
+#include "corpus/codec.hpp"
+#include "reports/findings/breakage.hpp"
+#include "reports/engine/folder_lock.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/engine/run.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* index_name = "index.json";
+
+/// Every file below a folder, without following links to folders.
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->is_regular_file(error)) files.push_back(at->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Looks at the beginning of an index, in which its state stands, for there may be many that are large. Those of somebody
+/// else are none of ours to change.
+bool may_be_running(const fs::path& index) {
+  struct stat file {};
+  if (::stat(index.c_str(), &file) != 0 || !S_ISREG(file.st_mode) || file.st_uid != ::geteuid()) return false;
+  std::array<char, 256> head{};
+  std::ifstream(index, std::ios::binary).read(head.data(), head.size());
+  return std::string_view(head.data(), head.size()).find(fmt::format("\"state\": \"{}\"", name_of(RunState::running))) !=
+         std::string_view::npos;
+}
+
+std::optional<WrittenReport> report_in(const fs::path& folder, const fs::path& file) {
+  const Json j = Json::parse(read_file(file), nullptr, false);
+  if (!j.is_object() || !j.contains("finding") || !j.contains("id")) return std::nullopt;
+  WrittenReport w{fs::relative(file, folder).generic_string(),
+                  j.at("id"),
+                  j.at("query"),
+                  j.at("subject").at("name"),
+                  j.at("finding").at("verdict"),
+                  j.at("finding").at("disagreement"),
+                  j.at("headline")};
+  if (w.verdict == name_of(Verdict::broke)) w.breakage = kind_of_breakage(j.at("answer").at("reason").get<std::string>());
+  if (const Json& backward = j.at("finding").at("backward"); backward.is_object()) w.above = backward.at("above_epsilon");
+  return w;
+}
+
+/// The index of a run that is neither finished nor running.
+void complete(Json& index, const fs::path& folder) {
+  index["state"] = name_of(RunState::interrupted);
+  std::set<std::string> listed;
+  for (const Json& r : index.at("reports")) listed.insert(r.at("file").get<std::string>());
+  for (const WrittenReport& w : reports_on_disk(folder)) {
+    if (!listed.contains(w.file)) index["reports"].push_back(written_to_json(w));
+  }
+  index["summary"] = "interrupted without a chance to say so, " + std::to_string(index.at("reports").size()) +
+                     " reports; counts are those of the last second but one: " + index.at("summary").get<std::string>();
+}
+
+}  // namespace
+
+Json written_to_json(const WrittenReport& w) {
+  Json j{{"file", w.file},
+         {"id", w.id},
+         {"query", w.query},
+         {"subject", w.subject},
+         {"verdict", w.verdict},
+         {"disagreement", w.disagreement},
+         {"breakage", w.breakage.empty() ? Json(nullptr) : Json(w.breakage)},
+         {"backward_above_epsilon", w.above ? Json(*w.above) : Json(nullptr)},
+         {"headline", w.headline}};
+  if (w.earlier) j["earlier"] = true;
+  return j;
+}
+
+std::vector<WrittenReport> reports_on_disk(const fs::path& folder) {
+  std::vector<WrittenReport> all;
+  for (const fs::path& file : files_below(folder / "findings")) {
+    if (file.extension() != ".json") continue;
+    try {
+      if (auto w = report_in(folder, file)) all.push_back(std::move(*w));
+    } catch (const BadInput&) {        // it cannot be read
+    } catch (const Json::exception&) {  // it is no report
+    }
+  }
+  return all;
+}
+
+bool settle_run(const fs::path& folder) try {
+  if (!may_be_running(folder / index_name)) return false;
+  const FolderLock lock(folder);
+  const std::string text = read_file(folder / index_name);  // it may have ended since
+  (void)parse_json(text, index_name);                       // refuses what is nested too deep to be printed
+  Json index = Json::parse(text);
+  if (index.at("state") != name_of(RunState::running) || !index.at("reports").is_array()) return false;
+  std::error_code error;
+  for (const fs::path& file : files_below(folder)) {
+    if (file.extension() == ".part") fs::remove(file, error);  // half of a file that was being written
+  }
+  complete(index, folder);
+  write_file(folder / index_name, pretty_json(index));
+  return true;
+} catch (const BadInput&) {  // somebody has it, or it cannot be read or written: whoever needs it will say so
+  return false;
+} catch (const Json::exception&) {  // an index of another version, or none
+  return false;
+}
+
+void settle_runs_below(const fs::path& parent) {
+  std::error_code error;
+  for (fs::directory_iterator at(parent, error), end; !error && at != end; at.increment(error)) {
+    if (at->is_directory(error)) settle_run(at->path());
+  }
+}
+
+void settle_run_of(const fs::path& file) {
+  std::error_code error;
+  fs::path folder = fs::weakly_canonical(file, error).parent_path();
+  for (int up = 0; up < 3 && !error && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
+    if (fs::is_regular_file(folder / index_name, error)) {
+      settle_run(folder);
+      return;
+    }
+  }
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,130 @@
+#include "reports/engine/tally.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "reports/findings/breakage.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The ways in which members of the answer differ, each once.
+std::set<Disagreement> ways(const Finding& f, bool breaking) {
+  std::set<Disagreement> ways;
+  for (const MemberFinding& m : f.members) {
+    if (m.breaks() || !breaking) ways.insert(m.disagreement);
+  }
+  if (f.headline < 0) ways.insert(f.disagreement);
+  return ways;
+}
+
+bool is_wrong_decision(Disagreement d) { return d == Disagreement::false_hit || d == Disagreement::false_miss; }
+
+}  // namespace
+
+std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases) {
+  return fmt::format("{} was late {} of {}, and was not asked {} more", subject, plural_text(late, "time"), query,
+                     plural_text(cases, "case"));
+}
+
+void Tally::count(const Finding& f) {
+  ++cases;
+  ++verdicts[std::size_t(f.verdict)];
+  if (f.verdict == Verdict::not_proved) {
+    for (const Disagreement d : ways(f, false)) ++not_proved[std::size_t(d)];
+  }
+  const bool violates = f.is_proved();
+  if (violates) {
+    const std::set<Disagreement> all = ways(f, true);
+    for (const Disagreement d : all) ++violations[std::size_t(d)];
+    wrong += std::any_of(all.begin(), all.end(), [](Disagreement d) { return !is_wrong_decision(d); });
+  }
+  if (f.verdict == Verdict::broke) ++breakages[breakage_of(f)];
+  if (f.backward) worst_backward = std::max(worst_backward, f.backward->above);
+  if (!violates && f.verdict != Verdict::agrees && f.verdict != Verdict::not_proved) return;  // no truth was asked for
+  ++(f.decided_by == Stage::interval ? decided_by_interval : decided_by_exact);
+  if (f.truth_yes) ++truth_yes;
+  if (std::isfinite(f.forward_ulps)) worst_forward = std::max(worst_forward, f.forward_ulps);
+}
+
+std::string Tally::breakage_of(const Finding& f) const {
+  std::string kind = kind_of_breakage(f.clause);
+  return breakages.contains(kind) || breakages.size() < most_kinds ? kind : other_kind;
+}
+
+void Tally::add(const Tally& other) {
+  const auto sum = [](auto& to, const auto& from) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  cases += other.cases;
+  sum(verdicts, other.verdicts);
+  sum(not_proved, other.not_proved);
+  sum(violations, other.violations);
+  for (const auto& [kind, n] : other.breakages) breakages[kind] += n;
+  wrong += other.wrong;
+  late += other.late;
+  gave_up += other.gave_up;
+  decided_by_interval += other.decided_by_interval;
+  decided_by_exact += other.decided_by_exact;
+  truth_yes += other.truth_yes;
+  worst_backward = std::max(worst_backward, other.worst_backward);
+  worst_forward = std::max(worst_forward, other.worst_forward);
+}
+
+nlohmann::ordered_json tally_to_json(const Tally& t) {
+  using Json = nlohmann::ordered_json;
+  Json verdicts = Json::object(), disagreements = Json::object();
+  for (int v = 0; v < verdict_count; ++v) verdicts[std::string(name_of(Verdict(v)))] = t.verdicts[std::size_t(v)];
+  for (int d = 1; d < disagreement_count; ++d) {
+    const std::uint64_t unproved = t.not_proved[std::size_t(d)], violations = t.violations[std::size_t(d)];
+    if (unproved + violations == 0) continue;
+    disagreements[std::string(name_of(Disagreement(d)))] = {{"not_proved", unproved}, {"violations", violations}};
+  }
+  return {{"query", t.query->name},
+          {"subject", t.subject->name},
+          {"cases", t.cases},
+          {"verdicts", verdicts},
+          {"disagreements", disagreements},
+          {"wrong", t.wrong},
+          {"breakages", t.breakages},
+          {"late", t.late},
+          {"gave_up", t.gave_up},
+          {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)},
+          {"worst_forward_ulps", t.worst_forward},
+          {"decided_by", {{"interval", t.decided_by_interval}, {"exact", t.decided_by_exact}}},
+          {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
+}
+
+bool Keeper::keep(const Tally& of, const Finding& f) {
+  const auto kind = [&](std::string_view fault) {
+    return fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
+  };
+  if (f.verdict == Verdict::broke) return keep(kind("broke/" + of.breakage_of(f)), 0);
+  if (f.headline < 0) return keep(kind(fault_of(f)), f.backward ? f.backward->above : 0);
+  bool any = false;
+  for (const MemberFinding& m : f.members) {
+    if (!m.breaks()) continue;
+    const std::string fault = fmt::format("{}/{}", name_of(m.disagreement), m.member);
+    any = keep(kind(fault), m.backward ? m.backward->above : 0) || any;
+  }
+  return any;
+}
+
+bool Keeper::keep(const std::string& kind, double above) {
+  Kept& kept = kept_[kind];
+  const bool much_worse = above > 0 && above >= 2 * kept.worst;
+  if (kept.count >= first_few && !much_worse) return false;
+  ++kept.count;
+  kept.worst = std::max(kept.worst, above);
+  return true;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,91 @@
+#include "reports/findings/breakage.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// Reasons are cut where memory for them ends (Answer::why), so that their last words may be half ones.
+constexpr std::size_t most_bytes = 80;
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool is_of_word(char c) { return is_digit(c) || is_letter(c) || c == '_'; }
+
+/// A name with an ending of letters, as source files have it.
+bool is_source_file(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot == 0 || name.size() - dot > 5 || dot + 1 == name.size()) return false;
+  return std::all_of(name.begin() + std::ptrdiff_t(dot) + 1, name.end(), is_letter);
+}
+
+/// "gjk.h:335" of "./narrowphase/gjk.h:335: …" and of "gjk.h:(335): …"; empty without such a place.
+std::string place_in(std::string_view text) {
+  for (std::size_t colon = 0; (colon = text.find(':', colon)) != std::string_view::npos; ++colon) {
+    std::size_t begin = colon;
+    while (begin > 0 && (is_of_word(text[begin - 1]) || text[begin - 1] == '.' || text[begin - 1] == '-' ||
+                         text[begin - 1] == '+')) {
+      --begin;
+    }
+    std::size_t line = colon + 1;
+    if (line < text.size() && text[line] == '(') ++line;
+    const std::size_t end = std::find_if_not(text.begin() + std::ptrdiff_t(line), text.end(), is_digit) - text.begin();
+    const std::string_view file = text.substr(begin, colon - begin);
+    if (end > line && is_source_file(file)) return std::string(file) + ":" + std::string(text.substr(line, end - line));
+  }
+  return {};
+}
+
+/// How many characters from `at` are a number or a word for one; 0: none begins there.
+std::size_t number_at(std::string_view text, std::size_t at) {
+  if (at > 0 && is_of_word(text[at - 1])) return 0;
+  std::size_t end = at;
+  if (text[end] == '-' || text[end] == '+') ++end;
+  for (const std::string_view word : {"nan", "inf"}) {
+    const bool whole = end + word.size() >= text.size() || !is_of_word(text[end + word.size()]);
+    if (text.substr(end, word.size()) == word && whole) return end + word.size() - at;
+  }
+  if (end >= text.size() || !is_digit(text[end])) return 0;
+  const auto goes_on = [&](std::size_t i) {  // digits of any base, a fraction, an exponent with its sign
+    return std::isxdigit(static_cast<unsigned char>(text[i])) != 0 || text[i] == 'x' || text[i] == 'p' ||
+           (text[i] == '.' && i + 1 < text.size() && is_digit(text[i + 1])) ||
+           ((text[i] == '-' || text[i] == '+') && (text[i - 1] == 'e' || text[i - 1] == 'p'));
+  };
+  while (end < text.size() && goes_on(end)) ++end;
+  return end - at;
+}
+
+std::string without_numbers(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = number_at(text, i);
+    if (length > 0) {
+      plain += 'N';
+      i += length;
+    } else {
+      plain += text[i++];
+    }
+  }
+  return plain;
+}
+
+}  // namespace
+
+std::string kind_of_breakage(std::string_view reason) {
+  if (reason.empty()) return "no reason given";
+  if (reason.starts_with("no answer within ")) return "no answer in time";
+  // The head's own number, a signal or an exit code, is part of the cause.
+  const bool ended = reason.starts_with("killed by signal ") || reason.starts_with("left with exit code ");
+  const bool has_head = ended || reason.starts_with("exception: ");
+  const std::string_view head = has_head ? reason.substr(0, reason.find(": ")) : "";
+  const std::string place = place_in(reason);
+  if (!place.empty()) return one_line(head.empty() ? place : std::string(head) + " at " + place);
+  std::string kind = std::string(head) + without_numbers(reason.substr(head.size()));
+  return one_line(kind.substr(0, most_bytes));
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,364 @@
+#include "reports/findings/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+bool has_role(const std::vector<Field>& fields, Role role) {
+  return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; });
+}
+
+int index_of(const std::vector<Field>& fields, Role role) {
+  const auto at = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; });
+  return at == fields.end() ? -1 : int(at - fields.begin());
+}
+
+/// Yes and no in the words of the query.
+struct Phrases {
+  std::string yes, no;              ///< "the sphere hits the box"
+  std::string it_yes, it_no;        ///< "it is a hit"
+  std::string still_yes, still_no;  ///< "it would still be a hit"
+};
+
+/// A miss is the answer of the query's meaning, whatever touches: a contact that leaves is a miss, and so is a point
+/// that starts inside.
+Phrases phrases(const Query& query) {
+  const auto& [yes, no] = query.traits.decision;
+  if (!yes.empty()) {
+    return {std::string(yes),    std::string(no),                 "the answer is yes",
+            "the answer is no",  "the answer would still be yes", "the answer would still be no"};
+  }
+  const auto& [one, other] = query.traits.operands;
+  if (query.kind == Kind::impact || has_role(query.inputs, Role::velocity)) {
+    return {one.empty() ? "it is a hit" : fmt::format("{} hits {}", one, other),
+            one.empty() ? "it is a miss" : fmt::format("{} does not hit {}", one, other),
+            "it is a hit",
+            "it is a miss",
+            "it would still be a hit",
+            "it would still be a miss"};
+  }
+  if (one.empty()) {
+    return {"the answer is yes",           "the answer is no", "the answer is yes", "the answer is no",
+            "the answer would still be yes", "the answer would still be no"};
+  }
+  const std::string both = fmt::format("{} and {}", one, other);
+  return {both + " touch or overlap",          both + " are apart",        "they touch or overlap", "they are apart",
+          "they would still touch or overlap", "they would still be apart"};
+}
+
+/// " at time 0.5", " by 0.25": what makes a yes or no precise. Empty where the kind has no such number.
+std::string measure_text(const Query& query, bool yes, const std::function<std::string(std::size_t)>& number) {
+  const int time = index_of(query.outputs, Role::time), depth = index_of(query.outputs, Role::depth);
+  if (query.kind == Kind::impact && yes && time >= 0) return " at time " + number(std::size_t(time));
+  if (query.kind == Kind::depth && depth >= 0) return ", depth " + number(std::size_t(depth));
+  return "";
+}
+
+/// The numbers of a member: "0.5" or "(1, 2, 3)".
+std::string member_text(const Query& query, std::size_t member, const std::function<std::string(std::size_t)>& number) {
+  const Layout::Part& part = query.layout.parts[member];
+  std::vector<std::string> parts;
+  for (std::size_t i = part.begin; i < part.end; ++i) parts.push_back(number(i));
+  return parts.size() == 1 ? parts[0] : fmt::format("({})", fmt::join(parts, ", "));
+}
+
+/// How far that alternative's member is from the given one: its number that is furthest off.
+struct Off {
+  double by = 0;
+  std::size_t number = 0;
+};
+Off off_by(const Layout::Part& part, const Alternative& right, const Answer& given) {
+  Off off{0, part.begin};
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    const Bounds& b = right.values[i];
+    const double by = std::max({0.0, b.low - given.values[i], given.values[i] - b.high});
+    if (by > off.by) off = {by, i};
+  }
+  return off;
+}
+
+std::string group_name(Role role) {
+  return role == Role::velocity ? "velocities" : fmt::format("{}s", name_of(role));
+}
+
+/// "positions by 1.5e-08 and sizes by 2e-09": what so many epsilon are in the case's own units.
+std::string absolute_text(const Case& question, double k) {
+  const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
+  std::vector<std::string> groups;
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    if (!(by[i] > 0)) continue;
+    std::string text = fmt::format("{} by {:.2g}", group_name(question.query->inputs[i].role), by[i]);
+    if (std::find(groups.begin(), groups.end(), text) == groups.end()) groups.push_back(std::move(text));
+  }
+  return list_text(groups);
+}
+
+double length(const Case& question, Role role) {
+  double square = 0;
+  for (std::size_t i = 0; i < question.values.size(); ++i) {
+    if (question.query->inputs[i].role == role) square += question.values[i] * question.values[i];
+  }
+  return std::sqrt(square);
+}
+
+/// The sentences of one report.
+class Explanation {
+ public:
+  explicit Explanation(const Report& r)
+      : r_(r), query_(*r.question.query), scalar_(r.question.scalar), phrases_(phrases(query_)) {}
+
+  std::string text() const {
+    std::vector<std::string> sentences = says();
+    if (const std::string s = excuse(); !s.empty()) sentences.push_back(s);
+    if (const std::string s = others(); !s.empty()) sentences.push_back(s);
+    if (const std::string s = promise(); !s.empty()) sentences.push_back(s);
+    return fmt::format("{}.", fmt::join(sentences, ". "));
+  }
+  /// "misses a collision", "gives a wrong time".
+  std::string fault() const {
+    switch (r_.finding.verdict) {
+      case Verdict::broke: return "broke";
+      case Verdict::cannot_answer: return "cannot answer";
+      case Verdict::out_of_domain: return "promises nothing for a case";
+      case Verdict::not_asked: return "is not asked a case";
+      default: return fault_of(r_.finding.disagreement, member());
+    }
+  }
+  /// Of the member that the headline names, or of the whole answer.
+  std::optional<double> above() const {
+    const MemberFinding* head = r_.finding.headline_member();
+    if (head != nullptr) return head->backward ? std::optional(head->backward->above) : std::nullopt;
+    return r_.finding.backward ? std::optional(r_.finding.backward->above) : std::nullopt;
+  }
+
+ private:
+  std::string given(std::size_t i) const { return value_text(r_.answer.values[i], scalar_); }
+  /// Index in the layout of the member that the headline names.
+  std::size_t member() const {
+    const MemberFinding* head = r_.finding.headline_member();
+    return head == nullptr || head->member < 0 ? 0 : std::size_t(head->member);
+  }
+  std::string name_of_member(std::size_t member) const {
+    return query_.layout.parts.empty() ? "answer" : query_.member_name(member);
+  }
+  std::string given_member(std::size_t member) const {
+    return member_text(query_, member, [&](auto i) { return given(i); });
+  }
+  static bool is_plural(std::string_view noun) { return noun.ends_with('s') && !noun.ends_with("is"); }  // not "axis"
+
+  std::string fault_of(Disagreement d, std::size_t member) const {
+    const bool moving = query_.kind == Kind::impact;
+    const std::string name = name_of_member(member);
+    switch (d) {
+      case Disagreement::none: return "agrees with the exact answer";
+      case Disagreement::false_hit:
+        return moving ? "reports a collision that is not there" : "says yes where no is right";
+      case Disagreement::false_miss: return moving ? "misses a collision" : "says no where yes is right";
+      case Disagreement::not_finite: return fmt::format("gives a {} that is not finite", name);
+      case Disagreement::not_unit: return fmt::format("gives a {} that is not a unit vector", name);
+      case Disagreement::negative_time: return fmt::format("gives a negative {}", name);
+      case Disagreement::off_surface: return fmt::format("gives a {} off the surface", name);
+      case Disagreement::wrong_combination: return "gives members that are not right together";
+      default: return (is_plural(name) ? "gives wrong " : "gives a wrong ") + name;
+    }
+  }
+
+  /// What it said, and what is true.
+  std::vector<std::string> says() const {
+    const std::string exactly = "Exactly, " + truth_text(query_, r_.truth);
+    const Finding& f = r_.finding;
+    if (f.verdict == Verdict::broke) return {fmt::format("{} gave no answer: {}", r_.subject, f.clause), exactly};
+    if (f.verdict == Verdict::cannot_answer) {
+      return {fmt::format("{} says that it cannot answer this case: {}", r_.subject, f.clause), exactly};
+    }
+    if (f.verdict == Verdict::not_asked) return {fmt::format("{} is not asked: {}", r_.subject, f.clause), exactly};
+    if (f.verdict == Verdict::out_of_domain) {
+      return {r_.subject + " promises nothing for numbers of this size", "It says: " + decision(), exactly};
+    }
+    switch (f.disagreement) {
+      case Disagreement::false_hit:
+      case Disagreement::false_miss: return {fmt::format("{} says that {}", r_.subject, decision()), exactly};
+      case Disagreement::none: return {fmt::format("{} agrees with the exact answer", r_.subject), exactly};
+      case Disagreement::not_finite: return {fmt::format("{} answers, but {}", r_.subject, not_finite()), exactly};
+      case Disagreement::not_unit: return {not_unit(), exactly};
+      case Disagreement::wrong_combination:
+        return {fmt::format("{} gives members each of which may be right, but no right answer has them together", r_.subject),
+                exactly};
+      default: return wrong_member();
+    }
+  }
+  std::string not_finite() const { return r_.finding.headline_member()->clause; }
+  std::string decision() const {
+    const Answer& a = r_.answer;
+    if (!decides(query_.kind)) return name_of_member(member()) + " is " + given_member(member());
+    const int measure = index_of(query_.outputs, query_.kind == Kind::depth ? Role::depth : Role::time);
+    const bool measured = measure >= 0 && is_part(query_, a, std::size_t(measure));
+    return (a.yes ? phrases_.yes : phrases_.no) +
+           (measured ? measure_text(query_, a.yes, [&](auto i) { return given(i); }) : "");
+  }
+  std::string not_unit() const {
+    const double length = 1 + r_.finding.unit_error * unit_roundoff(scalar_);
+    return fmt::format("{} gives a normal of length {}, which is {:.3g} epsilon from 1", r_.subject,
+                       number_text(length), std::abs(r_.finding.unit_error));
+  }
+  /// The right answer whose member is nearest to the given one.
+  const Alternative* nearest(std::size_t member) const {
+    const Layout::Part& part = query_.layout.parts[member];
+    const Alternative* nearest = nullptr;
+    for (const Alternative& a : r_.truth.alternatives) {
+      if (a.yes != r_.answer.yes || a.count < part.end) continue;
+      if (nearest == nullptr || off_by(part, a, r_.answer).by < off_by(part, *nearest, r_.answer).by) nearest = &a;
+    }
+    return nearest;
+  }
+  std::vector<std::string> wrong_member() const {
+    const MemberFinding& head = *r_.finding.headline_member();
+    const Layout::Part& part = query_.layout.parts[member()];
+    std::string said = fmt::format("{} gives {} {}", r_.subject, name_of_member(member()), given_member(member()));
+    if (head.disagreement == Disagreement::off_surface) said += ", which is off the surface that it is to lie on";
+    if (r_.answer.yes != r_.truth.yes) {
+      return {said, "Exactly, " + truth_text(query_, r_.truth),
+              fmt::format("But for that decision the {} is wrong wherever it would be right", name_of_member(member()))};
+    }
+    const Alternative* right = nearest(member());
+    if (right == nullptr) return {said};
+    if (right->many_normals && part.role == Role::normal) {
+      return {said, "Many normals are right there, and this is none of them"};
+    }
+    const std::string exact = member_text(query_, member(), [&](std::size_t i) { return bounds_text(right->values[i]); });
+    const std::string one_of = r_.truth.alternatives.size() > 1 ? "The nearest exact answer is " : "Exactly, it is ";
+    const Off off = off_by(part, *right, r_.answer);
+    return {said, fmt::format("{}{}: {} is off by {:.3g}{}, {:.3g} units in the last place", one_of, exact,
+                              query_.outputs[off.number].name, off.by, travelled(part, off.by), head.forward_ulps)};
+  }
+  /// " (1.5e-08 of the way)": a time means little without the speed and the size of the scene.
+  std::string travelled(const Layout::Part& part, double by) const {
+    const double speed = length(r_.question, Role::velocity);
+    if (part.role != Role::time || !(speed > 0)) return "";
+    double extent = 0;
+    for (std::size_t i = 0; i < r_.question.values.size(); ++i) {
+      const Role role = query_.inputs[i].role;
+      if (role == Role::position || role == Role::size) extent = std::max(extent, std::abs(r_.question.values[i]));
+    }
+    const std::string share = extent > 0 ? fmt::format(", {:.2g} of the largest position or size", by * speed / extent) : "";
+    return fmt::format(" (in which the motion covers {:.2g}{})", by * speed, share);
+  }
+
+  /// How far the inputs may move without making the answer right.
+  std::string excuse() const {
+    const Finding& f = r_.finding;
+    const std::optional<double> proved = above();
+    if (f.disagreement == Disagreement::none || !proved) return "";
+    if (*proved == 0) {
+      return "This is proved for exactly these numbers; nothing is proved for the numbers next to them";
+    }
+    if (const double still = same_decision_within(); still > 0 && still >= *proved) {
+      return fmt::format("Even if every input number were moved by up to {} ({}), {}", amount_text(still, scalar_),
+                         absolute_text(r_.question, still), r_.truth.yes ? phrases_.still_yes : phrases_.still_no);
+    }
+    return fmt::format("Moving every input number by up to {} ({}) cannot make that {} right",
+                       amount_text(*proved, scalar_), absolute_text(r_.question, *proved), what_differs());
+  }
+  std::string what_differs() const {
+    const MemberFinding* head = r_.finding.headline_member();
+    return head == nullptr || head->member < 0 ? "answer" : name_of_member(member());
+  }
+  /// For a wrong decision: the truth is proved to stay as it is for inputs this near, in epsilon.
+  double same_decision_within() const {
+    const Finding& f = r_.finding;
+    if (f.disagreement == Disagreement::false_miss && query_.kind != Kind::depth) {
+      return std::max(f.backward->above, r_.truth.margin_at_least);  // a miss has no number that could differ
+    }
+    return f.disagreement == Disagreement::false_miss || f.disagreement == Disagreement::false_hit
+               ? r_.truth.margin_at_least
+               : -1;
+  }
+  /// What else is wrong, member by member.
+  std::string others() const {
+    std::vector<std::string> faults;
+    for (std::size_t i = 0; i < r_.finding.members.size(); ++i) {
+      const MemberFinding& m = r_.finding.members[i];
+      if (int(i) == r_.finding.headline) continue;
+      const std::string how = !m.backward                ? ""
+                              : m.backward->above == 0 ? ", on a knife's edge"
+                                                       : fmt::format(", by more than {} epsilon", epsilons_text(m.backward->above));
+      faults.push_back(fault_of(m.disagreement, m.member < 0 ? 0 : std::size_t(m.member)) + how);
+    }
+    return faults.empty() ? "" : "It also " + list_text(faults);
+  }
+
+  std::string promise() const {
+    const collide::Contract& contract = r_.standard.contract;
+    const char* it = r_.standard.promised ? "It promises" : "It promises nothing; the measure is";
+    const Finding& f = r_.finding;
+    if (f.verdict == Verdict::not_proved) {
+      if (promises_nothing(contract)) return "It promises nothing that this would break";
+      return r_.standard.promised ? "It is not proved to differ by more than it promises"
+                                  : "It promises nothing, and is not proved to differ by more than the measure";
+    }
+    const MemberFinding* head = f.headline_member();
+    const bool says_it_itself = head != nullptr && !head->backward && head->disagreement != Disagreement::not_unit;
+    if (!is_bad(f) || f.verdict == Verdict::broke || says_it_itself) return "";
+    if (f.clause.starts_with("backward") && !r_.standard.promised) {
+      return fmt::format("{} a backward error of at most {:g} times the largest number in each group", it, measure().error);
+    }
+    if (f.clause.starts_with("backward")) {
+      return fmt::format("{} a backward error of at most {} epsilon", it, epsilons_text(contract.backward));
+    }
+    return fmt::format("{} {}", it, f.clause);
+  }
+
+  const Report& r_;
+  const Query& query_;
+  const Scalar scalar_;
+  const Phrases phrases_;
+};
+
+}  // namespace
+
+std::string headline(const Report& r) {
+  const Explanation e(r);
+  std::string line = fmt::format("{} {} in {}", r.subject, e.fault(), r.question.query->name);
+  if (r.finding.verdict == Verdict::broke) return line + ": " + r.finding.clause;
+  const std::optional<double> above = e.above();
+  if (r.finding.disagreement == Disagreement::none || !above) return line;
+  return line + (*above == 0 ? ", on a knife's edge"
+                             : fmt::format(", by more than {} epsilon of backward error", epsilons_text(*above)));
+}
+
+std::string explanation(const Report& r) { return Explanation(r).text(); }
+
+std::string answer_text(const Query& query, const Answer& answer, Scalar scalar) {
+  if (answer.status == Answer::Status::cannot_answer) return "cannot answer";
+  if (answer.status == Answer::Status::broke) return "broke";
+  const auto number = [&](std::size_t i) {
+    return is_part(query, answer, i) ? value_text(answer.values[i], scalar) : "?";
+  };
+  switch (query.kind) {
+    case Kind::decision: return answer.yes ? "yes" : "no";
+    case Kind::impact: return answer.yes ? "hit" + measure_text(query, true, number) : "miss";
+    case Kind::depth: return (answer.yes ? "overlap" : "apart") + measure_text(query, answer.yes, number);
+    default: return member_text(query, 0, number);
+  }
+}
+
+std::string truth_text(const Query& query, const Truth& truth) {
+  const Alternative* right = truth.alternatives.empty() ? nullptr : &truth.alternatives[0];
+  const auto number = [&](std::size_t i) {
+    return right != nullptr && i < right->count ? bounds_text(right->values[i]) : std::string("?");
+  };
+  if (!decides(query.kind)) return query.member_name(0) + " is " + member_text(query, 0, number);
+  const Phrases p = phrases(query);
+  return (truth.yes ? p.it_yes : p.it_no) + (right == nullptr ? "" : measure_text(query, truth.yes, number));
+}
+
+}  // namespace nearmiss

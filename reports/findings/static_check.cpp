@@ -1,0 +1,96 @@
+#include "reports/findings/static_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "corpus/relations/recast.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The scene at that time, in double, as a case of the static query.
+Case placed_at(const Case& question, const Link& link, double time) {
+  Case there = question;
+  there.scalar = Scalar::float64;
+  const auto& fields = question.query->inputs;
+  const auto first = [&](Role role) {
+    return std::size_t(std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; }) -
+                       fields.begin());
+  };
+  const std::size_t place = first(Role::position), velocity = first(Role::velocity);  // of what moves: it is named first
+  for (std::size_t k = 0; k < 3; ++k) there.values[place + k] += question.values[velocity + k] * time;
+  return metamorphic::recast(there, link);
+}
+
+/// The time in which the body moves by 2^-10 of the largest size, or else position; 0 where nothing moves.
+double step_of(const Case& c) {
+  double size = 0, position = 0, speed = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const double x = std::abs(c.values[i]);
+    const Role role = c.query->inputs[i].role;
+    if (role == Role::size) size = std::max(size, x);
+    if (role == Role::position) position = std::max(position, x);
+    if (role == Role::velocity) speed = std::max(speed, x);
+  }
+  return speed > 0 ? (size > 0 ? size : position) / 1024 / speed : 0;
+}
+
+/// Of an answer that says yes and gives it; empty where there is none.
+std::optional<double> time_in(const Query& query, const Answer& a) {
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (query.outputs[i].name != "time") continue;
+    const bool given = a.status == Answer::Status::answered && a.yes && a.gives(i);
+    if (given && std::isfinite(a.values[i]) && a.values[i] >= 0) return a.values[i];
+  }
+  return std::nullopt;
+}
+
+std::optional<double> time_in(const Query& query, const Truth& truth) {
+  if (!truth.yes || truth.alternatives.empty()) return std::nullopt;
+  for (std::size_t i = 0; i < truth.alternatives.front().count && i < query.outputs.size(); ++i) {
+    if (query.outputs[i].name == "time") return truth.alternatives.front().values[i].low;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<StaticCheck> static_checks(const Case& question, const Answer& answer, const Truth& truth,
+                                       Workers& workers) {
+  const Link* by = metamorphic::link_of(question, Link::Kind::at_rest);
+  if (by == nullptr) return {};
+  const double step = step_of(question);
+  const std::optional<double> answered = time_in(*question.query, answer), exact = time_in(*question.query, truth);
+  std::vector<std::pair<std::string, double>> times;
+  if (answered) times.emplace_back("answer", *answered);
+  if (exact && (!answered || std::abs(*exact - *answered) > step)) times.emplace_back("truth", *exact);
+  std::vector<StaticCheck> checks;
+  for (const auto& [of, time] : times) {
+    std::array<Case, 3> scenes;
+    StaticCheck check{"", "", query_of(by->to).name, of, {std::max(0.0, time - step), time, time + step}, {}};
+    for (std::size_t i = 0; i < 3; ++i) scenes[i] = placed_at(question, *by, check.times[i]);
+    const bool valid = std::none_of(scenes.begin(), scenes.end(),
+                                    [](const Case& c) { return c.query->broken(c.values).has_value(); });
+    if (!valid) continue;  // the place is beyond the largest number
+    for (const Subject& referee : subjects()) {
+      if (!referee.referee || referee.offering(query_of(by->to).name).answer == nullptr) continue;
+      const bool holds = std::all_of(scenes.begin(), scenes.end(),
+                                     [&](const Case& c) { return in_scalar(c, referee.scalar).has_value(); });
+      if (!holds) continue;
+      check.referee = referee.name;
+      check.version = referee.version;
+      workers.send(referee, scenes);
+      std::ranges::copy(workers.receive(referee), check.said.begin());
+      checks.push_back(check);
+    }
+  }
+  return checks;
+}
+
+}  // namespace nearmiss

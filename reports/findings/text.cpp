@@ -1,0 +1,207 @@
+#include "reports/findings/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "impl/subject/printable.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string lower_case(std::string_view s) {
+  std::string lower(s);
+  for (char& c : lower) c = 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return lower;
+}
+
+/// Characters that people see: bytes that do not continue a UTF-8 sequence.
+std::size_t width_of(std::string_view s) {
+  return std::size_t(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Bytes of an unknown word that an error repeats.
+constexpr std::size_t most_of_a_word = 100;
+/// Bounds at most this many double ulps apart are shown as one decimal.
+constexpr double shown_as_one = 8;
+/// Enough for a decimal that lies between any two neighbours.
+constexpr int most_digits = 18;
+
+}  // namespace
+
+std::string number_text(double x, Scalar scalar) {
+  if (std::isnan(x)) return "NaN";
+  if (std::isinf(x)) return x > 0 ? "Infinity" : "-Infinity";
+  return scalar == Scalar::float32 ? fmt::format("{}", float(x)) : fmt::format("{}", x);
+}
+
+std::string bounds_text(const Bounds& b) {
+  if (b.low == b.high) return value_text(b.low);
+  const long double middle = (static_cast<long double>(b.low) + b.high) / 2;
+  if (b.high - b.low > shown_as_one * ulp(double(middle), Scalar::float64)) {
+    return fmt::format("between {} and {}", value_text(b.low), value_text(b.high));
+  }
+  for (int digits = 1; digits <= most_digits; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", middle + 0.0L, digits);
+    const long double read = std::strtold(text.c_str(), nullptr);
+    if (b.low <= read && read <= b.high) return text;
+  }
+  return value_text(b.low);
+}
+
+std::string epsilons_text(double k) {
+  int exponent = 0;
+  if (k >= 16 && std::frexp(k, &exponent) == 0.5) return fmt::format("2^{}", exponent - 1);
+  return fmt::format("{:g}", k);
+}
+
+std::string amount_text(double k, Scalar scalar) {
+  const double relative = k * unit_roundoff(scalar);
+  const std::string share = relative >= 1      ? fmt::format("{:.2g} times", relative)
+                            : relative >= 1e-5 ? fmt::format("{:.2g} % of", 100 * relative)
+                                               : fmt::format("{:.1e} times", relative);
+  return fmt::format("{} the largest number in its group ({} epsilon)", share, epsilons_text(k));
+}
+
+std::string count_text(std::uint64_t n) {
+  const std::string digits = std::to_string(n);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string plural_text(std::uint64_t n, std::string_view noun) {
+  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') || noun.ends_with('x') || noun.ends_with("ch") ? "es" : "s";
+  return fmt::format("{} {}{}", count_text(n), noun, ending);
+}
+
+std::string list_text(std::span<const std::string> items) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? " and " : ", ";
+    text += items[i];
+  }
+  return text;
+}
+
+std::string shell_quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789/._-+:=@") == std::string::npos;
+  if (plain) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      text.append("'\\''");
+    } else {
+      text.push_back(c);
+    }
+  }
+  text.push_back('\'');
+  return text;
+}
+
+std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words) {
+  std::vector<std::pair<std::size_t, std::string>> ranked;
+  if (word.size() > most_of_a_word) return {};  // and no time is spent on it
+  const std::string lower = lower_case(word);
+  for (const std::string& w : words) {
+    const std::string other = lower_case(w);
+    const bool within = word.size() >= 3 && other != lower && other.find(lower) != std::string::npos;
+    const std::size_t distance = within ? 1 : edit_distance(lower, other);
+    if (distance <= std::max<std::size_t>(2, word.size() / 3)) ranked.emplace_back(distance, w);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> best;
+  for (std::size_t i = 0; i < ranked.size() && i < 3; ++i) best.push_back(ranked[i].second);
+  return best;
+}
+
+std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
+                         std::string_view lists_them) {
+  const std::vector<std::string> close = close_matches(word, words);
+  return fmt::format(
+      "unknown {} '{}'; {}", what, one_line(word, most_of_a_word),
+      close.empty() ? fmt::format("'{}' lists all", lists_them) : fmt::format("did you mean {}?", fmt::join(close, " or ")));
+}
+
+namespace {
+
+}  // namespace
+
+std::string one_line(std::string_view text, std::size_t most) {
+  const std::size_t kept_at_end = most / 3;
+  const auto continues = [&](std::size_t i) { return i < text.size() && (text[i] & 0xC0) == 0x80; };
+  std::size_t cut = text.size(), goes_on = text.size();
+  if (text.size() > most) {
+    for (cut = most - kept_at_end; continues(cut);) --cut;
+    for (goes_on = text.size() - kept_at_end; continues(goes_on);) ++goes_on;
+  }
+  if (cut == text.size()) return printable(text);
+  return fmt::format("{} ... ({} bytes) ... {}", printable(text.substr(0, cut)), count_text(goes_on - cut),
+                     printable(text.substr(goes_on)));
+}
+
+std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent,
+                       std::size_t right_from) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line(indent);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::size_t padding = widths[i] - width_of(row[i]);
+      line.append(i >= right_from ? padding : 0, ' ');
+      line += row[i];
+      line.append((i >= right_from ? 0 : padding) + 2, ' ');
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string wrapped_text(std::string_view text, std::string_view indent, std::size_t width) {
+  std::string wrapped, line(indent);
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    const bool first = line.size() == indent.size();
+    if (!first && width_of(line) + 1 + width_of(word) > width) {
+      wrapped += line + "\n";
+      line = indent;
+    } else if (!first) {
+      line += ' ';
+    }
+    line += word;
+  }
+  return wrapped + line + "\n";
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,79 @@
+#include "reports/findings/workers.hpp"
+
+#include <algorithm>
+
+#include "oracles/requirements.hpp"
+
+namespace nearmiss {
+
+Workers::Asked& Workers::of(const Subject& subject) {
+  Asked& asked = workers_[&subject];
+  if (!asked.worker) asked.worker = std::make_unique<Worker>(worker_limits(), subject.host, pulse_);
+  return asked;
+}
+
+std::size_t Workers::capacity_for(const Query& query) {
+  return std::min(Worker::capacity, Worker::max_values / query.inputs.size());
+}
+
+Answer Workers::ask(const Subject& subject, const Case& question) {
+  if (pulse_ && !pulse_()) return answer_of_given_up();
+  send(subject, {&question, 1});
+  const std::span<const Answer> answers = receive(subject);
+  return answers.empty() ? answer_of_given_up() : answers.front();
+}
+
+Answer answer_of_given_up() { return Answer::without(Answer::Status::cannot_answer, "not asked: interrupted"); }
+
+void Workers::send(const Subject& subject, std::span<const Case> cases) {
+  const Offering& offering = subject.offering(cases.front().query->name);
+  Asked& asked = of(subject);
+  asked.all = offering.required.empty();
+  asked.inside.clear();
+  asked.answers.clear();
+  flat_.clear();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Preconditions unmet = unmet_by(cases[i], offering.required);
+    if (!asked.all) asked.answers.push_back(unmet.empty() ? Answer{} : answer_of_unasked(unmet));
+    if (!unmet.empty()) continue;
+    if (!asked.all) asked.inside.push_back(i);
+    flat_.insert(flat_.end(), cases[i].values.begin(), cases[i].values.end());
+  }
+  if (!flat_.empty()) asked.worker->send(offering, flat_, cases.front().values.size());
+}
+
+std::span<const Answer> Workers::receive(const Subject& subject) {
+  Asked& asked = of(subject);
+  if (asked.all) return asked.worker->receive();
+  if (asked.inside.empty()) return asked.answers;
+  const std::span<const Answer> given = asked.worker->receive();
+  for (std::size_t i = 0; i < given.size(); ++i) asked.answers[asked.inside[i]] = given[i];
+  if (given.size() < asked.inside.size()) return {asked.answers.data(), asked.inside[given.size()]};
+  return asked.answers;
+}
+
+std::string_view Workers::output(const Subject& subject, std::size_t case_of_batch) const {
+  const auto found = workers_.find(&subject);
+  if (found == workers_.end()) return {};
+  const Asked& asked = found->second;
+  if (asked.all) return asked.worker->output(case_of_batch);
+  const auto at = std::lower_bound(asked.inside.begin(), asked.inside.end(), case_of_batch);
+  if (at == asked.inside.end() || *at != case_of_batch) return {};
+  return asked.worker->output(std::size_t(at - asked.inside.begin()));
+}
+
+double Workers::processor_seconds(const Subject& subject) const {
+  const auto found = workers_.find(&subject);
+  return found == workers_.end() ? 0 : found->second.worker->processor_seconds();
+}
+
+std::optional<Case> in_scalar(const Case& question, Scalar scalar) {
+  const bool exact =
+      std::all_of(question.values.begin(), question.values.end(), [&](double x) { return representable(x, scalar); });
+  if (!exact) return std::nullopt;
+  Case c = question;
+  c.scalar = scalar;
+  return c;
+}
+
+}  // namespace nearmiss
