@@ -10,7 +10,7 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/findings/explain.hpp"
-#include "reports/engine/internal_errors.hpp"
+#include "reports/engine/campaign.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/engine/progress.hpp"
@@ -45,15 +45,15 @@ std::string word(bool collides) { return collides ? "collides" : "does not colli
 struct Score {
   const Subject* subject = nullptr;
   std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
-  std::uint64_t late = 0, gave_up = 0;  ///< of those that broke; not asked any more
+  std::uint64_t gave_up = 0;  ///< not asked any more
   std::vector<std::string> wrong;  ///< one line each
-  std::uint64_t asked() const { return right + false_hits + false_misses + cannot_answer + broke; }
 };
 
 /// One import: cases come in, counts and lists go out.
-class NyuCcd {
+class NyuCcd : public Sink {
  public:
-  NyuCcd(std::span<const Subject* const> subjects, fs::path out) : out_(std::move(out)) {
+  NyuCcd(std::span<const Subject* const> subjects, fs::path out)
+      : out_(std::move(out)), campaign_({out_.empty() ? runs_folder() : out_, [this] { tell_progress(); }}, {this}) {
     for (const Subject* s : subjects) {
       if (s->offering(query()).answer != nullptr) scores_.emplace_back().subject = s;
     }
@@ -65,30 +65,37 @@ class NyuCcd {
     skipped_ += read.skipped;
     for (std::size_t at = 0; at < read.fit.size() && !interrupted(); at += Worker::capacity) {
       take_batch({read.fit.data() + at, std::min(Worker::capacity, read.fit.size() - at)});
-      progress_.tell(fit_, std::nullopt, std::nullopt, oracle_wrong_.size());
+      tell_progress();
     }
   }
-  std::string text() const;
+  void take(const Examined& e) override { score(*now_, e, batch_[at_[e.of_batch]].where, truth_[at_[e.of_batch]]); }
+  void take_given_up(const Query&, const Subject&, std::uint64_t cases) override { now_->gave_up += cases; }
+  std::string text();
   std::string summary() const;
   std::uint64_t queries() const { return queries_; }
   int exit_code() const {
-    if (internal_errors_.count() > 0) return InternalError::exit_code;
+    if (campaign_.internal_errors().count() > 0) return InternalError::exit_code;
     const bool violated =
         std::any_of(scores_.begin(), scores_.end(), [](const Score& s) { return s.violations + s.broke > 0; });
     return !oracle_wrong_.empty() || violated ? 1 : interrupted() ? 2 : 0;
   }
 
  private:
+  std::uint64_t late_of(const Score& s) {
+    return campaign_.asking().lateness(*s.subject, query_of(QueryId::moving_point_triangle)).late;
+  }
+  void tell_progress() { progress_.tell(fit_, std::nullopt, std::nullopt, oracle_wrong_.size()); }
   void take_batch(std::span<const GroundTruth> batch) {
-    std::vector<bool> truth;
+    batch_ = batch;
+    truth_.clear();
     for (const GroundTruth& g : batch) {
       if (interrupted()) return;
       const bool exact = exactly_collides(g.question);
       compare_oracle(g, exact);
-      truth.push_back(g.parallel ? exact : g.collides);
+      truth_.push_back(g.parallel ? exact : g.collides);
       if (!out_.empty()) write(g);
     }
-    for (Score& s : scores_) ask(s, batch, truth);
+    for (Score& s : scores_) ask(s);
   }
   void compare_oracle(const GroundTruth& g, bool exact) {
     ++fit_;
@@ -98,33 +105,24 @@ class NyuCcd {
         fmt::format("{}: the benchmark says that it {}, the oracle that it {}", g.where, word(g.collides), word(exact));
     (g.parallel ? parallel_wrong_ : oracle_wrong_).push_back(line);
   }
-  void ask(Score& s, std::span<const GroundTruth> batch, const std::vector<bool>& truth) {
+  void ask(Score& s) {
     std::vector<Case> cases;
-    std::vector<std::size_t> at;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (auto same = in_scalar(batch[i].question, s.subject->scalar)) {
+    at_.clear();
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+      if (auto same = in_scalar(batch_[i].question, s.subject->scalar)) {
         cases.push_back(std::move(*same));
-        at.push_back(i);
+        at_.push_back(i);
       }
     }
-    s.outside += batch.size() - cases.size();
-    if (cases.empty()) return;
-    std::span<const Answer> answers;
-    if (!is_given_up(s.late, s.asked())) {
-      workers_.send(*s.subject, cases);
-      answers = workers_.receive(*s.subject);
-    }
-    for (std::size_t i = 0; i < answers.size(); ++i) score(s, cases[i], answers[i], batch[at[i]].where, truth[at[i]]);
-    if (!interrupted()) s.gave_up += cases.size() - answers.size();
+    s.outside += batch_.size() - cases.size();
+    now_ = &s;
+    if (!cases.empty()) campaign_.examine({&s.subject, 1}, cases);
   }
-  void score(Score& s, const Case& question, const Answer& a, const std::string& where, bool truth) {
-    const auto judged =
-        internal_errors_.judged(question, *s.subject, a, s.subject->standard_for(query()), Detail::verdict);
-    if (!judged) return;
-    const Finding& f = *judged;
+  static void score(Score& s, const Examined& e, const std::string& where, bool truth) {
+    const Finding& f = e.finding;
+    const Answer& a = e.answer;
     if (f.is_proved()) ++s.violations;
     if (f.verdict == Verdict::broke) ++s.broke;
-    s.late += a.late;
     if (f.verdict == Verdict::cannot_answer) ++s.cannot_answer;
     if (f.verdict == Verdict::not_asked) ++s.outside;
     if (a.status != Answer::Status::answered) return;
@@ -135,7 +133,7 @@ class NyuCcd {
     ++(truth ? s.false_misses : s.false_hits);
     s.wrong.push_back(
         fmt::format("{}: {} says {}, but it {} until time {:g} (verdict: {}{})", where, s.subject->name,
-                    answer_text(*question.query, a, question.scalar), word(truth), end_of_time, name_of(f.verdict),
+                    answer_text(*e.question.query, a, e.question.scalar), word(truth), end_of_time, name_of(f.verdict),
                     f.backward ? ", backward error > " + epsilons_text(f.backward->above) + " epsilon" : ""));
   }
   void write(const GroundTruth& g) const {
@@ -147,15 +145,15 @@ class NyuCcd {
   }
 
   fs::path out_;
-  InternalErrors internal_errors_{out_.empty() ? runs_folder() : out_};
-  Workers workers_{[this] {
-    progress_.tell(fit_, std::nullopt, std::nullopt, oracle_wrong_.size());
-    return !interrupted();
-  }};
   Progress progress_;
   std::vector<Score> scores_;
   std::uint64_t queries_ = 0, skipped_ = 0, fit_ = 0, parallel_ = 0;
   std::vector<std::string> oracle_wrong_, parallel_wrong_;
+  std::span<const GroundTruth> batch_;
+  std::vector<bool> truth_;       ///< of each of the batch
+  Score* now_ = nullptr;          ///< of the subject that is asked
+  std::vector<std::size_t> at_;   ///< where in the batch each case that it is asked stands
+  Campaign campaign_;
 };
 
 std::string lines_of(std::string_view heading, const std::vector<std::string>& lines) {
@@ -163,7 +161,7 @@ std::string lines_of(std::string_view heading, const std::vector<std::string>& l
   return fmt::format("\n{}\n  {}\n", heading, fmt::join(lines, "\n  "));
 }
 
-std::string NyuCcd::text() const {
+std::string NyuCcd::text() {
   std::string text = fmt::format(
       "{} queries: {} fit {}, {} skipped (the corners move differently, or no double holds the relative velocity)\n"
       "The oracle agrees with the truth column on {} of {}; {} of them move parallel to the face, where the\n"
@@ -181,7 +179,7 @@ std::string NyuCcd::text() const {
   text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar, or the case outside of what it\nrequires)\n" +
           table_text(rows, "", 1);
   for (const Score& s : scores_) {
-    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query(), s.late, s.gave_up));
+    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query(), late_of(s), s.gave_up));
   }
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;

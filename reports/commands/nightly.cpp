@@ -36,33 +36,47 @@ Clock::time_point between(Clock::time_point a, Clock::time_point b, double share
 
 double seconds_until(Clock::time_point t) { return std::chrono::duration<double>(t - Clock::now()).count(); }
 
-/// Asks every stored case of every subject, and compares with what is stored about them.
+/// Compares what is found about a stored case with what is stored about it.
+class Expectations : public Sink {
+ public:
+  void about(const StoredCase& stored) { stored_ = &stored; }
+  void take(const Examined& e) override {
+    for (const Expected& expected : stored_->expected) {
+      if (expected.subject == e.subject.name) compare(expected, e);
+    }
+  }
+  std::uint64_t compared = 0;
+  Json unexpected = Json::array();
+
+ private:
+  void compare(const Expected& e, const Examined& found) {
+    ++compared;
+    const std::string_view verdict = name_of(found.finding.verdict), fault = name_of(found.finding.disagreement);
+    if (e.verdict == verdict && (e.disagreement.empty() || e.disagreement == fault)) return;
+    unexpected.push_back({{"file", stored_->file.filename().string()},
+                          {"query", found.question.query->name},
+                          {"subject", e.subject},
+                          {"expected", e.verdict + (e.disagreement.empty() ? "" : ", " + e.disagreement)},
+                          {"found", fmt::format("{}, {}", verdict, fault)}});
+  }
+  const StoredCase* stored_ = nullptr;
+};
+
+/// Asks every stored case of every subject.
 void replay_stored(Run& run) {
   run.doing("stored cases");
-  std::uint64_t cases = 0, expectations = 0;
-  Json unexpected = Json::array();
+  std::uint64_t cases = 0;
+  Expectations expectations;
   for (const Query* q : run.settings().queries) {
-    if (run.should_stop()) break;
     for (const StoredCase& stored : stored_cases(*q)) {
       if (run.should_stop()) break;
       ++cases;
-      run.examine_by_all(stored.question, [&](const Subject& s, const Finding& f) {
-        for (const Expected& e : stored.expected) {
-          if (e.subject != s.name) continue;
-          ++expectations;
-          const bool same =
-              e.verdict == name_of(f.verdict) && (e.disagreement.empty() || e.disagreement == name_of(f.disagreement));
-          if (same) continue;
-          unexpected.push_back({{"file", stored.file.filename().string()},
-                                {"query", q->name},
-                                {"subject", s.name},
-                                {"expected", e.verdict + (e.disagreement.empty() ? "" : ", " + e.disagreement)},
-                                {"found", fmt::format("{}, {}", name_of(f.verdict), name_of(f.disagreement))}});
-        }
-      });
+      expectations.about(stored);
+      run.examine_by_all(stored.question, &expectations);
     }
   }
-  run.note("stored", {{"cases", cases}, {"expectations", expectations}, {"unexpected", unexpected}});
+  run.note("stored",
+           {{"cases", cases}, {"expectations", expectations.compared}, {"unexpected", expectations.unexpected}});
 }
 
 Json outcome_json(const FuzzOutcome& o) {
@@ -272,7 +286,7 @@ class NightlyCommand : public Command {
     bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     run.finish();
-    fmt::print("\n{}\n{}{}{}; fuzzing: {}\n", run.table(), run.touches_text(), run.worst_findings(), run.summary(), fuzzing);
+    fmt::print("\n{}\n{}{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(), run.kept().worst_text(), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     const int code = std::max(related, run.exit_code());
     return code == InternalError::exit_code || !failed ? code : 1;

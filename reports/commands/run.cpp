@@ -83,9 +83,9 @@ class RunCommand : public Command {
     std::fflush(stdout);
     run.generate(amount_.number());
     run.finish();
-    fmt::print("\n{}\n", run.table());
-    if (by_class_) fmt::print("{}\n", run.table_by_class());
-    fmt::print("{}{}{}\n", run.touches_text(), run.worst_findings(), run.summary());
+    fmt::print("\n{}\n", run.counts().table());
+    if (by_class_) fmt::print("{}\n", run.counts().table_by_class());
+    fmt::print("{}{}{}\n", run.counts().touches_text(), run.kept().worst_text(), run.summary());
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return run.exit_code();
   }

@@ -100,13 +100,38 @@ std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Jso
 
 }  // namespace
 
+/// Counts what is found at one place of a plane, for each subject in its map.
+class Extremes::Place : public Sink {
+ public:
+  void at(const std::vector<ExtremesMap*>& maps, std::size_t cell) { maps_ = maps, cell_ = cell; }
+  void take(const Examined& e) override {
+    ExtremesMap& m = **std::find_if(maps_.begin(), maps_.end(), [&](const ExtremesMap* o) { return o->subject == &e.subject; });
+    m.time_outs += e.answer.late;
+    m.time_outs_in_row += e.answer.late;
+    count(m.cells[cell_], e.finding);
+  }
+
+ private:
+  std::vector<ExtremesMap*> maps_;
+  std::size_t cell_ = 0;
+};
+
+namespace {
+
+Standard nothing_promised(const Subject& subject, const Query& query) {
+  return {no_promise, true, subject.offering(query.name).required};
+}
+
+}  // namespace
+
+Extremes::~Extremes() = default;
+
 Extremes::Extremes(ExtremesSettings settings)
     : settings_(std::move(settings)),
-      workers_([this] {
-        progress_.tell(done_, total_, std::nullopt, 0);
-        return !interrupted();
-      }),
-      internal_errors_(settings_.folder) {
+      place_(std::make_unique<Place>()),
+      campaign_({settings_.folder, [this] { progress_.tell(done_, total_, std::nullopt, 0); }, nothing_promised,
+                 Asking::GiveUp::never},
+                {place_.get()}) {
   make_folder(settings_.folder);
   if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
     throw BadInput(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
@@ -163,26 +188,16 @@ void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) 
 }
 
 void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases) {
-  std::vector<ExtremesMap*> asked;
+  std::vector<const Subject*> asked;
   for (ExtremesMap* m : maps) {
     if (m->given_up()) {
       m->cells[cell].gave_up += cases.size();
     } else {
-      asked.push_back(m);
-      workers_.send(*m->subject, cases);
+      asked.push_back(m->subject);
     }
   }
-  for (ExtremesMap* m : asked) {
-    const auto answers = workers_.receive(*m->subject);
-    for (std::size_t i = 0; i < answers.size() && !interrupted(); ++i) {
-      const bool late = answers[i].late;
-      m->time_outs += late;
-      m->time_outs_in_row += late;
-      const Standard standard{no_promise, true, m->subject->offering(m->query->name).required};
-      const auto f = internal_errors_.judged(cases[i], *m->subject, answers[i], standard, Detail::verdict);
-      if (f) count(m->cells[cell], *f);
-    }
-  }
+  place_->at(maps, cell);
+  campaign_.examine(asked, cases);
 }
 
 nlohmann::ordered_json Extremes::to_json() const {
@@ -195,7 +210,7 @@ nlohmann::ordered_json Extremes::to_json() const {
   for (const ExtremesMap& m : maps_) {
     if (begun(m) || !interrupted()) j["maps"].push_back(map_to_json(m));
   }
-  if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
+  if (campaign_.internal_errors().count() > 0) j["internal_errors"] = campaign_.internal_errors().to_json();
   j["environment"] = environment_to_json();
   return j;
 }
@@ -258,11 +273,11 @@ std::string Extremes::summary() const {
   }
   return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
                      plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"), count_text(gave_up), (settings_.folder / "extremes.json").string(),
-                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3", internal_errors_.text());
+                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3", campaign_.internal_errors().text());
 }
 
 int Extremes::exit_code() const {
-  return internal_errors_.count() > 0 ? InternalError::exit_code : interrupted() ? 2 : 0;
+  return campaign_.internal_errors().count() > 0 ? InternalError::exit_code : interrupted() ? 2 : 0;
 }
 
 }  // namespace nearmiss

@@ -12,9 +12,8 @@
 
 #include "corpus/sweep.hpp"
 #include "impl/subject/subject.hpp"
-#include "reports/engine/internal_errors.hpp"
+#include "reports/engine/campaign.hpp"
 #include "reports/engine/progress.hpp"
-#include "reports/findings/workers.hpp"
 
 namespace nearmiss {
 
@@ -58,6 +57,7 @@ class Extremes {
  public:
   /// Makes the folder. Throws BadInput where it cannot.
   explicit Extremes(ExtremesSettings settings);
+  ~Extremes();
 
   /// Fills every map, or as many as there is time for before an interrupt.
   void sweep();
@@ -79,10 +79,11 @@ class Extremes {
   void ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases);
   ExtremesSettings settings_;
   std::vector<ExtremesMap> maps_;
-  Workers workers_;
-  InternalErrors internal_errors_;
   Progress progress_;
   std::uint64_t done_ = 0, total_ = 0;
+  class Place;
+  std::unique_ptr<Place> place_;
+  Campaign campaign_;
 };
 
 }  // namespace nearmiss

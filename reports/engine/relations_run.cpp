@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "corpus/bad_input.hpp"
 #include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
+#include "reports/engine/schedule.hpp"
 #include "reports/engine/tally.hpp"
+#include "reports/engine/worst.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t batch_size = 128;
+constexpr std::size_t batch_size = 128;  ///< cases; each has follow-ups by every relation
 /// Reports of one query, subject and relation: so many broken promises, one contradiction, and then what is at least
 /// twice as bad as any before.
 constexpr std::uint64_t first_broken = 3, first_contradictions = 1;
@@ -34,7 +34,7 @@ double worst_backward(const RelationFinding& f) {
   return worst;
 }
 
-/// A case of a partner, and where its answer belongs.
+/// Where the answer to a follow-up belongs.
 struct Slot {
   std::size_t of, at;
 };
@@ -63,7 +63,7 @@ void RelationTally::add(const RelationTally& other) {
 RelationsRun::RelationsRun(RelationsSettings settings)
     : settings_(std::move(settings)),
       begin_(Clock::now()),
-      workers_([this] {
+      asking_([this] {
         tell_progress();
         return !should_stop();
       }),
@@ -75,37 +75,12 @@ bool RelationsRun::should_stop() const { return interrupted() || (until_ && Cloc
 
 void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::time_point> until) {
   until_ = until;
-  struct Stream {
-    const Query* query;
-    Scalar scalar;
-    Preconditions required;  ///< of all subjects that are asked its cases
-    std::uint64_t next = 0;
-    double seconds = 0;
-  };
-  std::vector<Stream> streams;
-  for (const Query* q : settings_.queries) {
-    for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
-      std::set<Preconditions> sets;
-      for (const Subject* s : settings_.subjects) {
-        const Offering& o = s->offering(q->name);
-        if (s->scalar == scalar && !(o.answer == nullptr)) sets.insert(o.required);
-      }
-      for (const Preconditions required : sets) streams.push_back({q, scalar, required});
-    }
-  }
-  if (cases) total_ = *cases * streams.size();
-  while (!should_stop()) {
-    const auto left = [&](const Stream& s) { return cases ? *cases - s.next : batch_size; };
-    const auto stream = std::min_element(streams.begin(), streams.end(), [&](const Stream& a, const Stream& b) {
-      return std::pair(left(a) == 0, a.seconds) < std::pair(left(b) == 0, b.seconds);
-    });
-    if (stream == streams.end() || left(*stream) == 0) break;
+  Schedule schedule(settings_.queries, settings_.subjects, cases, batch_size);
+  if (cases) total_ = *cases * schedule.streams().size();
+  for (Stream* stream = schedule.next(); stream != nullptr && !should_stop(); stream = schedule.next()) {
     const Clock::time_point begin = Clock::now();
-    const std::size_t count = std::min({batch_size, std::size_t(left(*stream)), Workers::capacity_for(*stream->query)});
     progress_.doing(fmt::format("relations of {}", stream->query->name));
-    batch(*stream->query, stream->scalar, stream->required, stream->next, count);
-    stream->next += count;
-    done_ += count;
+    batch(*stream, schedule.batch_of(*stream, Workers::capacity_for(*stream->query)));
     stream->seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     tell_progress();
   }
@@ -121,29 +96,26 @@ std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<
   std::vector<Answer> answers;
   if (cases.empty()) return answers;
   const Query& query = *cases.front().query;
-  Lateness& l = lateness_[{&subject, &query}];
   const std::size_t most = Workers::capacity_for(query);
-  for (std::size_t at = 0; at < cases.size() && answers.size() == at && !is_given_up(l.late, l.asked); at += most) {
-    workers_.send(subject, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
-    const auto some = workers_.receive(subject);
-    answers.insert(answers.end(), some.begin(), some.end());
-    l.asked += some.size();
-    l.late += std::uint64_t(std::count_if(some.begin(), some.end(), [](const Answer& a) { return a.late; }));
+  const Subject* const asked[] = {&subject};
+  const std::uint64_t passed_over = asking_.lateness(subject, query).gave_up;
+  for (std::size_t at = 0; at < cases.size() && answers.size() == at; at += most) {
+    asking_.ask(asked, std::span(cases).subspan(at, std::min(most, cases.size() - at)), {},
+                [&](const Subject&, std::span<const Answer> some) { answers.insert(answers.end(), some.begin(), some.end()); });
   }
-  if (!should_stop()) l.gave_up += cases.size() - answers.size();
+  const std::uint64_t missing = cases.size() - answers.size();
+  const std::uint64_t counted = asking_.lateness(subject, query).gave_up - passed_over;
+  if (!should_stop()) asking_.pass_over(subject, query, missing - counted);
   answers.resize(cases.size(), answer_of_given_up());
   return answers;
 }
 
-void RelationsRun::batch(const Query& query, Scalar scalar, Preconditions required, std::uint64_t first,
-                         std::size_t count) {
-  std::vector<Case> cases(count);
-  for (std::size_t i = 0; i < count; ++i) generate_inside(cases[i], query, scalar, settings_.seed, first + i, required);
+void RelationsRun::batch(Stream& stream, std::size_t count) {
+  std::vector<Case> cases;
+  generate_next(stream, settings_.seed, count, cases);
+  done_ += count;
   std::map<const Subject*, std::vector<Answer>> own;
-  for (const Subject* s : settings_.subjects) {
-    const Offering& o = s->offering(query.name);
-    if (s->scalar == scalar && !(o.answer == nullptr) && o.required == required) own[s] = ask(*s, cases);
-  }
+  for (const Subject* s : stream.subjects) own[s] = ask(*s, cases);
   for (const Relation* r : settings_.relations) {
     if (should_stop()) return;
     relate_all(*r, cases, own);
@@ -198,26 +170,23 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
 
 bool RelationsRun::worth_a_report(const Key& key, const RelationFinding& found, double above) {
   if (found.breach == Breach::none && found.oracle.empty()) return false;
-  Kept& kept = kept_[{key, found.oracle.empty() ? std::string(name_of(found.breach)) : "oracle"}];
   const std::uint64_t few = found.breach == Breach::contradiction ? first_contradictions : first_broken;
-  if (kept.count >= few && !(above > 0 && above >= 2 * kept.worst)) return false;
-  ++kept.count;
-  kept.worst = std::max(kept.worst, above);
-  return true;
+  const std::string_view what = found.oracle.empty() ? name_of(found.breach) : "oracle";
+  return retention_.keep(fmt::format("{}/{}/{}/{}", key.subject->name, key.relation->name, key.query->name, what), above, few);
 }
 
 void RelationsRun::take(const Key& key, const RelationChoice& choice, const RelationFinding& found) {
   tallies_[key].count(found);
   const double above = worst_backward(found);
   if (!worth_a_report(key, found, above)) return;
-  RelationReport r = report_of(choice, found, *key.subject, workers_);
+  RelationReport r = report_of(choice, found, *key.subject, asking_.workers());
   const std::string name = fmt::format("{}-{}-{}-{}.json", key.subject->name, choice.relation->name, breach_of(r), id_of(r));
   const std::filesystem::path below = std::filesystem::path("relations") / key.query->name / name;
   const std::filesystem::path file = settings_.folder / below;
   r.replay = replay_command(*key.subject, file.string());
   make_folder(file.parent_path());
   write_file(file, pretty_json(report_to_json(r)));
-  written_.push_back({key, below.generic_string(), std::string(breach_of(r)), headline(r), above});
+  written_.push_back({key, below.generic_string(), r.breach, !r.oracle.empty(), headline(r), above});
 }
 
 RelationTally RelationsRun::sum() const {
@@ -256,7 +225,7 @@ Json RelationsRun::to_json() const {
       }
     }
   }
-  for (const auto& [key, l] : lateness_) {
+  for (const auto& [key, l] : asking_.all_lateness()) {
     if (l.gave_up == 0) continue;
     j["gave_up"].push_back({{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
   }
@@ -265,7 +234,7 @@ Json RelationsRun::to_json() const {
                             {"query", w.key.query->name},
                             {"subject", w.key.subject->name},
                             {"relation", w.key.relation->name},
-                            {"breach", w.breach},
+                            {"breach", w.breach_name()},
                             {"headline", w.headline}});
   }
   if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
@@ -306,35 +275,20 @@ std::string RelationsRun::table() const {
 
 std::vector<std::string> RelationsRun::given_up() const {
   std::vector<std::string> lines;
-  for (const auto& [key, l] : lateness_) {
+  for (const auto& [key, l] : asking_.all_lateness()) {
     if (l.gave_up > 0) lines.push_back(given_up_text(key.first->name, key.second->name, l.late, l.gave_up));
   }
   return lines;
 }
 
 std::string RelationsRun::worst_findings() const {
-  constexpr std::size_t shown = 12;
-  std::vector<const Written*> worst;
+  std::vector<WorstFinding> findings;
   for (const Written& w : written_) {
-    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Written* o) {
-      return o->key.subject == w.key.subject && o->key.relation == w.key.relation && o->breach == w.breach;
-    });
-    if (same == worst.end()) {
-      worst.push_back(&w);
-    } else if (w.above > (*same)->above) {
-      *same = &w;
-    }
+    const bool promised = w.breach != Breach::contradiction || w.is_of_the_oracle;
+    findings.push_back({fmt::format("{}/{}/{}", w.key.subject->name, w.key.relation->name, w.breach_name()), w.above,
+                        w.headline, w.file, !promised});
   }
-  // Broken promises before contradictions.
-  std::stable_sort(worst.begin(), worst.end(), [](const Written* a, const Written* b) {
-    return std::pair(a->breach == "contradiction", -a->above) < std::pair(b->breach == "contradiction", -b->above);
-  });
-  std::string text;
-  for (std::size_t i = 0; i < worst.size() && i < shown; ++i) {
-    text += fmt::format("{}\n    {}\n", worst[i]->headline, (settings_.folder / worst[i]->file).string());
-  }
-  if (worst.size() > shown) text += fmt::format("and {} more, see relations.json\n", worst.size() - shown);
-  return text.empty() ? text : text + "\n";
+  return worst_text(findings, settings_.folder, "relations.json");
 }
 
 std::string RelationsRun::summary() const {

@@ -11,9 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "reports/engine/asking.hpp"
 #include "reports/engine/internal_errors.hpp"
 #include "reports/engine/progress.hpp"
 #include "reports/engine/related.hpp"
+#include "reports/engine/retention.hpp"
+#include "reports/engine/schedule.hpp"
 
 namespace nearmiss {
 
@@ -29,7 +32,7 @@ struct RelationsSettings {
 
 /// What came of one relation for one query and subject.
 struct RelationTally {
-  std::uint64_t cases = 0;  ///< answered, and so were all partners
+  std::uint64_t cases = 0;  ///< answered, and so were all follow-ups
   std::uint64_t numbers_differ = 0;
   std::uint64_t contradictions = 0, bits = 0, contract = 0, broke = 0, oracle = 0;
   double worst_backward = -1;  ///< of the wrong answers, where it is proved
@@ -75,10 +78,14 @@ class RelationsRun {
   };
   struct Written {
     Key key;
-    std::string file, breach, headline;
+    std::string file;
+    Breach breach;
+    bool is_of_the_oracle;  ///< the judge contradicts itself
+    std::string headline;
     double above = -1;
+    std::string_view breach_name() const { return is_of_the_oracle ? "oracle" : name_of(breach); }
   };
-  void batch(const Query& query, Scalar scalar, Preconditions required, std::uint64_t first, std::size_t count);
+  void batch(Stream& stream, std::size_t count);
   void relate_all(const Relation& relation, const std::vector<Case>& cases,
                   const std::map<const Subject*, std::vector<Answer>>& own);
   void take(const Key& key, const RelationChoice& choice, const RelationFinding& found);
@@ -92,23 +99,14 @@ class RelationsRun {
   RelationsSettings settings_;
   Clock::time_point begin_;
   std::optional<Clock::time_point> until_;
-  Workers workers_;
+  Asking asking_;
   Progress progress_;
   std::map<Key, RelationTally> tallies_;
-  struct Kept {
-    std::uint64_t count = 0;
-    double worst = 0;
-  };
-  std::map<std::pair<Key, std::string>, Kept> kept_;
-  /// Of the cases that a subject was asked of one query.
-  struct Lateness {
-    std::uint64_t asked = 0, late = 0, gave_up = 0;
-  };
-  std::map<std::pair<const Subject*, const Query*>, Lateness> lateness_;
+  Retention retention_;
   std::vector<Written> written_;
   InternalErrors internal_errors_;
   std::uint64_t done_ = 0;
-  std::uint64_t not_asked_ = 0;  ///< pairs of which a partner is outside of what the subject requires
+  std::uint64_t not_asked_ = 0;  ///< pairs of which a follow-up is outside of what the subject requires
   std::optional<std::uint64_t> total_;
 };
 

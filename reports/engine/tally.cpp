@@ -107,24 +107,15 @@ bool Keeper::keep(const Tally& of, const Finding& f) {
   const auto kind = [&](std::string_view fault) {
     return fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
   };
-  if (f.verdict == Verdict::broke) return keep(kind("broke/" + of.breakage_of(f)), 0);
-  if (f.headline < 0) return keep(kind(fault_of(f)), f.backward ? f.backward->above : 0);
+  if (f.verdict == Verdict::broke) return retention_.keep(kind("broke/" + of.breakage_of(f)), 0, first_few);
+  if (f.headline < 0) return retention_.keep(kind(fault_of(f)), f.backward ? f.backward->above : 0, first_few);
   bool any = false;
   for (const MemberFinding& m : f.members) {
     if (!m.breaks()) continue;
     const std::string fault = fmt::format("{}/{}", name_of(m.disagreement), m.member);
-    any = keep(kind(fault), m.backward ? m.backward->above : 0) || any;
+    any = retention_.keep(kind(fault), m.backward ? m.backward->above : 0, first_few) || any;
   }
   return any;
-}
-
-bool Keeper::keep(const std::string& kind, double above) {
-  Kept& kept = kept_[kind];
-  const bool much_worse = above > 0 && above >= 2 * kept.worst;
-  if (kept.count >= first_few && !much_worse) return false;
-  ++kept.count;
-  kept.worst = std::max(kept.worst, above);
-  return true;
 }
 
 }  // namespace nearmiss

@@ -10,11 +10,9 @@
 
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
+#include "reports/engine/retention.hpp"
 
 namespace nearmiss {
-
-/// True where asking a subject on would be waiting: some of what it was asked were late, and they are a good part of all.
-constexpr bool is_given_up(std::uint64_t late, std::uint64_t asked) { return late >= 8 && 20 * late >= asked; }
 
 /// "X was late 8 times of QUERY, and was not asked 142 more cases".
 std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases);
@@ -52,7 +50,6 @@ struct Tally {
   std::uint64_t bad() const {
     return of(Verdict::violates_contract) + of(Verdict::exceeds_measure) + of(Verdict::broke);
   }
-  bool gives_up() const { return is_given_up(late, cases); }
   std::uint64_t decided() const { return decided_by_interval + decided_by_exact; }
 };
 
@@ -68,13 +65,7 @@ class Keeper {
   static constexpr std::uint64_t first_few = 8;
 
  private:
-  bool keep(const std::string& kind, double above);
-
-  struct Kept {
-    std::uint64_t count = 0;
-    double worst = 0;
-  };
-  std::map<std::string, Kept> kept_;
+  Retention retention_;
 };
 
 }  // namespace nearmiss

@@ -1,0 +1,51 @@
+/// Batches of cases to many subjects at once, each in its own host, and who is not asked any more.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "reports/findings/workers.hpp"
+
+namespace nearmiss {
+
+/// How late a subject was with the cases of a query.
+struct Lateness {
+  std::uint64_t asked = 0, late = 0;
+  std::uint64_t gave_up = 0;  ///< cases that were not asked any more, since too many were late
+
+  /// True where asking on would be waiting: some of what was asked was late, and that is a good part of all.
+  bool gives_up() const { return late >= 8 && 20 * late >= asked; }
+};
+
+class Asking {
+ public:
+  enum class GiveUp { when_often_late, never };
+
+  /// `pulse` is called while a host is awaited; false ends the waiting.
+  explicit Asking(Worker::Pulse pulse, GiveUp rule = GiveUp::when_often_late) : workers_(std::move(pulse)), rule_(rule) {}
+
+  /// Sends the cases, which are of one query and exact in the subjects' scalars, to all subjects, does `meanwhile`, and hands
+  /// on what each answers: fewer answers than cases where the waiting was ended. A subject that is given up is passed over.
+  void ask(std::span<const Subject* const> subjects, std::span<const Case> cases, const std::function<void()>& meanwhile,
+           const std::function<void(const Subject&, std::span<const Answer>)>& take);
+
+  const Lateness& lateness(const Subject& subject, const Query& query) { return lateness_[{&subject, &query}]; }
+  const std::map<std::pair<const Subject*, const Query*>, Lateness>& all_lateness() const { return lateness_; }
+  /// Counts cases that are not asked of a subject.
+  void pass_over(const Subject& subject, const Query& query, std::uint64_t cases) {
+    lateness_[{&subject, &query}].gave_up += cases;
+  }
+  Workers& workers() { return workers_; }
+
+ private:
+  bool is_given_up(const Subject& subject, const Query& query);
+
+  Workers workers_;
+  GiveUp rule_;
+  std::map<std::pair<const Subject*, const Query*>, Lateness> lateness_;
+};
+
+}  // namespace nearmiss

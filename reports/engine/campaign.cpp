@@ -1,0 +1,125 @@
+#include "reports/engine/campaign.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "reports/engine/interrupt.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t least_batch = 32;
+constexpr double most_seconds_per_batch = 0.4;
+
+double seconds_since(Campaign::Clock::time_point t) {
+  return std::chrono::duration<double>(Campaign::Clock::now() - t).count();
+}
+
+void adapt_batch(Stream& s, double seconds) {
+  if (seconds < most_seconds_per_batch / 4) s.batch = std::min(2 * s.batch, Workers::batch);
+  if (seconds > most_seconds_per_batch) s.batch = std::max(s.batch / 2, least_batch);
+}
+
+/// Cases of a stream, and what making them took.
+struct Batch {
+  Stream* of = nullptr;  ///< nullptr: the schedule is over
+  std::vector<Case> cases;
+  double seconds = 0;
+};
+
+void make(Batch& batch, Schedule& schedule, std::uint64_t seed) {
+  const auto begin = Campaign::Clock::now();
+  batch.of = schedule.next();
+  if (batch.of == nullptr) return;
+  generate_next(*batch.of, seed, schedule.batch_of(*batch.of, Workers::capacity_for(*batch.of->query)), batch.cases);
+  batch.seconds = seconds_since(begin);
+  batch.of->seconds += batch.seconds;
+}
+
+}  // namespace
+
+Campaign::Campaign(Settings settings, std::vector<Sink*> sinks)
+    : settings_(std::move(settings)),
+      sinks_(std::move(sinks)),
+      asking_([this] { return settings_.tick(), goes_on(); }, settings_.give_up),
+      internal_errors_(settings_.folder) {}
+
+bool Campaign::should_stop() const { return interrupted() || (until_ && Clock::now() >= *until_); }
+
+/// Reports are written when the time is over, too: who is asked for them gets a moment.
+bool Campaign::goes_on() const {
+  constexpr auto moment = 300ms;
+  return !interrupted() && !(until_ && Clock::now() >= *until_ + moment);
+}
+
+Standard Campaign::standard_for(const Subject& subject, const Query& query) const {
+  return settings_.standard ? settings_.standard(subject, query) : subject.standard_for(query.name);
+}
+
+void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers) {
+  constexpr std::size_t between_looks = 64;
+  const Query& query = *cases.front().query;
+  if (answers.size() < cases.size() && !should_stop()) asking_.pass_over(subject, query, cases.size() - answers.size());
+  const Standard standard = standard_for(subject, query);
+  for (std::size_t i = 0; i < answers.size() && (i % between_looks != 0 || !should_stop()); ++i) {
+    const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, Detail::verdict);
+    if (!f) continue;
+    const Examined e{cases[i], subject, answers[i], *f, asking_.workers().output(subject, i), i};
+    for (Sink* s : sinks_) s->take(e);
+  }
+}
+
+void Campaign::hand_on_given_up(std::span<const Subject* const> subjects, const Query& query) {
+  for (const Subject* subject : subjects) {
+    std::uint64_t& known = given_up_[{subject, &query}];
+    const std::uint64_t now = asking_.lateness(*subject, query).gave_up;
+    if (now == known) continue;
+    for (Sink* s : sinks_) s->take_given_up(query, *subject, now - known);
+    known = now;
+  }
+}
+
+void Campaign::examine(std::span<const Subject* const> subjects, std::span<const Case> cases,
+                       const std::function<void()>& meanwhile) {
+  for (Sink* s : sinks_) s->begin_batch(cases);
+  ask_and_judge(subjects, cases, meanwhile);
+}
+
+void Campaign::ask_and_judge(std::span<const Subject* const> subjects, std::span<const Case> cases,
+                             const std::function<void()>& meanwhile) {
+  asking_.ask(subjects, cases, meanwhile,
+              [&](const Subject& s, std::span<const Answer> answers) { judge_all(s, cases, answers); });
+  if (!cases.empty()) hand_on_given_up(subjects, *cases.front().query);
+  for (Sink* s : sinks_) s->end_batch();
+  settings_.tick();
+}
+
+void Campaign::examine_in_any_scalar(std::span<const Subject* const> subjects, const Case& question) {
+  for (Sink* s : sinks_) s->begin_batch({});
+  for (const Subject* subject : subjects) {
+    if (should_stop()) return;
+    if (const std::optional<Case> same = in_scalar(question, subject->scalar)) {
+      ask_and_judge({&subject, 1}, {&*same, 1}, {});
+      continue;
+    }
+    Finding outside;
+    outside.verdict = Verdict::out_of_domain;
+    for (Sink* s : sinks_) s->take({question, *subject, Answer{}, outside, {}, 0});
+  }
+}
+
+void Campaign::generate(Schedule& schedule, std::uint64_t seed) {
+  Batch now, next;
+  for (make(now, schedule, seed); now.of != nullptr && !should_stop(); std::swap(now, next)) {
+    const Clock::time_point begin = Clock::now();
+    examine(now.of->subjects, now.cases, [&] { make(next, schedule, seed); });
+    const double seconds = seconds_since(begin) - next.seconds;
+    now.of->seconds += seconds;
+    adapt_batch(*now.of, seconds);
+  }
+}
+
+}  // namespace nearmiss
