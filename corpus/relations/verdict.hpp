@@ -37,7 +37,7 @@ struct RelationFinding {
 
 /// Answers that differ are not yet a fault: rounding may make them differ. A promise is broken by what the judge proves
 /// against one of them or, where `bit_for_bit` is claimed, by any difference that a bitwise relation does not allow.
-/// `answers`: to the case and to its follow_ups, in order; the subject offers all of their queries.
+/// `answers`: to the case and to its follow-ups, in order; the subject offers all of their queries.
 RelationFinding relate(const Relation& relation, const FollowUps& follow_ups, const Case& question,
                        std::vector<Answer> answers, const Subject& subject, bool bit_for_bit);
 
@@ -46,13 +46,13 @@ bool claims_same_bits(const Subject& subject);
 
 using Ask = std::function<Answer(const Case&)>;
 
-/// Asks the subject about the case and its follow_ups. Empty: no follow_ups, one of them is not offered, or one of the cases is
+/// Asks the subject about the case and its follow-ups. Empty: no follow-ups, one of them is not offered, or one of the cases is
 /// outside of what the subject requires.
 std::optional<RelationFinding> examine(const Relation& relation, const Case& question, std::uint64_t seed,
                                        const Subject& subject, const Ask& ask, bool bit_for_bit = false);
-/// Whether the subject offers the query of each of the follow_ups.
+/// Whether the subject offers the query of each of the follow-ups.
 bool offers_all(const Subject& subject, const FollowUps& follow_ups);
-/// Whether each of the follow_ups is inside of what the subject requires.
+/// Whether each of the follow-ups is inside of what the subject requires.
 bool may_be_asked_all(const Subject& subject, const FollowUps& follow_ups);
 
 }  // namespace nearmiss

@@ -36,7 +36,7 @@ class RelationsCommand : public Command {
          "The folder receives relations.json with all counts, and relations/QUERY/SUBJECT-RELATION-BREACH-ID.json with the "
          "related cases, their answers and truths: of each query, subject and relation the first 3 broken promises and "
          "the first contradiction, then those that are at least twice as bad as any before.",
-         "The table has a row for each subject and relation. PAIRS: cases that were compared with their partners. "
+         "The table has a row for each subject and relation. PAIRS: cases that were compared with their follow-ups. "
          "CONTRADICT: decisions of which one is wrong, within the contract. BITS: differences in spite of a claim. "
          "CONTRACT, BROKE: broken promises. BACKWARD: the largest proved bound on how far inputs would have to move to "
          "make a wrong answer right, in units of the scalar's epsilon."},
@@ -87,7 +87,7 @@ class RelationsCommand : public Command {
       if (const auto given_up = run.given_up(); !given_up.empty()) {
         throw BadInput(fmt::format("nothing was compared: {}", fmt::join(given_up, "; ")));
       }
-      throw BadInput("nothing was compared: no chosen subject offers a chosen query and its partners by a chosen relation");
+      throw BadInput("nothing was compared: no chosen subject offers a chosen query and its follow-ups by a chosen relation");
     }
     fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
     if (interrupted() || run.contradicted() > 0) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));

@@ -48,7 +48,7 @@ std::string what_is_wrong(const RelationReport& r) {
   return fmt::format("Broken is: {}{}{}", r.broken, wrong.empty() ? "" : fmt::format("; {}", list_text(wrong)), contract);
 }
 
-Json partner_to_json(const Report& r) {
+Json follow_up_to_json(const Report& r) {
   const Json whole = report_to_json(r);
   Json j;
   for (const char* key : {"query", "scalar", "inputs", "answer", "truth", "finding", "contract", "referees", "cpp"}) {
@@ -127,7 +127,7 @@ Json report_to_json(const RelationReport& r) {
   j["explanation"] = explanation(r);
   j["replay"] = r.replay;
   Json follow_ups = Json::array();
-  for (std::size_t i = 1; i < r.answers.size(); ++i) follow_ups.push_back(partner_to_json(r.answers[i]));
+  for (std::size_t i = 1; i < r.answers.size(); ++i) follow_ups.push_back(follow_up_to_json(r.answers[i]));
   j["relation"] = {{"name", r.choice.relation->name},
                    {"what", r.choice.relation->what},
                    {"seed", r.choice.seed},
@@ -136,7 +136,7 @@ Json report_to_json(const RelationReport& r) {
                    {"breach", breach_of(r)},
                    {"breaks_contract", some_contract_is_broken(r)},
                    {"says", what_is_wrong(r)},
-                   {"follow_ups", follow_ups}};
+                   {"partners", follow_ups}};
   return j;
 }
 
@@ -158,17 +158,17 @@ std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::stri
   related.choice.bit_for_bit = relation.value("bit_for_bit", false);
   if (j.contains("subject") && j["subject"].is_object()) related.subject = j["subject"].value("name", "");
   const auto follow_ups = related.choice.relation->of(related.question, related.choice.seed);
-  const nlohmann::json stored = relation.value("follow_ups", nlohmann::json::array());
+  const nlohmann::json stored = relation.value("partners", nlohmann::json::array());
   bool same = follow_ups && stored.is_array() && stored.size() == follow_ups->cases.size();
   for (std::size_t i = 0; same && i < stored.size(); ++i) {
     nlohmann::json question;
     for (const char* key : {"query", "scalar", "inputs"}) {
       if (stored[i].contains(key)) question[key] = stored[i][key];
     }
-    const Case partner = case_from_json(question, file);
-    same = partner.query == follow_ups->cases[i].query && partner.values == follow_ups->cases[i].values;
+    const Case follow_up = case_from_json(question, file);
+    same = follow_up.query == follow_ups->cases[i].query && follow_up.values == follow_ups->cases[i].values;
   }
-  if (!same) throw malformed(fmt::format("'{}' does not lead from this case to the follow_ups of the file", name));
+  if (!same) throw malformed(fmt::format("'{}' does not lead from this case to the follow-ups of the file", name));
   return related;
 }
 
@@ -186,7 +186,7 @@ RelatedReplay replay(const RelatedCase& related, const std::string& file, std::s
       r.reports.push_back(std::move(*report));
     } else {
       const bool offered = !(s->offering(related.question.query->name).answer == nullptr);
-      r.unasked.push_back({s->name, offered ? "a partner is not offered, or a case is outside of what it requires" : "not offered"});
+      r.unasked.push_back({s->name, offered ? "a follow-up is not offered, or a case is outside of what it requires" : "not offered"});
     }
   }
   return r;

@@ -17,7 +17,7 @@ namespace nearmiss {
 /// Which of its relations a case is about.
 struct RelationChoice {
   const Relation* relation = nullptr;
-  std::uint64_t seed = 0;    ///< of the follow_ups, where there is a choice
+  std::uint64_t seed = 0;    ///< of the follow-ups, where there is a choice
   bool bit_for_bit = false;  ///< the subject is held to the same bits
 };
 
@@ -31,7 +31,7 @@ struct RelationReport {
   std::string replay;           ///< the command that replays it; set by whoever writes it to a file
 };
 
-/// Asks about the case and its follow_ups, with second opinions on each. Empty: no follow_ups, or not offered.
+/// Asks about the case and its follow-ups, with second opinions on each. Empty: no follow-ups, or not offered.
 std::optional<RelationReport> examine_relation(const RelationChoice& choice, const Case& question,
                                                const Subject& subject, Workers& workers);
 /// The same for answers that the subject has given already.
@@ -50,7 +50,7 @@ std::string explanation(const RelationReport& r);
 nlohmann::ordered_json report_to_json(const RelationReport& r);
 
 /// A report of a relation, read back. Empty where the file is none. Throws BadInput: malformed, or made by a version
-/// whose table of relations leads to other follow_ups.
+/// whose table of relations leads to other follow-ups.
 struct RelatedCase {
   Case question;
   RelationChoice choice;
@@ -60,7 +60,7 @@ std::optional<RelatedCase> read_related(const std::filesystem::path& file);
 /// The same for what was read from `file` already.
 std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::string& file);
 
-/// What every subject says to a case and its follow_ups.
+/// What every subject says to a case and its follow-ups.
 struct RelatedReplay {
   std::string file;
   std::vector<RelationReport> reports;

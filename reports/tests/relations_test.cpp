@@ -35,7 +35,7 @@ TEST(RelationsCommand, FindsTheSlackOfTheExampleAndReplaysIt) {
     const json report = json::parse(read_file(file));
     EXPECT_EQ(complaints(report, "report.schema.json"), "") << file;
     EXPECT_EQ(report["headline"], listed["headline"]);
-    EXPECT_EQ(report["relation"]["follow_ups"].size(), 1u);
+    EXPECT_EQ(report["relation"]["partners"].size(), 1u);
     const Ran again = nearmiss({"replay", "--plugin", skim, "-s", "skim", "--json", file.string()});
     EXPECT_EQ(again.exit_code, listed["breach"] == "contract" ? 1 : 0) << again.err;
     const json replayed = json::parse(again.out);
@@ -86,7 +86,7 @@ TEST(RelationsCommand, RefusesAReportWhoseFollowUpsAreOthers) {
   ASSERT_EQ(nearmiss({"relations", "--plugin", skim, "-s", "skim", "-q", "sphere_sphere_overlap", "-r", "scaled-lengths",
                       "-n", "3000", "--seed", "1", "--out", (folder / "r").string()}).exit_code, 1);
   json report = json::parse(read_file(folder / "r" / relations_of(folder / "r")["reports"][0]["file"].get<std::string>()));
-  report["relation"]["follow_ups"][0]["inputs"]["sphere1"]["center"][0] = 0.375;
+  report["relation"]["partners"][0]["inputs"]["sphere1"]["center"][0] = 0.375;
   const Ran ran = nearmiss({"replay", "--plugin", skim, folder.file("changed.json", report.dump())});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_NE(ran.err.find("changed.json: relation: 'scaled-lengths' does not lead"), std::string::npos) << ran.err;
