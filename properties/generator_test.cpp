@@ -199,5 +199,26 @@ TEST_F(Streams, AreTheSameOnEveryMachineAndCompiler) {
   EXPECT_GE(lines, 14);
 }
 
+/// The words in code type in the row of docs/triage.md about moves.
+std::vector<std::string> moves_of_the_triage_page() {
+  std::ifstream page(NEARMISS_SOURCE_FOLDER "/docs/triage.md");
+  std::vector<std::string> names;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `origin.moves` |")) continue;
+    for (std::size_t open = line.find("| ", 2); (open = line.find('`', open + 1)) != std::string::npos;) {
+      const std::size_t close = line.find('`', open + 1);
+      names.push_back(line.substr(open + 1, close - open - 1));
+      open = close;
+    }
+  }
+  return names;
+}
+
+TEST(TriagePage, NamesMovesThatThereAre) {
+  const std::vector<std::string> names = moves_of_the_triage_page();
+  EXPECT_GE(names.size(), 2u);
+  for (const std::string& name : names) EXPECT_EQ(known_move(name), name);
+}
+
 }  // namespace
 }  // namespace nearmiss
