@@ -188,6 +188,7 @@ class Judgement {
     if (answer_.status != Answer::Status::answered) {
       f_.verdict = answer_.status == Answer::Status::broke ? Verdict::broke : Verdict::cannot_answer;
       f_.clause = answer_.reason();
+      f_.late = answer_.late;
       return std::move(f_);
     }
     f_.unit_error = length_error(query_, answer_, question_.scalar);
@@ -233,9 +234,9 @@ class Judgement {
     m.disagreement = answer_.yes ? Disagreement::false_hit : Disagreement::false_miss;
     m.backward = x_.backward_of_decision().value_or(Backward{0});
     if (m.backward->above >= contract_.backward) {
-      m.clause = backward_clause();
+      breaks(m, Clause::backward);
     } else if (contract_.exact_decisions) {
-      m.clause = "exact decisions";
+      breaks(m, Clause::exact_decisions);
     }
     f_.members.push_back(std::move(m));
   }
@@ -263,7 +264,7 @@ class Judgement {
       add_not_finite(member, int(part.begin));
     } else if (time < 0) {
       MemberFinding m = member_finding(member, Disagreement::negative_time, int(part.begin));
-      m.clause = fmt::format("{} is {}", query_.outputs[part.begin].name, time);
+      breaks(m, Clause::no_negative_time);
       f_.members.push_back(std::move(m));
     }
   }
@@ -293,7 +294,7 @@ class Judgement {
   }
   void add_not_finite(std::size_t member, int bad) {
     MemberFinding m = member_finding(member, Disagreement::not_finite, bad);
-    m.clause = fmt::format("{} is {}", query_.outputs[std::size_t(bad)].name, answer_.values[std::size_t(bad)]);
+    breaks(m, Clause::finite_numbers);
     f_.members.push_back(std::move(m));
   }
   /// A member counts beside a wrong decision where it is wrong for every input that has the given decision as well.
@@ -307,15 +308,28 @@ class Judgement {
     m.backward = backward.value_or(Backward{0});
     if (!decision_differs_) m.forward_ulps = seen.ulps, m.forward_absolute = seen.absolute;
     if (m.backward->above >= contract_.backward) {
-      m.clause = backward_clause();
+      breaks(m, Clause::backward);
       name_place(m, contract_.backward, 1);
     } else if (m.forward_ulps > contract_.forward) {
-      m.clause = fmt::format("forward error at most {} ulp", contract_.forward);
+      breaks(m, Clause::forward);
       name_place(m, 0, contract_.forward);
     }
     f_.members.push_back(std::move(m));
   }
-  std::string backward_clause() const { return fmt::format("backward error at most {} epsilon", contract_.backward); }
+  /// A clause in words; what is broken whatever is promised, by the number that breaks it.
+  std::string words_of(Clause c, int number) const {
+    switch (c) {
+      case Clause::none: return {};
+      case Clause::exact_decisions: return "exact decisions";
+      case Clause::backward: return fmt::format("backward error at most {} epsilon", contract_.backward);
+      case Clause::forward: return fmt::format("forward error at most {} ulp", contract_.forward);
+      case Clause::unit: return fmt::format("normals of length 1 within {} epsilon", contract_.unit);
+      case Clause::finite_numbers:
+      case Clause::no_negative_time: break;
+    }
+    return fmt::format("{} is {}", query_.outputs[std::size_t(number)].name, answer_.values[std::size_t(number)]);
+  }
+  void breaks(MemberFinding& m, Clause c) const { m.broken = c, m.clause = words_of(c, m.worst); }
   /// A wrong place that breaks the contract may break more: is it on the surface of anything that the contract allows?
   void name_place(MemberFinding& m, double k, double ulps) const {
     if (m.disagreement == Disagreement::wrong_place && x_.off_surface(m.worst, k, ulps)) {
@@ -327,7 +341,7 @@ class Judgement {
     for (std::size_t i = 0; i < query_.layout.parts.size(); ++i) {
       if (query_.layout.parts[i].role != Role::normal) continue;
       MemberFinding m = member_finding(i, Disagreement::not_unit, int(query_.layout.parts[i].begin));
-      m.clause = fmt::format("normals of length 1 within {} epsilon", contract_.unit);
+      breaks(m, Clause::unit);
       f_.members.push_back(std::move(m));
     }
   }
@@ -357,24 +371,23 @@ class Judgement {
   void conclude() {
     choose_headline();
     const MemberFinding* head = f_.headline_member();
-    if (head != nullptr && head->breaks()) return violated(head->disagreement, head->clause);
+    if (head != nullptr && head->breaks()) return violated(head->disagreement, head->broken, head->clause);
     // No member by itself: all of them together may.
-    if (f_.backward && f_.backward->above >= contract_.backward) return combination(backward_clause());
-    if (!decision_differs_ && f_.forward_ulps > contract_.forward) {
-      return combination(fmt::format("forward error at most {} ulp", contract_.forward));
-    }
+    if (f_.backward && f_.backward->above >= contract_.backward) return combination(Clause::backward);
+    if (!decision_differs_ && f_.forward_ulps > contract_.forward) return combination(Clause::forward);
     if (here_.may_match && head == nullptr) return;  // agrees
     f_.verdict = Verdict::not_proved;
     f_.disagreement = head != nullptr ? head->disagreement : Disagreement::wrong_combination;
   }
-  void combination(std::string clause) {
+  void combination(Clause c) {
     f_.headline = -1;
-    violated(Disagreement::wrong_combination, std::move(clause));
+    violated(Disagreement::wrong_combination, c, words_of(c, -1));
   }
-  void violated(Disagreement d, std::string clause) {
+  void violated(Disagreement d, Clause c, std::string words) {
     f_.verdict = promised_ ? Verdict::violates_contract : Verdict::exceeds_measure;
     f_.disagreement = d;
-    f_.clause = std::move(clause);
+    f_.broken = c;
+    f_.clause = std::move(words);
   }
 
   const Case& question_;

@@ -48,6 +48,9 @@ inline constexpr int disagreement_count = int(Disagreement::not_unit) + 1;
 std::string_view name_of(Verdict v);
 std::string_view name_of(Disagreement d);
 
+/// What of a contract an answer breaks; the last two are broken whatever is promised.
+enum class Clause { none, exact_decisions, backward, forward, unit, finite_numbers, no_negative_time };
+
 /// A proved lower bound on the backward error: no input within `above` * epsilon has an exact answer
 /// that the given one matches. On the ladder 0, 1, 2, 4 ... 2^50.
 struct Backward {
@@ -67,17 +70,20 @@ struct MemberFinding {
   double forward_ulps = 0;
   double forward_absolute = 0;  ///< the same distance in the number's own unit
   int worst = -1;               ///< index of the number that is so far off, among the query's outputs
-  std::string clause;           ///< of the contract, where the member breaks it
+  Clause broken = Clause::none;  ///< the clause of the contract that the member breaks
+  std::string clause;            ///< the same for people
 
-  bool breaks() const { return !clause.empty(); }
+  bool breaks() const { return broken != Clause::none; }
 };
 
 /// The judge's word on one answer.
 struct Finding {
   Verdict verdict = Verdict::agrees;
   Disagreement disagreement = Disagreement::none;  ///< of the headline
-  /// Of the contract, for a violation; the reason, where the subject broke, cannot answer or is not asked.
+  Clause broken = Clause::none;  ///< for a violation
+  /// The same for people; the reason, where the subject broke, cannot answer or is not asked.
   std::string clause;
+  bool late = false;  ///< broke: a time limit was reached
 
   bool truth_yes = false;                 ///< the exact decision
   Stage decided_by = Stage::interval;     ///< who decided it

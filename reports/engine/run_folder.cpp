@@ -59,7 +59,10 @@ std::optional<WrittenReport> report_in(const fs::path& folder, const fs::path& f
                   j.at("finding").at("verdict"),
                   j.at("finding").at("disagreement"),
                   j.at("headline")};
-  if (w.verdict == name_of(Verdict::broke)) w.breakage = kind_of_breakage(j.at("answer").at("reason").get<std::string>());
+  if (w.verdict == name_of(Verdict::broke)) {
+    const Json& answer = j.at("answer");
+    w.breakage = kind_of_breakage(answer.at("reason").get<std::string>(), answer.value("late", false));
+  }
   if (const Json& backward = j.at("finding").at("backward"); backward.is_object()) w.above = backward.at("above_epsilon");
   return w;
 }

@@ -56,7 +56,7 @@ void Tally::count(const Finding& f) {
 }
 
 std::string Tally::breakage_of(const Finding& f) const {
-  std::string kind = kind_of_breakage(f.clause);
+  std::string kind = kind_of_breakage(f.clause, f.late);
   return breakages.contains(kind) || breakages.size() < most_kinds ? kind : other_kind;
 }
 

@@ -75,9 +75,9 @@ std::string without_numbers(std::string_view text) {
 
 }  // namespace
 
-std::string kind_of_breakage(std::string_view reason) {
+std::string kind_of_breakage(std::string_view reason, bool late) {
   if (reason.empty()) return "no reason given";
-  if (reason.starts_with("no answer within ")) return "no answer in time";
+  if (late) return "no answer in time";
   // The head's own number, a signal or an exit code, is part of the cause.
   const bool ended = reason.starts_with("killed by signal ") || reason.starts_with("left with exit code ");
   const bool has_head = ended || reason.starts_with("exception: ");

@@ -308,10 +308,10 @@ class Explanation {
     const MemberFinding* head = f.headline_member();
     const bool says_it_itself = head != nullptr && !head->backward && head->disagreement != Disagreement::not_unit;
     if (!is_bad(f) || f.verdict == Verdict::broke || says_it_itself) return "";
-    if (f.clause.starts_with("backward") && !r_.standard.promised) {
+    if (f.broken == Clause::backward && !r_.standard.promised) {
       return fmt::format("{} a backward error of at most {:g} times the largest number in each group", it, measure().error);
     }
-    if (f.clause.starts_with("backward")) {
+    if (f.broken == Clause::backward) {
       return fmt::format("{} a backward error of at most {} epsilon", it, epsilons_text(contract.backward));
     }
     return fmt::format("{} {}", it, f.clause);

@@ -147,7 +147,11 @@ Json answer_to_json(const Query& query, const Answer& answer) {
   Json j;
   switch (answer.status) {
     case Answer::Status::cannot_answer: return {{"status", "cannot answer"}, {"reason", answer.reason()}};
-    case Answer::Status::broke: return {{"status", "broke"}, {"reason", answer.reason()}};
+    case Answer::Status::broke: {
+      Json broke{{"status", "broke"}, {"reason", answer.reason()}};
+      if (answer.late) broke["late"] = true;
+      return broke;
+    }
     case Answer::Status::answered: j = {{"status", "answered"}, {"yes", answer.yes}};
   }
   std::vector<Field> fields;

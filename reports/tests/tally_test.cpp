@@ -34,6 +34,7 @@ MemberFinding breaking(Disagreement d, int member, double above) {
   m.member = member;
   m.disagreement = d;
   m.backward = Backward{above};
+  m.broken = Clause::backward;
   m.clause = "backward error at most 8 epsilon";
   return m;
 }
@@ -139,10 +140,11 @@ TEST(Tally, KnowsSoManyReasonsAndNoMore) {
 }
 
 TEST(Breakage, IsToldByItsReason) {
-  const auto kind = kind_of_breakage;
+  const auto kind = [](std::string_view reason) { return kind_of_breakage(reason); };
   EXPECT_EQ(kind("killed by signal 11 (Segmentation fault)"), "killed by signal 11 (Segmentation fault)");
-  EXPECT_EQ(kind("no answer within 2.000 s"), "no answer in time");
-  EXPECT_EQ(kind("no answer within 0.500 s"), "no answer in time");
+  EXPECT_EQ(kind_of_breakage("no answer within 2.000 s", true), "no answer in time");
+  EXPECT_EQ(kind_of_breakage("no hello within 2.000 s", true), "no answer in time");
+  EXPECT_EQ(kind("no answer within reach"), "no answer within reach") << "a subject's own words";
   EXPECT_EQ(kind("memory limit reached"), "memory limit reached");
   EXPECT_EQ(kind("left with exit code 3"), "left with exit code 3");
   EXPECT_EQ(kind("killed by signal 6 (Aborted): nearmiss: ./include/fcl/narrowphase/distance-inl.h:163: typename"),
