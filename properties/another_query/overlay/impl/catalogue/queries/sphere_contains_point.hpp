@@ -16,6 +16,8 @@ struct sphere_contains_point {
     return std::tuple(member("sphere", &sphere_contains_point::sphere),
                       member("point", &sphere_contains_point::point, Role::position));
   }
+
+  static constexpr Traits traits{.operands = {"the sphere", "the point"}, .grows = true};
 };
 
 }  // namespace nearmiss::inputs
