@@ -89,7 +89,7 @@ struct Body {
 template <class A, class B>
 struct Bodies {
   template <class Q>
-  explicit Bodies(const Q& q) : a(the<A>(q)), b(the<B, std::is_same_v<A, B> ? 1 : 0>(q)) {}
+  explicit Bodies(const Q& q) : a(the<A>(q)), b(the_other<A, B>(q)) {}
   Body<A> a;
   Body<B> b;
 };
@@ -119,7 +119,8 @@ struct Algorithm : Bodies<A, B> {
   template <class Q>
   explicit Algorithm(const Q& q)
       : Bodies<A, B>(q),
-        algorithm(dispatcher().findAlgorithm(&this->a.wrapper, &this->b.wrapper, nullptr, BT_CONTACT_POINT_ALGORITHMS)) {}
+        algorithm(
+            dispatcher().findAlgorithm(&this->a.wrapper, &this->b.wrapper, nullptr, BT_CONTACT_POINT_ALGORITHMS)) {}
   ~Algorithm() {
     algorithm->~btCollisionAlgorithm();
     dispatcher().freeCollisionAlgorithm(algorithm);
@@ -135,7 +136,9 @@ struct Algorithm : Bodies<A, B> {
 struct SphereBoxDistance : Bodies<Sphere, Box> {
   template <class Q>
   explicit SphereBoxDistance(const Q& q)
-      : Bodies(q), center(vector(the<Sphere>(q).center)), radius(the<Sphere>(q).radius),
+      : Bodies(q),
+        center(vector(the<Sphere>(q).center)),
+        radius(the<Sphere>(q).radius),
         algorithm(nullptr, information(), &a.wrapper, &b.wrapper, false) {}
   static btCollisionAlgorithmConstructionInfo information() {
     btCollisionAlgorithmConstructionInfo i;
@@ -207,9 +210,9 @@ template <class B>
 struct Sweep : Bodies<Sphere, B> {
   template <class Q>
   explicit Sweep(const Q& q)
-      : Bodies<Sphere, B>(q), from(pose(the<Sphere>(q))),
-        to(at(end_of_motion(the<Sphere>(q).center, q.velocity, the<Sphere>(q).radius,
-                            the<B, std::is_same_v<B, Sphere> ? 1 : 0>(q)))),
+      : Bodies<Sphere, B>(q),
+        from(pose(the<Sphere>(q))),
+        to(at(end_of_motion(the<Sphere>(q).center, q.velocity, the<Sphere>(q).radius, the_other<Sphere, B>(q)))),
         still(this->b.object.getWorldTransform()) {}
   template <class Cast>
   Said by(Cast&& cast) const {
@@ -250,8 +253,11 @@ template <class B>
 struct RaySubsimplex {
   template <class Q>
   explicit RaySubsimplex(const Q& q)
-      : b(the<B>(q)), point(shape(Point{})), from(at(q.point)),
-        to(at(end_of_motion(q.point, q.velocity, btScalar(0), the<B>(q)))), still(b.object.getWorldTransform()) {
+      : b(the<B>(q)),
+        point(shape(Point{})),
+        from(at(q.point)),
+        to(at(end_of_motion(q.point, q.velocity, btScalar(0), the<B>(q)))),
+        still(b.object.getWorldTransform()) {
     point.setMargin(0);
   }
   Said ask() const {
@@ -287,7 +293,8 @@ struct TriangleRay {
   template <class Q>
   explicit TriangleRay(const Q& q)
       : corners{vector(the<Triangle>(q).v0), vector(the<Triangle>(q).v1), vector(the<Triangle>(q).v2)},
-        from(vector(q.point)), to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<Triangle>(q)))) {}
+        from(vector(q.point)),
+        to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<Triangle>(q)))) {}
   Said ask() const {
     Nearest nearest(from, to, btTriangleRaycastCallback::kF_FilterBackfaces);
     nearest.processTriangle(corners, 0, 0);
@@ -302,8 +309,10 @@ struct TriangleRay {
 struct AABoxOutcodes {
   template <class Q>
   explicit AABoxOutcodes(const Q& q)
-      : from(vector(q.point)), to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<AABox>(q)))),
-        min(vector(the<AABox>(q).min)), max(vector(the<AABox>(q).max)) {}
+      : from(vector(q.point)),
+        to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<AABox>(q)))),
+        min(vector(the<AABox>(q).min)),
+        max(vector(the<AABox>(q).max)) {}
   Said ask() const {
     btScalar fraction = 1;
     btVector3 normal(0, 0, 0);
@@ -318,7 +327,8 @@ struct AABoxOutcodes {
 struct AABoxSlabs {
   template <class Q>
   explicit AABoxSlabs(const Q& q)
-      : from(vector(the<Ray>(q).origin)), direction(vector(the<Ray>(q).direction)),
+      : from(vector(the<Ray>(q).origin)),
+        direction(vector(the<Ray>(q).direction)),
         bounds{vector(the<AABox>(q).min), vector(the<AABox>(q).max)} {
     for (int i = 0; i < 3; ++i) {
       inverse[i] = direction[i] == 0 ? BT_LARGE_FLOAT : 1 / direction[i];

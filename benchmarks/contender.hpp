@@ -77,13 +77,15 @@ class ContenderOf final : public Contender {
       const auto after = Tier::counts();
       const auto share = [&](auto stage) { return double(after.*stage - before.*stage) / double(size_); };
       using Counts = std::remove_cvref_t<decltype(after)>;
-      return {{"filter", share(&Counts::filter)}, {"extended", share(&Counts::extended)}, {"exact", share(&Counts::exact)}};
+      return {
+          {"filter", share(&Counts::filter)}, {"extended", share(&Counts::extended)}, {"exact", share(&Counts::exact)}};
     }
     return {};
   }
 
  private:
-  /// A scene at the begin of a cache line, so that each takes as few lines as it can: the query is timed, not the memory.
+  /// A scene at the begin of a cache line, so that each takes as few lines as it can: the query is timed, not the
+  /// memory.
   struct alignas(64) Placed {
     explicit Placed(const Q& q) : scene(q) {}
     Scene scene;

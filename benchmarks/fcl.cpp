@@ -68,8 +68,7 @@ fcl::Transform3d pose(const Surface&) { return fcl::Transform3d::Identity(); }
 template <class A, class B>
 struct Pair {
   template <class Q>
-  explicit Pair(const Q& q)
-      : Pair(the<A>(q), the<B, std::is_same_v<A, B> ? 1 : 0>(q)) {}
+  explicit Pair(const Q& q) : Pair(the<A>(q), the_other<A, B>(q)) {}
   Pair(const A& first, const B& second)
       : a(shape(first)), b(shape(second)), pose_a(pose(first)), pose_b(pose(second)) {}
 
@@ -104,7 +103,10 @@ template <class A>
 struct TriangleOverlap {
   template <class Q>
   explicit TriangleOverlap(const Q& q)
-      : a(shape(the<A>(q))), pose_a(pose(the<A>(q))), v0(vector(the<Triangle>(q).v0)), v1(vector(the<Triangle>(q).v1)),
+      : a(shape(the<A>(q))),
+        pose_a(pose(the<A>(q))),
+        v0(vector(the<Triangle>(q).v0)),
+        v1(vector(the<Triangle>(q).v1)),
         v2(vector(the<Triangle>(q).v2)) {}
   Said ask() const { return {solver.shapeTriangleIntersect(a, pose_a, v0, v1, v2)}; }
 
@@ -121,7 +123,7 @@ using Target = std::conditional_t<std::is_same_v<B, Plane>, Surface, B>;
 template <class B, bool advancement>
 struct Motion : Pair<Sphere, Target<B>> {
   template <class Q>
-  explicit Motion(const Q& q) : Motion(the<Sphere>(q), q.velocity, the<B, std::is_same_v<B, Sphere> ? 1 : 0>(q)) {}
+  explicit Motion(const Q& q) : Motion(the<Sphere>(q), q.velocity, the_other<Sphere, B>(q)) {}
   Motion(const Sphere& sphere, const Vec3& velocity, const B& target)
       : Pair<Sphere, Target<B>>(sphere, Target<B>{target}),
         end(at(end_of_motion(sphere.center, velocity, sphere.radius, target))) {}

@@ -4,8 +4,8 @@
 ///
 /// Times the same work with the subject in its host and in this process, in turns, and tells the medians of the
 /// ratios of processor time (of both processes) and of wall time; then what a case costs that goes to a program over
-/// pipes, for each COMMAND (docs/protocol.md). Exit code 1 where a run takes more than 20 % more processor time: wall time
-/// says as much of what else a machine does.
+/// pipes, for each COMMAND (docs/protocol.md). Exit code 1 where a run takes more than 20 % more processor time: wall
+/// time says as much of what else a machine does.
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -172,8 +172,8 @@ void measure_program(const Subject& program, int rounds) {
     }
     const double cases = double(batches * batch_size);
     fmt::print("| `{}` | {} | `{}` | {:.0f} | {:.0f} |\n", program.name,
-               program.host->batches == HostProgram::Batches::json ? "JSON" : "binary", o.query, 1e9 * median(processor) / cases,
-               1e9 * median(wall) / cases);
+               program.host->batches == HostProgram::Batches::json ? "JSON" : "binary", o.query,
+               1e9 * median(processor) / cases, 1e9 * median(wall) / cases);
   }
 }
 
@@ -212,8 +212,9 @@ long a process waits for its turn on a machine that others use: this one, of {} 
 
 | query | run, ns | processor | wall | asking, ns | processor | wall |
 |---|--:|--:|--:|--:|--:|--:|
-)", command_line, subject.name, pairs, batches, batch_size, percent(most_cost).substr(1), std::thread::hardware_concurrency(), load(),
-             benchmarks::processor());
+)",
+             command_line, subject.name, pairs, batches, batch_size, percent(most_cost).substr(1),
+             std::thread::hardware_concurrency(), load(), benchmarks::processor());
   double worst = 0;
   for (const Costs& c : all) {
     fmt::print("| `{}` | {:.0f} | {} | {} | {:.0f} | {} | {} |\n", c.query->name, c.run.nanoseconds(),
@@ -275,7 +276,8 @@ wall time.
 
 | program | batches | query | processor, ns | wall, ns |
 |---|---|---|--:|--:|
-)", pairs, batches, batch_size);
+)",
+               pairs, batches, batch_size);
     for (const std::string& command : commands) load_command(command);
     for (const Subject& s : subjects()) {
       if (!s.command.empty()) measure_program(s, pairs);

@@ -42,7 +42,9 @@ struct Pairing {
   const Offering* offering;
 
   Asked ask(Case c) const { return {c, offering->answer(c.values)}; }
-  Finding judged(const Asked& a, Detail detail) const { return judge(a.question, a.answer, offering->contract, detail); }
+  Finding judged(const Asked& a, Detail detail) const {
+    return judge(a.question, a.answer, offering->contract, detail);
+  }
 };
 
 bool decided_by_interval(const Case& c) {
@@ -73,7 +75,8 @@ std::vector<Asked> with_wrong_answers(const Pairing& p) {
     bool off = false;
     for (std::size_t i = 0; i < p.query->outputs.size(); ++i) {
       const Role role = p.query->outputs[i].role;
-      if (role == Role::flag || role == Role::index || role == Role::normal || !std::isfinite(a.answer.values[i])) continue;
+      if (role == Role::flag || role == Role::index || role == Role::normal || !std::isfinite(a.answer.values[i]))
+        continue;
       off = off || a.answer.values[i] != 0;
       a.answer.values[i] *= 1 + 0x1p-12;
     }
@@ -150,14 +153,17 @@ void enter_all() {
     for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
       const Subject* fast = find_subject("collide-fast-" + std::string(name_of(scalar)));
       const Pairing p{&q, scalar, &fast->offering(q.name)};
-      enter(p, "judge", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::verdict); });
-      enter(p, "wrong", [](benchmark::State& s, const Pairing& x) {
-        time_cases(s, x, with_wrong_answers(x), Detail::verdict);
-      });
-      enter(p, "forward", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::forward); });
-      enter(p, "degenerate", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, degenerate(x), Detail::verdict); });
+      enter(p, "judge",
+            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::verdict); });
+      enter(p, "wrong",
+            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, with_wrong_answers(x), Detail::verdict); });
+      enter(p, "forward",
+            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::forward); });
+      enter(p, "degenerate",
+            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, degenerate(x), Detail::verdict); });
       enter(p, "worst", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, {costliest(x)}, Detail::full); });
-      enter(p, "stages", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, all_sorts(x), Detail::verdict); });
+      enter(p, "stages",
+            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, all_sorts(x), Detail::verdict); });
     }
   }
 }

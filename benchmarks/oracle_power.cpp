@@ -1,11 +1,12 @@
-/// How wide the oracle's enclosures are, and which lies the judge tells: writes docs/oracle-power.md to standard output.
+/// How wide the oracle's enclosures are, and which lies the judge tells: writes docs/oracle-power.md to standard
+/// output.
 ///
 ///   oracle_power [--cases=N] [--lies=N] [QUERY ...]
 ///
 /// Of each plain scene the inputs are widened by 2^24 epsilon of double. The enclosure's width is compared with
-/// that of the hull of the exact answers to inputs within: random ones and, for each number of the answer, the two corners
-/// to which its slopes point. Then lies are told about --lies cases of each family. Exit code 1 where a query's median is
-/// above four times, or where fewer than 99.9 % of a family's lies are told.
+/// that of the hull of the exact answers to inputs within: random ones and, for each number of the answer, the two
+/// corners to which its slopes point. Then lies are told about --lies cases of each family. Exit code 1 where a query's
+/// median is above four times, or where fewer than 99.9 % of a family's lies are told.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -207,7 +208,8 @@ in both scalars, and 2^30 ε of double. A lie is about the decision alone, or ab
 bound. `tiny`, `thin` and `degenerate` are scenes of which some things are small, nearly flat, or flat and concentric;
 `huge` and `minute` have lengths of 2^500 to 2^1018 and of 2^-500 to 2^-1060 (float: 2^60 to 2^122, 2^-60 to 2^-140).
 
-| query | lies |)", cases);
+| query | lies |)",
+             cases);
   for (const Family f : families) fmt::print(" {} |", name_of(f));
   fmt::print("\n|---|---|");
   for (std::size_t i = 0; i < std::size(families); ++i) fmt::print("---|");
@@ -250,7 +252,8 @@ indices alone.
 
 | query | part | median | 90 % | 99 % |
 |---|---|---|---|---|
-)", scenes);
+)",
+             scenes);
   bool good = true;
   std::string wide;
   double widest = 0;
@@ -261,14 +264,15 @@ indices alone.
       if (r.all.empty()) continue;
       every.all.insert(every.all.end(), r.all.begin(), r.all.end());
       if (r.at(0.5) > most_median) wide += fmt::format("{}`{}` {}", wide.empty() ? "" : ", ", q.name, r.part);
-      fmt::print("| `{}` | {} | {} | {} | {} |\n", q.name, r.part, shown(r.at(0.5)), shown(r.at(0.9)), shown(r.at(0.99)));
+      fmt::print("| `{}` | {} | {} | {} | {} |\n", q.name, r.part, shown(r.at(0.5)), shown(r.at(0.9)),
+                 shown(r.at(0.99)));
     }
     if (every.all.empty()) continue;
     widest = std::max(widest, every.at(0.5));
     good = good && every.at(0.5) <= most_median;
   }
-  fmt::print("\nThe largest median of a query, over all its numbers, is {}; parts with a median above {}: {}.\n", shown(widest),
-             most_median, wide.empty() ? "none" : wide);
+  fmt::print("\nThe largest median of a query, over all its numbers, is {}; parts with a median above {}: {}.\n",
+             shown(widest), most_median, wide.empty() ? "none" : wide);
   std::vector<const Query*> with_lies;
   for (const Query& q : catalogue()) {
     const bool chosen = names.empty() || std::find(names.begin(), names.end(), q.name) != names.end();

@@ -12,7 +12,8 @@ template <class Tier, class Q>
 struct Ready {
   explicit Ready(const Q& q) : arguments(adapters::arguments<Tier>(q)) {}
   auto ask() const noexcept {
-    return std::apply([](const auto&... a) { return adapters::CollideFunction<Q>::template call<Tier>(a...); }, arguments);
+    return std::apply([](const auto&... a) { return adapters::CollideFunction<Q>::template call<Tier>(a...); },
+                      arguments);
   }
   decltype(adapters::arguments<Tier>(std::declval<Q>())) arguments;
 };

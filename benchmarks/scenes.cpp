@@ -53,9 +53,7 @@ Scenes make(const Query& query) {
 
 }  // namespace
 
-double Scenes::share_of_yes() const {
-  return double(std::count(yes.begin(), yes.end(), true)) / double(yes.size());
-}
+double Scenes::share_of_yes() const { return double(std::count(yes.begin(), yes.end(), true)) / double(yes.size()); }
 
 void set_scene_count(std::size_t n) { count = n; }
 std::size_t scene_count() { return count; }

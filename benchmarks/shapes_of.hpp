@@ -34,6 +34,13 @@ const S& the(const Q& q) {
   }
 }
 
+/// The shape of type B that stands after one of type A: the second of two of one type.
+template <class A, class B, class Q>
+const B& the_other(const Q& q) {
+  constexpr int k = std::is_same_v<A, B> ? 1 : 0;
+  return the<B, k>(q);
+}
+
 template <class T>
 T dot(const collide::Vec3<T>& a, const collide::Vec3<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -68,7 +75,8 @@ collide::Sphere<T> ball_around(const collide::Triangle<T>& t) {
 /// Where a motion that goes on for ever may end without missing anything: past the shape. Other libraries
 /// move from a start to an end.
 template <class S, class T>
-collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius, const S& shape) {
+collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius,
+                               const S& shape) {
   const collide::Sphere<T> ball = ball_around(shape);
   const T speed = norm(velocity);
   if (!(speed > 0)) return start;

@@ -224,9 +224,7 @@ struct Motion {
   Number radius;
 
   Point at(Real time) const { return plus(from.at, velocity.at, time); }
-  Body body_at(Real time) const {
-    return ball({at(time), from.slack + time * velocity.slack}, radius);
-  }
+  Body body_at(Real time) const { return ball({at(time), from.slack + time * velocity.slack}, radius); }
 };
 
 /// The signed distance and how far it may be off.
@@ -236,7 +234,8 @@ inline Number distance_at(const Motion& m, const Body& fixed, Real time) {
           m.from.slack + time * m.velocity.slack + m.radius.slack + fixed.slack};
 }
 
-/// About the time of least distance within [0, until]: the distance is convex, so that the sign of its slope tells the side.
+/// About the time of least distance within [0, until]: the distance is convex, so that the sign of its slope tells the
+/// side.
 inline Real time_of_least_distance(const Motion& m, const Body& fixed, Real until) {
   const Real speed = length(m.velocity.at);
   if (!(speed > 0)) return 0;

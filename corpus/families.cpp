@@ -44,7 +44,8 @@ void flatten_corners(Draft& d, const Thing& thing, double share) {
 
 bool is_upright_box(const Draft& d, const Thing& thing) {
   return thing.positions.size() == 2 && thing.sizes.empty() &&
-         std::find(d.plan.upper.begin(), d.plan.upper.end(), d.plan.vectors[thing.positions[1]].begin) != d.plan.upper.end();
+         std::find(d.plan.upper.begin(), d.plan.upper.end(), d.plan.vectors[thing.positions[1]].begin) !=
+             d.plan.upper.end();
 }
 
 void flatten_upright_box(Draft& d, const Thing& thing, double share) {
@@ -119,9 +120,12 @@ void make_degenerate(Draft& d) {
   for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
     const Thing& thing = d.plan.things[i];
     if (i != chosen && !d.random.one_in(3)) continue;
-    if (d.random.one_in(4)) shrink_thing(d, thing, 0);
-    else if (thing.positions.size() >= 3 && d.random.one_in(2)) d.set_vector(thing.positions[0], d.vector(thing.positions[d.random.between(1, 2)]));
-    else flatten_thing(d, thing, 0);
+    if (d.random.one_in(4))
+      shrink_thing(d, thing, 0);
+    else if (thing.positions.size() >= 3 && d.random.one_in(2))
+      d.set_vector(thing.positions[0], d.vector(thing.positions[d.random.between(1, 2)]));
+    else
+      flatten_thing(d, thing, 0);
   }
   make_parallel(d, 0);
   if (d.random.one_in(4)) make_concentric(d);
@@ -196,8 +200,9 @@ std::string_view name_of(Family family) {
 
 Case case_of(Family family, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
   const Plan& plan = plan_of(query);
-  Random random(Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar) ^ std::uint64_t(family) << 8).bits() ^
-                Random(index).bits());
+  Random random(
+      Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar) ^ std::uint64_t(family) << 8).bits() ^
+      Random(index).bits());
   Case c{&query, scalar, std::vector<double>(query.inputs.size()), "family", seed, index, {}};
   constexpr int attempts = 1000;
   for (int i = 0; i < attempts; ++i) {

@@ -72,7 +72,8 @@ void apply(Draft& d, const std::bitset<most_moves>& chosen, std::vector<std::str
 }
 
 std::size_t count_of_ordinary_moves() {
-  static const auto count = std::size_t(std::count_if(moves().begin(), moves().end(), [](const Move& m) { return !m.extreme; }));
+  static const auto count =
+      std::size_t(std::count_if(moves().begin(), moves().end(), [](const Move& m) { return !m.extreme; }));
   return count;
 }
 

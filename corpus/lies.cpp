@@ -114,8 +114,8 @@ class Inputs {
   }
 
  private:
-  /// One part in 2^10 more covers the rounding of what follows: the widening is at least 2^-44 of all numbers of the group,
-  /// of which long double keeps 2^-64.
+  /// One part in 2^10 more covers the rounding of what follows: the widening is at least 2^-44 of all numbers of the
+  /// group, of which long double keeps 2^-64.
   static Real more_than(Real slack) { return slack * (1 + 0x1p-10L); }
 
   std::span<const double> values_;
@@ -146,7 +146,9 @@ class Liar {
     const Real end = above ? high : low, side = above ? 1 : -1;
     const Real wrong = end + side * (by(high - low, size) + pad(size));
     const double told = nearest(wrong);
-    if (!std::isfinite(told) || !(told >= least && told <= most) || !(side * (told - end) >= pad(std::max<Real>(size, std::abs(told))) / 2)) return;
+    if (!std::isfinite(told) || !(told >= least && told <= most) ||
+        !(side * (told - end) >= pad(std::max<Real>(size, std::abs(told))) / 2))
+      return;
     Answer a;
     a.yes = yes, a.given = std::uint64_t{1} << leaf, a.values[leaf] = told;
     told_.push_back({topic, a});
@@ -218,8 +220,10 @@ void nearest_point(const std::vector<Body>& pieces, const Vector& p, Liar& out) 
   const std::size_t k = out.below(3);
   Real low = infinite, high = -infinite, largest = 0;
   for (const Body& b : pieces) {
-    low = std::min(low, -b.reach(scaled(direction(k), -1)) - slack), high = std::max(high, b.reach(direction(k)) + slack);
-    for (std::size_t j = 0; j < 3; ++j) largest = std::max({largest, b.reach(direction(j)), b.reach(scaled(direction(j), -1))});
+    low = std::min(low, -b.reach(scaled(direction(k), -1)) - slack),
+    high = std::max(high, b.reach(direction(k)) + slack);
+    for (std::size_t j = 0; j < 3; ++j)
+      largest = std::max({largest, b.reach(direction(j)), b.reach(scaled(direction(j), -1))});
   }
   out.within(Topic::place, k, std::max(low, p.at[k] - around), std::min(high, p.at[k] + around), largest);
   const Body& some = pieces[out.below(pieces.size())];
@@ -229,10 +233,13 @@ void nearest_point(const std::vector<Body>& pieces, const Vector& p, Liar& out) 
 
 std::vector<Body> edges_of(const std::vector<Vector>& corners) {
   std::vector<Body> edges;
-  for (std::size_t i = 0; i < corners.size(); ++i) edges.push_back(hull({corners[i], corners[(i + 1) % corners.size()]}));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    edges.push_back(hull({corners[i], corners[(i + 1) % corners.size()]}));
   return edges;
 }
-std::vector<Body> halves_of(const std::vector<Vector>& v) { return {hull({v[0], v[1], v[2]}), hull({v[0], v[2], v[3]})}; }
+std::vector<Body> halves_of(const std::vector<Vector>& v) {
+  return {hull({v[0], v[1], v[2]}), hull({v[0], v[2], v[3]})};
+}
 
 void closest_point_segment(Inputs in, Liar& out) {
   const std::vector<Body> pieces{hull(in.vectors(2))};
@@ -305,7 +312,8 @@ void point_in_triangle(Inputs in, Liar& out) {
   const Vector normal = in.vector();
   const int axis = int(in.number().at);
   const Vector p = in.vector();
-  contained(normal, axis, [&](std::size_t k) { return side_of_triangle(corners, k, p); }, out);
+  contained(
+      normal, axis, [&](std::size_t k) { return side_of_triangle(corners, k, p); }, out);
 }
 void point_in_rectangle(Inputs in, Liar& out) {
   const std::vector<Vector> v = in.vectors(4);
@@ -324,7 +332,8 @@ constexpr std::size_t time_leaf = 0, location_leaf = 1;
 /// A contact lies within the body's bounds; and one after time 0 no further from the center's path than the radius.
 void contact_place(const Motion& m, const Body& fixed, Real from, Real to, std::size_t leaf, Liar& out) {
   const std::size_t k = out.below(3);
-  const Real thick = fixed.radius + fixed.slack, around = m.radius.at + m.radius.slack + m.from.slack + to * m.velocity.slack;
+  const Real thick = fixed.radius + fixed.slack,
+             around = m.radius.at + m.radius.slack + m.from.slack + to * m.velocity.slack;
   const Real a = from > 0 ? m.at(from)[k] : -infinite, b = from > 0 ? m.at(to)[k] : infinite;
   Real largest = 0;
   for (std::size_t j = 0; j < 3; ++j) {
@@ -373,7 +382,8 @@ void moving_sphere_plane(Inputs in, Liar& out) {
   const Vector normal = in.vector();
   const Number offset = in.number();
   if (!(bodies::length(normal.at) > 4 * normal.slack)) return;
-  const Number height = (dot(normal, m.from) + offset) / length(normal), approach = Number{0, 0} - dot(unit(normal), m.velocity);
+  const Number height = (dot(normal, m.from) + offset) / length(normal),
+               approach = Number{0, 0} - dot(unit(normal), m.velocity);
   Crossing c = crossing_of(height - m.radius, approach);
   c.surely_not = surely_negative(height + m.radius) || surely_negative(approach);
   plane_contact(m, c, unit(normal) * (Number{0, 0} - m.radius), out);
@@ -423,7 +433,8 @@ Hit gated_hit(const Motion& m, const std::vector<Vector>& corners) {
   return h;
 }
 template <class HitOf>
-void moving_past_triangles(const Motion& m, const std::vector<std::vector<Vector>>& triangles, HitOf hit_of, Liar& out) {
+void moving_past_triangles(const Motion& m, const std::vector<std::vector<Vector>>& triangles, HitOf hit_of,
+                           Liar& out) {
   Hit all{false, true, infinite, infinite};
   std::vector<Vector> corners;
   for (const std::vector<Vector>& t : triangles) {
@@ -436,7 +447,9 @@ void moving_past_triangles(const Motion& m, const std::vector<std::vector<Vector
   if (all.surely_not) out.surely(false);
   if (all.surely) hit(m, hull(corners), all.not_before, all.by, time_leaf, location_leaf, out);
 }
-std::vector<std::vector<Vector>> halves(const std::vector<Vector>& v) { return {{v[0], v[1], v[2]}, {v[0], v[2], v[3]}}; }
+std::vector<std::vector<Vector>> halves(const std::vector<Vector>& v) {
+  return {{v[0], v[1], v[2]}, {v[0], v[2], v[3]}};
+}
 
 void moving_point_triangle(Inputs in, Liar& out) {
   const Motion m = in.moving_point();
@@ -455,8 +468,8 @@ void moving_sphere_rectangle(Inputs in, Liar& out) {
   moving_past_triangles(m, halves(in.vectors(4)), gated_hit, out);
 }
 
-/// A point that crosses the faces of a box that may be flat: while one of its coordinates passes from one side to the other,
-/// the others stay within.
+/// A point that crosses the faces of a box that may be flat: while one of its coordinates passes from one side to the
+/// other, the others stay within.
 bool surely_crosses(const Motion& m, const Body& box) {
   const Point at = box.local(m.from.at);
   Point step;
@@ -464,7 +477,8 @@ bool surely_crosses(const Motion& m, const Body& box) {
   for (int k = 0; k < 3; ++k) {
     if (step[k] == 0) continue;
     const Real middle = -at[k] / step[k], spread = box.half[k] / std::abs(step[k]);
-    const Real late = middle + spread, slack = m.from.slack + box.slack + 2 * std::max<Real>(late, 0) * m.velocity.slack;
+    const Real late = middle + spread,
+               slack = m.from.slack + box.slack + 2 * std::max<Real>(late, 0) * m.velocity.slack;
     const Real more = 2 * slack / std::abs(step[k]), first = middle - spread - more, last = late + more;
     if (!(first > 0)) continue;
     bool within = true;
@@ -478,7 +492,7 @@ bool surely_crosses(const Motion& m, const Body& box) {
   return false;
 }
 Real leaves_flat_box_by(const Motion& m, const Body& box) {
-  return 2 * (bodies::length(minus(box.center, m.from.at)) + box.size() + m.from.slack + box.slack) / 
+  return 2 * (bodies::length(minus(box.center, m.from.at)) + box.size() + m.from.slack + box.slack) /
          std::max<Real>(bodies::length(m.velocity.at) - m.velocity.slack, 0);
 }
 
@@ -487,15 +501,18 @@ void entering(const Motion& m, const Body& fixed, std::size_t time, std::size_t 
   const Passage p = passage_of(m, fixed);
   if (p.surely_never) return out.surely(false);
   const bool has_size = surely_positive(m.radius);
-  if (p.surely_meet && (has_size || p.surely_start_apart)) return hit(m, fixed, p.not_before, p.by, time, location, out);
+  if (p.surely_meet && (has_size || p.surely_start_apart))
+    return hit(m, fixed, p.not_before, p.by, time, location, out);
   const bool is_point = surely_zero(m.radius);
-  if (is_point && (p.surely_start_overlapping || fixed.depth(m.from.at) > m.from.slack + fixed.slack)) return out.surely(false);
+  if (is_point && (p.surely_start_overlapping || fixed.depth(m.from.at) > m.from.slack + fixed.slack))
+    return out.surely(false);
   if (!fixed.is_box()) return;
   // Deep enough within the box at some time, or through it.
   const Real about = time_of_least_distance(m, fixed, infinite);
   const Real through = fixed.depth(m.at(about)) - fixed.slack - m.from.slack - about * m.velocity.slack;
   const bool enters = through > 0 || surely_crosses(m, fixed);
-  if (enters && p.surely_start_apart) hit(m, fixed, p.not_before, through > 0 ? about : leaves_flat_box_by(m, fixed), time, location, out);
+  if (enters && p.surely_start_apart)
+    hit(m, fixed, p.not_before, through > 0 ? about : leaves_flat_box_by(m, fixed), time, location, out);
 }
 template <Body (Inputs::*fixed)()>
 void moving_point_past(Inputs in, Liar& out) {
@@ -519,7 +536,8 @@ void ray_aabox(Inputs in, Liar& out) {
   if (p.surely_never) return out.surely(false);
   const Real about = time_of_least_distance(m, box, infinite);
   const bool starts_in = box.depth(m.from.at) > box.slack + m.from.slack;
-  const bool enters = box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack || surely_crosses(m, box);
+  const bool enters =
+      box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack || surely_crosses(m, box);
   if (!starts_in && !enters) return;
   out.surely(true);
   constexpr std::size_t location = 1;  // behind the flag
@@ -541,7 +559,8 @@ void moving_point_sphere(Inputs in, Liar& out) {
   if (surely_zero(speed)) return out.surely(false);
   if (!(speed.at > 2 * speed.slack)) return;
   const Real way = fixed.radius + fixed.slack + m.from.slack;
-  hit(m, fixed, (-start.at - start.slack) / (speed.at + speed.slack), 2 * way / (speed.at - speed.slack), time_leaf, location_leaf, out);
+  hit(m, fixed, (-start.at - start.slack) / (speed.at + speed.slack), 2 * way / (speed.at - speed.slack), time_leaf,
+      location_leaf, out);
 }
 template <Body (Inputs::*fixed)()>
 void moving_sphere_passes(Inputs in, Liar& out) {
@@ -556,8 +575,10 @@ void moving_sphere_passes(Inputs in, Liar& out) {
 
 void overlapping(const Body& a, const Body& b, Liar& out) {
   const Gap g = gap_of(a, b);
-  if (surely_apart(a, b, g)) out.surely(false);
-  else if (surely_overlap(a, b, g)) out.surely(true);
+  if (surely_apart(a, b, g))
+    out.surely(false);
+  else if (surely_overlap(a, b, g))
+    out.surely(true);
 }
 template <Body (Inputs::*first)(), Body (Inputs::*second)()>
 void overlap(Inputs in, Liar& out) {
@@ -620,7 +641,8 @@ void box_plane_penetration(Inputs in, Liar& out) {
   bool behind = false;
   for (std::size_t i = 0; i < 8; ++i) {
     Vector x{body.center, body.slack};
-    for (std::size_t k = 0; k < 3; ++k) x.at = plus(x.at, body.axes[k], (i >> k & 1) != 0 ? body.half[k] : -body.half[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      x.at = plus(x.at, body.axes[k], (i >> k & 1) != 0 ? body.half[k] : -body.half[k]);
     const Number height = (dot(normal, x) + offset) / length(normal);
     if (height.at < lowest.at) lowest = height;
     lowest.slack = std::max(lowest.slack, height.slack);
@@ -661,7 +683,8 @@ void box_box_penetration(Inputs in, Liar& out) {
   Real most = infinite;
   for (int i = 0; i < 6; ++i) {
     const Point& u = i < 3 ? a.axes[i] : b.axes[i - 3];
-    const Real overlap = a.reach(u) - bodies::dot(u, a.center) + b.reach(u) - bodies::dot(u, b.center) - std::abs(bodies::dot(u, between.at));
+    const Real overlap = a.reach(u) - bodies::dot(u, a.center) + b.reach(u) - bodies::dot(u, b.center) -
+                         std::abs(bodies::dot(u, between.at));
     most = std::min(most, overlap);
   }
   out.within(Topic::depth, depth_leaf, least, most + slack, 0, true, 0);
@@ -670,7 +693,8 @@ void box_box_penetration(Inputs in, Liar& out) {
   constexpr std::size_t contact = 5;  // behind the axis
   // Half the depth away from a point of a box: beside a larger box that may be in neither.
   const Real off = (most + slack) / 2 + slack;
-  out.within(Topic::place, contact + k, std::min(-a.reach(back), -b.reach(back)) - off, std::max(a.reach(e), b.reach(e)) + off,
+  out.within(Topic::place, contact + k, std::min(-a.reach(back), -b.reach(back)) - off,
+             std::max(a.reach(e), b.reach(e)) + off,
              std::max(bodies::length(a.center) + a.size(), bodies::length(b.center) + b.size()));
 }
 
@@ -695,7 +719,8 @@ void box_box_projected_distance(Inputs in, Liar& out) {
   const Vector axis = pair_axis(box1, box2, int(in.number().at));
   Number value = magnitude(dot(box2.center - box1.center, axis));
   for (int i = 0; i < 3; ++i) {
-    value = value - of_axis(box1.half, i) * magnitude(dot(box1.axis(i), axis)) - of_axis(box2.half, i) * magnitude(dot(box2.axis(i), axis));
+    value = value - of_axis(box1.half, i) * magnitude(dot(box1.axis(i), axis)) -
+            of_axis(box2.half, i) * magnitude(dot(box2.axis(i), axis));
   }
   out.about(Topic::number, 0, value, 0);
 }
@@ -788,7 +813,8 @@ constexpr Known known[] = {
 };
 
 const Known* known_of(const Query& query) {
-  const auto* found = std::find_if(std::begin(known), std::end(known), [&](const Known& k) { return k.query == query.id; });
+  const auto* found =
+      std::find_if(std::begin(known), std::end(known), [&](const Known& k) { return k.query == query.id; });
   return found == std::end(known) ? nullptr : found;
 }
 
@@ -816,7 +842,8 @@ std::vector<double> bounds_for_lies(const Query& query, Scalar scalar) {
   constexpr double wide = 0x1p30;
   const Subject& fast = *find_subject(scalar == Scalar::float32 ? "collide-fast-float" : "collide-fast-double");
   std::vector<double> bounds;
-  if (const Offering& o = fast.offering(query.name); o.offer != Offer::not_offered) bounds.push_back(o.contract.backward);
+  if (const Offering& o = fast.offering(query.name); o.offer != Offer::not_offered)
+    bounds.push_back(o.contract.backward);
   if (scalar == Scalar::float64) bounds.push_back(wide);
   return bounds;
 }

@@ -223,7 +223,8 @@ bool aimed_at_corner(Draft& d) {
     corner[k] += (k == along ? 0.125 * d.random.between(-7, 7) : d.random.sign()) * d[box->sizes[k]];
   }
   const double factor = d.random.power_of_two(-2, 1);
-  d.set_vector(d.random.pick(d.plan.velocities), {factor * (corner[0] - from[0]), factor * (corner[1] - from[1]), factor * (corner[2] - from[2])});
+  d.set_vector(d.random.pick(d.plan.velocities),
+               {factor * (corner[0] - from[0]), factor * (corner[1] - from[1]), factor * (corner[2] - from[2])});
   return true;
 }
 
@@ -415,11 +416,11 @@ bool touch_by_position(Draft& d) {
 }
 
 /// Whole numbers that are the sides of a box with a whole diagonal, the last.
-constexpr int whole_diagonals[][4] = {{1, 2, 2, 3},  {2, 3, 6, 7},  {1, 4, 8, 9}, {4, 4, 7, 9}, {2, 6, 9, 11},
+constexpr int whole_diagonals[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7},   {1, 4, 8, 9},   {4, 4, 7, 9},  {2, 6, 9, 11},
                                       {3, 4, 0, 5}, {5, 12, 0, 13}, {8, 15, 0, 17}, {7, 24, 0, 25}};
 
-/// A round thing touches an edge or a vertex of another one, or another round thing, off every axis and yet exactly: its
-/// radius is the whole diagonal of a box with whole sides. A box stands upright.
+/// A round thing touches an edge or a vertex of another one, or another round thing, off every axis and yet exactly:
+/// its radius is the whole diagonal of a box with whole sides. A box stands upright.
 bool touch_at_edge_or_vertex(Draft& d) {
   const auto& things = d.plan.things;
   if (things.size() < 2) return false;
@@ -437,7 +438,9 @@ bool touch_at_edge_or_vertex(Draft& d) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double side = d.random.sign(), apart = sides[(k + turn) % 3] * step;
     // Where the box is not left along an axis, the point is anywhere on its edge.
-    const double corner = !box ? 0.0 : apart > 0 ? d[other.sizes[k]] : 0.125 * d.random.between(-8, 8) * d[other.sizes[k]];
+    const double corner = !box        ? 0.0
+                          : apart > 0 ? d[other.sizes[k]]
+                                      : 0.125 * d.random.between(-8, 8) * d[other.sizes[k]];
     at[k] += side * (corner + apart);
   }
   if (!box && other.sizes.size() == 1) {  // two round things share the distance
@@ -690,7 +693,8 @@ constexpr Move table[] = {
     {"scaled-rotation", "a quaternion whose length is not 1", scaled_rotation},
     {"touch-by-size", "a size equal to a coordinate's distance: upright shapes touch", touch_by_size},
     {"touch-by-position", "a center as far along one axis as both shapes reach", touch_by_position},
-    {"touch-at-edge-or-vertex", "a round thing touches an edge, a vertex or a round thing off every axis", touch_at_edge_or_vertex},
+    {"touch-at-edge-or-vertex", "a round thing touches an edge, a vertex or a round thing off every axis",
+     touch_at_edge_or_vertex},
     {"touch-by-diagonals", "two boxes as far apart as their half diagonals are long", touch_by_diagonals},
     {"mirrored", "a shape its own mirror image in a plane through another: as near to both halves", mirrored},
     {"touch-by-plane", "a plane across an axis that just reaches a shape", touch_by_plane},

@@ -144,8 +144,10 @@ std::optional<GroundTruth> fit(const Rows& rows) {
   const Point velocity = minus(minus(at(4), at(0)), moved);
   const mpq_class along_normal = inner(outer(minus(at(2), at(1)), minus(at(3), at(1))), velocity);
   const bool from_behind = along_normal > 0;
-  GroundTruth g{
-      {&query_of(QueryId::moving_point_triangle), Scalar::float64, {}, {}, 0, 0, {}}, rows[0].truth, along_normal == 0, {}};
+  GroundTruth g{{&query_of(QueryId::moving_point_triangle), Scalar::float64, {}, {}, 0, 0, {}},
+                rows[0].truth,
+                along_normal == 0,
+                {}};
   for (const Point* p : {&at(0), &velocity, &at(1), &at(from_behind ? 3 : 2), &at(from_behind ? 2 : 3)}) {
     if (!append(*p, g.question.values)) return std::nullopt;
   }

@@ -12,8 +12,8 @@ namespace nearmiss {
 namespace {
 
 constexpr double offsets[] = {0, 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e12, 1e13, 1e14, 1e15};
-constexpr double scales[] = {-1060, -1000, -700, -480, -300, -145, -120, -80, -40, -20, 0,
-                             20,    40,    80,   120,  300,  480,  700,  1000};
+constexpr double scales[] = {-1060, -1000, -700, -480, -300, -145, -120, -80, -40, -20,
+                             0,     20,    40,   80,   120,  300,  480,  700, 1000};
 constexpr double speeds[] = {1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6, 1e9, 1e12};
 constexpr double ratios[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12};
 constexpr double angles[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16};
@@ -64,7 +64,8 @@ class Scene {
   void scale(int exponent) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Role role = fields_[i].role;
-      const bool length = role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset;
+      const bool length =
+          role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset;
       if (length) values[i] = std::ldexp(values[i], exponent);
     }
   }
@@ -126,8 +127,8 @@ class Scene {
   }
   bool has_role(Role role) const { return first_of(role) < fields_.size(); }
   std::size_t first_of(Role role) const {
-    return std::size_t(
-        std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.role == role; }) - fields_.begin());
+    return std::size_t(std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.role == role; }) -
+                       fields_.begin());
   }
   std::size_t axis_of(std::size_t i) const { return std::size_t(fields_[i].name.back() - 'x'); }
 
@@ -187,7 +188,8 @@ std::optional<Case> sweep_case(const Query& query, Scalar scalar, std::uint64_t 
   Scene scene(c, Random(seed).bits() ^ index);
   const std::vector<double> before = c.values;
   // Shapes first, then where they are, then how large everything is.
-  for (const SweepAxis axis : {SweepAxis::angle, SweepAxis::ratio, SweepAxis::speed, SweepAxis::offset, SweepAxis::scale}) {
+  for (const SweepAxis axis :
+       {SweepAxis::angle, SweepAxis::ratio, SweepAxis::speed, SweepAxis::offset, SweepAxis::scale}) {
     if (plane.x == axis) scene.apply(axis, x);
     if (plane.y == axis) scene.apply(axis, y);
   }

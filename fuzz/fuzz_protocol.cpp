@@ -11,11 +11,11 @@
 #include <string_view>
 
 #include "fuzz/fuzzed_query.hpp"
+#include "impl/catalogue/query.hpp"
+#include "impl/host/hosts.hpp"
 #include "impl/host/replies.hpp"
 #include "impl/host/wire.hpp"
 #include "impl/subject/printable.hpp"
-#include "impl/host/hosts.hpp"
-#include "impl/catalogue/query.hpp"
 
 const char* const nearmiss::fuzzed_query = "protocol";
 
@@ -58,7 +58,8 @@ void hear_hello(std::string_view text, HostProgram::Batches batches) {
 }
 
 void check(const Answer& a, std::size_t outputs) {
-  demand(a.status == Answer::Status::answered || a.status == Answer::Status::cannot_answer, "an answer of another kind");
+  demand(a.status == Answer::Status::answered || a.status == Answer::Status::cannot_answer,
+         "an answer of another kind");
   if (a.status == Answer::Status::answered) demand(a.count == outputs, "another number of values");
   demand(a.reason().size() < sizeof a.why, "a reason without end");
 }
@@ -83,7 +84,8 @@ void look_at_shared_memory(std::string_view bytes, std::size_t outputs) {
   static std::array<Answer, wire::capacity> into;
   constexpr std::size_t most = 64;
   const std::size_t count = std::min(most, bytes.size() / sizeof(wire::Answered::Head));
-  if (count > 0) std::memcpy(static_cast<void*>(memory->heads.data()), bytes.data(), count * sizeof(wire::Answered::Head));
+  if (count > 0)
+    std::memcpy(static_cast<void*>(memory->heads.data()), bytes.data(), count * sizeof(wire::Answered::Head));
   for (std::size_t i = 0; i < count; ++i) {
     if (!bytes.empty()) memory->reasons[i].fill(bytes[i % bytes.size()]);
   }

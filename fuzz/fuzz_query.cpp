@@ -23,10 +23,10 @@
 #include "corpus/fit.hpp"
 #include "corpus/generator.hpp"
 #include "fuzz/fuzzed_query.hpp"
+#include "impl/host/hosts.hpp"
 #include "impl/subject/added.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/confirmed.hpp"
-#include "impl/host/hosts.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -87,9 +87,7 @@ std::vector<const Subject*> asked_subjects() {
   return asked;
 }
 
-Answer ask(const Subject& subject, const Case& c) try {
-  return ask_here(subject, c);
-} catch (const std::exception& e) {
+Answer ask(const Subject& subject, const Case& c) try { return ask_here(subject, c); } catch (const std::exception& e) {
   return Answer::without(Answer::Status::broke, e.what());
 }
 

@@ -34,8 +34,7 @@ std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   if (file.extension() == ".json") {
     const Case c = read_case(file);
     if (c.query->name != fuzzed_query) {
-      throw BadInput(
-          fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, fuzzed_query));
+      throw BadInput(fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, fuzzed_query));
     }
     return case_to_bytes(c);
   }
@@ -46,8 +45,8 @@ std::vector<std::uint8_t> bytes_of(const fs::path& file) {
 void replay(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytes_of(file);
   if (LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) != 0) {
-    throw BadInput(fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(),
-                               fuzzed_query));
+    throw BadInput(
+        fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(), fuzzed_query));
   }
 }
 
@@ -63,7 +62,8 @@ int main(int argc, char** argv) try {
     }
   }
   if (replayed == 0)
-    throw nearmiss::BadInput(fmt::format("fuzz_{}: no files to replay; usage: FILE|FOLDER ...", nearmiss::fuzzed_query));
+    throw nearmiss::BadInput(
+        fmt::format("fuzz_{}: no files to replay; usage: FILE|FOLDER ...", nearmiss::fuzzed_query));
   std::printf("fuzz_%s: %zu cases replayed\n", nearmiss::fuzzed_query, replayed);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());

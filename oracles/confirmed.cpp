@@ -14,7 +14,8 @@ bool accuses(const Finding& f) {
 bool same_word(const Finding& a, const Finding& b) { return a.verdict == b.verdict && a.truth_yes == b.truth_yes; }
 
 std::string word_of(const Finding& f) {
-  return fmt::format("\"{}{}{}\", the truth is {}", name_of(f.verdict), f.disagreement == Disagreement::none ? "" : ": ",
+  return fmt::format("\"{}{}{}\", the truth is {}", name_of(f.verdict),
+                     f.disagreement == Disagreement::none ? "" : ": ",
                      f.disagreement == Disagreement::none ? "" : name_of(f.disagreement), f.truth_yes ? "yes" : "no");
 }
 

@@ -92,7 +92,8 @@ class Examination {
       const std::string_view vector = vector_of(fields[i].name);
       double m = 0;
       std::size_t end = i;
-      for (; end < fields.size() && fields[end].role == fields[i].role && vector_of(fields[end].name) == vector; ++end) {
+      for (; end < fields.size() && fields[end].role == fields[i].role && vector_of(fields[end].name) == vector;
+           ++end) {
         m = std::max(m, std::abs(question_.values[end]));
       }
       const bool by_itself = fields[i].role == Role::direction || fields[i].role == Role::rotation;
@@ -154,7 +155,8 @@ Disagreement wrong(const Query& query, Role role, double given) {
     case Role::position: return Disagreement::wrong_place;
     case Role::flag: return Disagreement::wrong_flag;
     case Role::index: return Disagreement::wrong_index;
-    case Role::weight: return query.kind == Kind::direction ? Disagreement::wrong_direction : Disagreement::wrong_weight;
+    case Role::weight:
+      return query.kind == Kind::direction ? Disagreement::wrong_direction : Disagreement::wrong_weight;
     default: return Disagreement::wrong_direction;
   }
 }

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "impl/subject/standard.hpp"
 #include "impl/catalogue/case.hpp"
+#include "impl/subject/standard.hpp"
 #include "oracles/exact/enclosure.hpp"
 
 namespace nearmiss {
@@ -68,8 +68,8 @@ struct MemberFinding {
   std::optional<Backward> backward;
   /// At least so far from the nearest exact one of the case itself. Zero, and no number, where the decision is wrong.
   double forward_ulps = 0;
-  double forward_absolute = 0;  ///< the same distance in the number's own unit
-  int worst = -1;               ///< index of the number that is so far off, among the query's outputs
+  double forward_absolute = 0;   ///< the same distance in the number's own unit
+  int worst = -1;                ///< index of the number that is so far off, among the query's outputs
   Clause broken = Clause::none;  ///< the clause of the contract that the member breaks
   std::string clause;            ///< the same for people
 
@@ -80,18 +80,18 @@ struct MemberFinding {
 struct Finding {
   Verdict verdict = Verdict::agrees;
   Disagreement disagreement = Disagreement::none;  ///< of the headline
-  Clause broken = Clause::none;  ///< for a violation
+  Clause broken = Clause::none;                    ///< for a violation
   /// The same for people; the reason, where the subject broke, cannot answer or is not asked.
   std::string clause;
   bool late = false;  ///< broke: a time limit was reached
 
-  bool truth_yes = false;                 ///< the exact decision
-  Stage decided_by = Stage::interval;     ///< who decided it
-  std::optional<Backward> backward;       ///< of the whole answer; empty: nothing is proved against it
-  double forward_ulps = 0;                ///< of the whole answer: so far at least from the nearest exact one
-  double forward_absolute = 0;            ///< the same distance in the worst number's own unit
-  int worst = -1;                         ///< index of that number among the query's outputs
-  double unit_error = 0;                  ///< |normal| - 1, in units of epsilon; 0 where none is given
+  bool truth_yes = false;              ///< the exact decision
+  Stage decided_by = Stage::interval;  ///< who decided it
+  std::optional<Backward> backward;    ///< of the whole answer; empty: nothing is proved against it
+  double forward_ulps = 0;             ///< of the whole answer: so far at least from the nearest exact one
+  double forward_absolute = 0;         ///< the same distance in the worst number's own unit
+  int worst = -1;                      ///< index of that number among the query's outputs
+  double unit_error = 0;               ///< |normal| - 1, in units of epsilon; 0 where none is given
 
   std::vector<MemberFinding> members;  ///< every member that differs, whatever the others do; empty for a combination
   int headline = -1;                   ///< the one of them that breaks or differs most; -1: none
@@ -111,8 +111,8 @@ enum class Detail {
 };
 
 /// Judges `answer` to a valid case by what it is held to. A case outside of what the standard requires is not_asked,
-/// whatever the answer. Thread-safe. The caller's modes of floating-point arithmetic, whatever they are, change nothing,
-/// here and wherever the oracle is asked.
+/// whatever the answer. Thread-safe. The caller's modes of floating-point arithmetic, whatever they are, change
+/// nothing, here and wherever the oracle is asked.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
 
 /// The exact decision alone, with as little work as it takes. Thread-safe.

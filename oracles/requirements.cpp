@@ -66,7 +66,8 @@ std::optional<Obstacle> obstacle_of(const Query& q, const Thing& t) {
 std::optional<Parts::Start> start_of(const Query& q, const std::vector<Thing>& things) {
   const Thing& mover = things.front();
   const bool is_ray = field(q, mover, "origin.x").has_value();
-  const bool moves = std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::velocity; });
+  const bool moves =
+      std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::velocity; });
   if (!is_ray && !moves) return std::nullopt;
   for (const Thing& t : things) {
     const auto obstacle = obstacle_of(q, t);
@@ -98,7 +99,8 @@ bool is_unit(const Case& c, std::size_t begin, std::size_t count) {
 
 /// Moves v3 along the first side, and v2 to where the parallelogram ends: a rectangle, if no coordinate moves too far.
 bool is_rectangle(const Case& c, const Parts::Corners& corners) {
-  const Vector v0 = vector(c, corners[0]), v1 = vector(c, corners[1]), v2 = vector(c, corners[2]), v3 = vector(c, corners[3]);
+  const Vector v0 = vector(c, corners[0]), v1 = vector(c, corners[1]), v2 = vector(c, corners[2]),
+               v3 = vector(c, corners[3]);
   const Long magnitude = std::max({largest(v0), largest(v1), largest(v2), largest(v3)});
   const Long most = (most_epsilons * Long(unit_roundoff(c.scalar)) - rounding) * magnitude;
   const Vector e = v1 - v0, f = v3 - v0;
@@ -147,8 +149,8 @@ bool overlaps(const Case& c, const Parts::Start& s, QueryId query, const std::ve
   return exact_decision(beside(c, query, std::move(values)));
 }
 
-/// A ball that stands still hits exactly what it touches or overlaps. The radii count by their sum alone; the larger one
-/// goes to the ball, because a point inside of a capsule hits nothing.
+/// A ball that stands still hits exactly what it touches or overlaps. The radii count by their sum alone; the larger
+/// one goes to the ball, because a point inside of a capsule hits nothing.
 bool overlaps_capsule(const Case& c, const Parts::Start& s) {
   const double own = s.radius ? c.values[*s.radius] : 0.0, other = c.values[s.begin + 6];
   std::vector<double> values(&c.values[s.place], &c.values[s.place] + 3);
@@ -186,7 +188,8 @@ bool starts_in_touch(const Case& c, const Parts::Start& s) {
   }
   auto second = numbers(s.begin, 3);  // v0 v2 v3
   for (const std::size_t i : numbers(s.begin + 6, 6)) second.push_back(i);
-  return overlaps(c, s, QueryId::sphere_triangle_overlap, numbers(s.begin, 9)) || overlaps(c, s, QueryId::sphere_triangle_overlap, second);
+  return overlaps(c, s, QueryId::sphere_triangle_overlap, numbers(s.begin, 9)) ||
+         overlaps(c, s, QueryId::sphere_triangle_overlap, second);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "impl/catalogue/case.hpp"
 #include "impl/subject/precondition.hpp"
 #include "impl/subject/subject.hpp"
-#include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
 
@@ -31,8 +31,8 @@ struct Parts {
   std::vector<std::array<std::size_t, 3>> triangles;  ///< those that a rectangle is made of, too
   std::vector<std::array<std::size_t, 2>> segments;   ///< axes of capsules, too
   std::vector<std::size_t> normals, directions, quaternions, velocities;
-  std::vector<std::size_t> sizes;   ///< each number
-  std::vector<std::size_t> aaboxes; ///< the lower corner; the upper one are the three numbers behind it
+  std::vector<std::size_t> sizes;    ///< each number
+  std::vector<std::size_t> aaboxes;  ///< the lower corner; the upper one are the three numbers behind it
   std::optional<Start> start;
 };
 

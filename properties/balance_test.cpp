@@ -100,7 +100,8 @@ std::string feature_of(const Scene& s) {
   if (!point) return "";
   if (const auto half = s.given("box.half")) {
     const Vector u = *s.given("box.orientation");
-    return std::string(of_box(turned_back(sub(*point, *s.given("box.center")), u, s.given_number("box.orientation.w")), *half));
+    return std::string(
+        of_box(turned_back(sub(*point, *s.given("box.center")), u, s.given_number("box.orientation.w")), *half));
   }
   if (const auto low = s.given("aabox.min")) {
     const Vector high = *s.given("aabox.max");

@@ -22,7 +22,7 @@ class BoxBoxTools : public testing::Test {
   template <class F>
   static void for_each_pair(F&& look) {
     // x, y, z, w: no turn, half a turn, quarter turns, a third of a turn about the diagonal.
-    const std::vector<collide::Quaternion<T>> turns{{0, 0, 0, 1}, {1, 0, 0, 0}, {1, 0, 0, 1},
+    const std::vector<collide::Quaternion<T>> turns{{0, 0, 0, 1}, {1, 0, 0, 0},  {1, 0, 0, 1},
                                                     {0, 1, 0, 1}, {0, 0, 1, -1}, {1, 1, 1, 1}};
     const std::vector<collide::Vec3<T>> centers{{0, 0, 0}, {3, 0, 0}, {4, 1, 0}, {-2, 5, 1}, {3, 3, -6}, {6, 0, -1}};
     for (const auto& turn1 : turns) {

@@ -1,6 +1,6 @@
 /// The certified tier, where nothing is scene-like: numbers of any bits, of any magnitude.
-#include <collide/certified.hpp>
 #include <gtest/gtest.h>
+#include <collide/certified.hpp>
 
 #include "corpus/raw_numbers.hpp"
 #include "nearmiss/catalogue_inputs.hpp"

@@ -23,7 +23,8 @@ constexpr std::uint64_t cases_per_query = 1500;
 
 bool is_yes(const char* query, const Values& values) {
   const Case c{find_query(query), Scalar::float64, values, "", 0, 0, {}};
-  if (c.query->inputs.size() != values.size()) throw std::logic_error(std::string(query) + ": another number of inputs");
+  if (c.query->inputs.size() != values.size())
+    throw std::logic_error(std::string(query) + ": another number of inputs");
   return truth_is_yes(c);
 }
 
@@ -102,23 +103,31 @@ const Motion motions[] = {
        for (std::size_t i = 4; i < 8; ++i) behind[i] = -x[i];
        return is_yes("sphere_plane_penetration", x) && is_yes("sphere_plane_penetration", behind);
      },
-     [](const Values& plane) -> std::optional<Values> { return Values{-plane[0], -plane[1], -plane[2], -plane[3]}; }},
+     [](const Values& plane) -> std::optional<Values> {
+       return Values{-plane[0], -plane[1], -plane[2], -plane[3]};
+     }},
     {"moving_sphere_triangle", [](const Values& x) { return is_yes("sphere_triangle_overlap", x); },
-     [](const Values& triangle) -> std::optional<Values> { return picked(triangle, {0, 2, 1}); }},
+     [](const Values& triangle) -> std::optional<Values> {
+       return picked(triangle, {0, 2, 1});
+     }},
     {"moving_sphere_rectangle",
      [](const Values& x) {
        const Values sphere = part(x, 0, 4), corners = part(x, 4, x.size());
        return is_yes("sphere_triangle_overlap", joined(sphere, picked(corners, {0, 1, 2}))) ||
               is_yes("sphere_triangle_overlap", joined(sphere, picked(corners, {0, 2, 3})));
      },
-     [](const Values& corners) -> std::optional<Values> { return picked(corners, {0, 3, 2, 1}); }},
+     [](const Values& corners) -> std::optional<Values> {
+       return picked(corners, {0, 3, 2, 1});
+     }},
 };
 
 /// One motion, asked about at several times.
 class Asked {
  public:
   Asked(const Motion& motion, const Values& values)
-      : motion_(motion), sphere_(part(values, 0, 4)), velocity_(part(values, 4, 7)),
+      : motion_(motion),
+        sphere_(part(values, 0, 4)),
+        velocity_(part(values, 4, 7)),
         thing_(part(values, 7, values.size())) {
     take_first_contact(values);
     if (const auto back = motion.turned_over(thing_)) take_first_contact(joined(part(values, 0, 7), *back));
@@ -172,7 +181,8 @@ std::string contradiction(const Asked& a, int& moving_hits) {
   }
   const double before = coarse(a.time().low, -1), after = coarse(a.time().high, 1);
   for (const double t : {0.25 * before, 0.5 * before, 0.875 * before, before}) {
-    if (a.overlaps_at(coarse(t, -1)).value_or(false)) return fmt::format("an overlap at {}, before the first contact", t);
+    if (a.overlaps_at(coarse(t, -1)).value_or(false))
+      return fmt::format("an overlap at {}, before the first contact", t);
   }
   if (a.time().low == a.time().high && !a.overlaps_at(a.time().low).value_or(true)) return "no overlap at the contact";
   // Between the two times the distance changes by at most the way; a graze is over by then.
@@ -193,8 +203,7 @@ TEST_P(MotionsAndRest, FitTogether) {
   for (std::uint64_t i = 0; i < cases_per_query; ++i) {
     const auto values = on_grid(query, 41, i);
     if (!values) continue;
-    ASSERT_EQ(contradiction(Asked(motion, *values), moving_hits), "")
-        << written(query, *values);
+    ASSERT_EQ(contradiction(Asked(motion, *values), moving_hits), "") << written(query, *values);
   }
   EXPECT_GT(moving_hits, int(cases_per_query) / 20);
 }
@@ -211,7 +220,9 @@ void passes_fits(const char* passes, const char* motion, const char* overlap) {
     const Values moving = part(*values, 0, values->size() - 2);
     const bool at_start = is_yes(overlap, joined(part(moving, 0, 4), part(moving, 7, moving.size())));
     const bool hits = is_yes(motion, moving);
-    const auto passing = [&](double limit, bool forever) { return is_yes(passes, joined(moving, {limit, double(forever)})); };
+    const auto passing = [&](double limit, bool forever) {
+      return is_yes(passes, joined(moving, {limit, double(forever)}));
+    };
     ASSERT_EQ(passing(0, false), at_start) << written(query, *values);
     ASSERT_EQ(passing(0, true), at_start || hits) << written(query, *values);
     if (at_start || !hits) continue;
@@ -248,8 +259,12 @@ void same_decisions(const char* one, const char* other) {
 }
 
 TEST(Overlap, OfBoxesIsTheSignOfTheirPenetration) { same_decisions("box_box_overlap", "box_box_penetration"); }
-TEST(Overlap, OfSphereAndBoxIsTheSignOfTheirPenetration) { same_decisions("sphere_box_overlap", "sphere_box_penetration"); }
-TEST(Overlap, OfSpheresIsTheSignOfTheirPenetration) { same_decisions("sphere_sphere_overlap", "sphere_sphere_penetration"); }
+TEST(Overlap, OfSphereAndBoxIsTheSignOfTheirPenetration) {
+  same_decisions("sphere_box_overlap", "sphere_box_penetration");
+}
+TEST(Overlap, OfSpheresIsTheSignOfTheirPenetration) {
+  same_decisions("sphere_sphere_overlap", "sphere_sphere_penetration");
+}
 
 TEST(Overlap, OfBoxesIsSeenAlongEveryAxis) {
   const Query& query = *find_query("box_box_overlap");
@@ -281,7 +296,8 @@ TEST(MovingPoint, PastABoxIsAMovingSphereOfRadiusZero) {
     const bool hit = is_yes("moving_point_box", *values);
     ASSERT_EQ(is_yes("moving_sphere_box", sphere), hit) << written(query, *values);
     if (!hit) continue;
-    const Bounds point = exact_value("moving_point_box", *values, 0), ball = exact_value("moving_sphere_box", sphere, 0);
+    const Bounds point = exact_value("moving_point_box", *values, 0),
+                 ball = exact_value("moving_sphere_box", sphere, 0);
     ASSERT_TRUE(point.low <= ball.high && ball.low <= point.high) << written(query, *values);
     ++hits;
   }

@@ -60,7 +60,8 @@ std::optional<V> Choice::in_cone(const std::vector<V>& along, const std::vector<
     const V m = across(direction());
     if (square_of(m) == 0) continue;
     for (const V& candidate : {m, scaled(m, -1)}) {
-      if (std::all_of(against.begin(), against.end(), [&](const V& b) { return dot(candidate, b) <= 0; })) return candidate;
+      if (std::all_of(against.begin(), against.end(), [&](const V& b) { return dot(candidate, b) <= 0; }))
+        return candidate;
     }
   }
   return std::nullopt;
@@ -68,7 +69,8 @@ std::optional<V> Choice::in_cone(const std::vector<V>& along, const std::vector<
 
 VR RefBox::world(const VR& local) const {
   VR x;
-  for (int k = 0; k < 3; ++k) x[k] = real(axes[0][k]) * local[0] + real(axes[1][k]) * local[1] + real(axes[2][k]) * local[2];
+  for (int k = 0; k < 3; ++k)
+    x[k] = real(axes[0][k]) * local[0] + real(axes[1][k]) * local[1] + real(axes[2][k]) * local[2];
   return x;
 }
 

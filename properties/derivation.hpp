@@ -1,5 +1,5 @@
-/// Derivations that watch the oracle and the judge: slow, obvious ways to the exact answer of every query, in rationals of
-/// gmpxx and roots of many bits. They share no code with the oracle.
+/// Derivations that watch the oracle and the judge: slow, obvious ways to the exact answer of every query, in rationals
+/// of gmpxx and roots of many bits. They share no code with the oracle.
 #pragma once
 
 #include <gmpxx.h>
@@ -29,7 +29,8 @@ inline V cross(const V& a, const V& b) {
 }
 inline Q square_of(const V& a) { return dot(a, a); }
 
-/// Real numbers, of so many bits: enough for lengths from 2^-64 to 2^64; more for a case whose numbers are further apart.
+/// Real numbers, of so many bits: enough for lengths from 2^-64 to 2^64; more for a case whose numbers are further
+/// apart.
 using R = mpf_class;
 using VR = std::array<R, 3>;
 constexpr mp_bitcnt_t usual_bits = 512, bits_for_any_magnitude = 8192;
@@ -55,14 +56,16 @@ class Choice {
   /// 0 to n - 1. Where that leaves no choice, no random number is taken.
   int below(int n) const { return random_ == nullptr || n == 1 ? 0 : int((*random_)() % std::uint64_t(n)); }
   template <class T>
-  const T& among(const std::vector<T>& all) const { return all[std::size_t(below(int(all.size())))]; }
+  const T& among(const std::vector<T>& all) const {
+    return all[std::size_t(below(int(all.size())))];
+  }
   /// 0 to 1, often one of both.
   Q share() const { return below(3) == 0 ? Q(below(2)) : Q(below((1 << 20) + 1), 1 << 20); }
   V direction() const;
   /// A point of the convex hull.
   V between(const std::vector<V>& points) const;
-  /// m with m . a = 0 for each of `along` and m . b <= 0 for each of `against`, often with an equality there. Empty: none
-  /// was found, or the choice is not free.
+  /// m with m . a = 0 for each of `along` and m . b <= 0 for each of `against`, often with an equality there. Empty:
+  /// none was found, or the choice is not free.
   std::optional<V> in_cone(const std::vector<V>& along, const std::vector<V>& against) const;
 
  private:
@@ -74,7 +77,10 @@ class Reader {
  public:
   explicit Reader(std::span<const double> values, Choice choice = {}) : choose(choice), at_(values.data()) {}
   Q number() { return Q(*at_++); }
-  V vector() { const Q x = number(), y = number(), z = number(); return {x, y, z}; }
+  V vector() {
+    const Q x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
 
   const Choice choose;
 
@@ -102,8 +108,8 @@ struct RefBox {
   VR world(const VR& local) const;
 };
 
-/// The first numbers of the answer, each off by less than one unit in the last place of a double; they may be fewer than
-/// it has where several answers are right.
+/// The first numbers of the answer, each off by less than one unit in the last place of a double; they may be fewer
+/// than it has where several answers are right.
 struct Reference {
   bool yes;
   std::vector<double> values;
@@ -111,10 +117,17 @@ struct Reference {
   void give(double x) { values.push_back(x); }
   void give(const Q& x) { values.push_back(rounded(x)); }
   void give(const R& x) { values.push_back(rounded(x)); }
-  void give(const V& x) { for (const Q& c : x) give(c); }
-  void give(const VR& x) { for (const R& c : x) give(c); }
+  void give(const V& x) {
+    for (const Q& c : x) give(c);
+  }
+  void give(const VR& x) {
+    for (const R& c : x) give(c);
+  }
   /// n / |n|
-  void give_unit(const V& n) { const R l = length(n); for (const Q& c : n) give(R(real(c) / l)); }
+  void give_unit(const V& n) {
+    const R l = length(n);
+    for (const Q& c : n) give(R(real(c) / l));
+  }
 };
 inline Reference no() { return {false, {}}; }
 template <class... Values>
@@ -125,7 +138,9 @@ Reference yes(const Values&... values) {
 }
 
 /// (-b - sqrt(d)) / a, or with the other sign.
-inline R root_of(const Q& a, const Q& b, const Q& d, int sign = -1) { return (-real(b) + sign * sqrt(real(d))) / real(a); }
+inline R root_of(const Q& a, const Q& b, const Q& d, int sign = -1) {
+  return (-real(b) + sign * sqrt(real(d))) / real(a);
+}
 /// x / sqrt(y)
 inline R over_root(const Q& x, const Q& y) { return real(x) / sqrt(real(y)); }
 

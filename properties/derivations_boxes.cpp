@@ -39,7 +39,8 @@ Reference reference_box_box_info(Reader r) {
   const auto give = [&](const V& v) { reference.give(v); };
   give(a.half), give(b.half), give(d);
   std::array<V, 3> cosines;
-  for (int i = 0; i < 3; ++i) cosines[i] = {dot(a.axes[i], b.axes[0]), dot(a.axes[i], b.axes[1]), dot(a.axes[i], b.axes[2])};
+  for (int i = 0; i < 3; ++i)
+    cosines[i] = {dot(a.axes[i], b.axes[0]), dot(a.axes[i], b.axes[1]), dot(a.axes[i], b.axes[2])};
   for (const V& row : cosines) give(row);
   for (const V& row : cosines) give({abs(row[0]), abs(row[1]), abs(row[2])});
   give(d1), give(d2);

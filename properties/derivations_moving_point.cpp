@@ -117,9 +117,12 @@ std::optional<V> out_of(const RefBox& box, const V& local, const V& motion, cons
   for (int i = 0; i < 3; ++i) {
     const int side = sgn(local[i]);
     const V out = scaled(box.axes[i], side);
-    if (abs(local[i]) < box.half[i]) along.push_back(box.axes[i]);
-    else if (box.half[i] > 0) against.push_back(scaled(out, -1)), may_lead_with_it = may_lead_with_it && dot(out, motion) > 0;
-    else may_lead_with_it = false;
+    if (abs(local[i]) < box.half[i])
+      along.push_back(box.axes[i]);
+    else if (box.half[i] > 0)
+      against.push_back(scaled(out, -1)), may_lead_with_it = may_lead_with_it && dot(out, motion) > 0;
+    else
+      may_lead_with_it = false;
   }
   if (!may_lead_with_it) against.push_back(motion);  // else all normals do, of a sphere with a size
   return choose.in_cone(along, against);
@@ -216,7 +219,10 @@ Reference reference_moving_sphere_box(Reader r) {
     const Q d = b * b - a * c;
     if (d < 0) continue;
     // Is the root within [from, to]? (-b - a t)^2 against d, on the falling branch.
-    const auto root_beyond = [&](const Q& t) { const Q x = -b - a * t; return x >= 0 ? cmp(Q(x * x), d) : -1; };
+    const auto root_beyond = [&](const Q& t) {
+      const Q x = -b - a * t;
+      return x >= 0 ? cmp(Q(x * x), d) : -1;
+    };
     if (root_beyond(from) >= 0 && (last || root_beyond(crossings[k + 1]) <= 0)) {
       return contact(root_of(a, b, d), sides);
     }
@@ -249,9 +255,12 @@ struct Tube {
 Reference contact_on_axis(const Q& t, const V& center, const V& v, const Tube& tube, const Choice& choose) {
   std::vector<V> along, against;
   if (square_of(tube.d) > 0) {
-    if (center == tube.a) against.push_back(tube.d);
-    else if (center == add(tube.a, tube.d)) against.push_back(scaled(tube.d, -1));
-    else along.push_back(tube.d);
+    if (center == tube.a)
+      against.push_back(tube.d);
+    else if (center == add(tube.a, tube.d))
+      against.push_back(scaled(tube.d, -1));
+    else
+      along.push_back(tube.d);
   }
   if (tube.radius == 0) against.push_back(v);
   const std::optional<V> normal = choose.in_cone(along, against);
@@ -264,8 +273,8 @@ Reference contact_on_axis(const Q& t, const V& center, const V& v, const Tube& t
   return reference;
 }
 
-/// A ball of radius `own` against the tube: the squared distance from its axis is one quadratic before the motion passes
-/// an end, one between them, one after.
+/// A ball of radius `own` against the tube: the squared distance from its axis is one quadratic before the motion
+/// passes an end, one between them, one after.
 Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, const Choice& choose) {
   const V& d = tube.d;
   const Q reach = own + tube.radius, vd = dot(v, d);

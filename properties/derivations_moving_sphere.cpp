@@ -49,7 +49,7 @@ struct Hit {
   bool yes = false;
   R time{0};
   std::optional<Q> rational{};  ///< the time, where it is
-  V before{};  ///< a center in the same piece, for the feature
+  V before{};                   ///< a center in the same piece, for the feature
 
   static Hit at(const Q& time, const V& before) { return {true, real(time), time, before}; }
 };
@@ -97,7 +97,10 @@ Hit first_hit(const V& p, const Q& r, const V& v, const std::array<V, 3>& c) {
       return Hit::at(from, before);
     }
     if (d < 0) continue;
-    const auto root_beyond = [&](const Q& t) { const Q x = -qb - qa * t; return x >= 0 ? cmp(Q(x * x), d) : -1; };
+    const auto root_beyond = [&](const Q& t) {
+      const Q x = -qb - qa * t;
+      return x >= 0 ? cmp(Q(x * x), d) : -1;
+    };
     if (root_beyond(from) < 0 || (!last && root_beyond(cuts[k + 1]) > 0)) continue;
     if (d == 0) return Hit::at(-qb / qa, before);
     return {true, root_of(qa, qb, d), {}, before};
@@ -123,7 +126,8 @@ struct Contact {
   Reference reference;
   VR location;
 };
-Contact contact_of(const Hit& hit, const V& p, const Q& radius, const V& v, const std::array<V, 3>& c, const Choice& choose) {
+Contact contact_of(const Hit& hit, const V& p, const Q& radius, const V& v, const std::array<V, 3>& c,
+                   const Choice& choose) {
   if (hit.rational) {
     const V center = add(p, v, *hit.rational);
     const Nearest nearest = nearest_of(c, center);

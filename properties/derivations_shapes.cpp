@@ -231,7 +231,8 @@ Reference reference_box_plane_penetration(Reader r) {
   std::array<Q, 8> depth;
   for (int i = 0; i < 8; ++i) {
     corner[i] = box.center;
-    for (int k = 0; k < 3; ++k) corner[i] = add(corner[i], box.axes[k], (i >> k) % 2 == 1 ? box.half[k] : Q(-box.half[k]));
+    for (int k = 0; k < 3; ++k)
+      corner[i] = add(corner[i], box.axes[k], (i >> k) % 2 == 1 ? box.half[k] : Q(-box.half[k]));
     depth[i] = -dot(n, corner[i]) - offset;
   }
   const Q deepest = *std::max_element(depth.begin(), depth.end());
@@ -246,8 +247,8 @@ Reference reference_box_plane_penetration(Reader r) {
   return reference;
 }
 
-/// Depth, negative when apart. Beside the box the normal leads to the nearest point, the contact; in it out of the nearest
-/// face and back, the contact is the sphere's deepest point. On its surface both are right.
+/// Depth, negative when apart. Beside the box the normal leads to the nearest point, the contact; in it out of the
+/// nearest face and back, the contact is the sphere's deepest point. On its surface both are right.
 Reference reference_sphere_box_penetration(Reader r) {
   const V p = r.vector();
   const Q radius = r.number();

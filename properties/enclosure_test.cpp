@@ -68,7 +68,8 @@ class Enclosures : public testing::TestWithParam<std::string> {
     for (const Alternative& a : answers) {
       const Answer answer = rounded(query(), a);
       const Enclosure e = oracle_of(query()).interval(c.values, wide, answer, c.scalar);
-      EXPECT_TRUE(answer.yes ? e.may_be_yes : e.may_be_no) << "k = " << k << ", the decision: " << case_to_json(c).dump();
+      EXPECT_TRUE(answer.yes ? e.may_be_yes : e.may_be_no)
+          << "k = " << k << ", the decision: " << case_to_json(c).dump();
       EXPECT_TRUE(e.may_match) << "k = " << k << ": " << case_to_json(c).dump() << case_to_json(*p).dump();
     }
     return int(answers.size());
@@ -119,7 +120,8 @@ TEST_P(Enclosures, GrowWithTheWidening) {
     const Answer none{};
     Enclosure before = oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, 0), none, c.scalar);
     for (const double k : {1.0, 0x1p4, 0x1p12, 0x1p30, 0x1p44}) {
-      const Enclosure e = oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, k), none, c.scalar);
+      const Enclosure e =
+          oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, k), none, c.scalar);
       // After 0 * infinity and its like an enclosure is anything at all; a wider one may not meet them.
       const Enclosure narrower = std::exchange(before, e);
       if (narrower.error.back().low == -HUGE_VAL) continue;
@@ -131,7 +133,8 @@ TEST_P(Enclosures, GrowWithTheWidening) {
       for (std::size_t n = 0; n < query().outputs.size(); ++n) {
         if (narrower.error[n].empty()) continue;
         ASSERT_LE(e.error[n].low, narrower.error[n].low) << query().outputs[n].name << ", case " << i << ", k = " << k;
-        ASSERT_GE(e.error[n].high, narrower.error[n].high) << query().outputs[n].name << ", case " << i << ", k = " << k;
+        ASSERT_GE(e.error[n].high, narrower.error[n].high)
+            << query().outputs[n].name << ", case " << i << ", k = " << k;
       }
     }
   }
@@ -167,7 +170,8 @@ std::vector<std::string> all_queries() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Enclosures, testing::ValuesIn(all_queries()), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(All, Enclosures, testing::ValuesIn(all_queries()),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace nearmiss

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "corpus/generator.hpp"
+#include "impl/host/worker.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "impl/subject/subject.hpp"
-#include "impl/host/worker.hpp"
 #include "oracles/environment.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
@@ -53,14 +53,17 @@ TEST_P(AnyModes, TheJudgeSaysTheSame) {
   right.values = {1.0 / 3};
   wrong.values = {1.0 / 3 + 0x1p-52};
   const collide::Contract contract{.forward = 2};
-  const auto judged = [&](const Answer& a) { return within_modes([&] { return judge(c, a, contract, Detail::full); }); };
+  const auto judged = [&](const Answer& a) {
+    return within_modes([&] { return judge(c, a, contract, Detail::full); });
+  };
   EXPECT_EQ(judged(right).verdict, Verdict::agrees);
   EXPECT_EQ(judged(wrong).verdict, Verdict::violates_contract);
 }
 
 /// A thread has the modes of the one that starts it.
 TEST_P(AnyModes, AThreadOfTheirsIsToldTheSame) {
-  const Case c{find_query("sphere_sphere_overlap"), Scalar::float64, {0, 0, 0, 0x1p-1074, 0x1p-1073, 0, 0, 0}, "", 0, 0, {}};
+  const Case c{
+      find_query("sphere_sphere_overlap"), Scalar::float64, {0, 0, 0, 0x1p-1074, 0x1p-1073, 0, 0, 0}, "", 0, 0, {}};
   Truth t;
   within_modes([&] { return std::thread([&] { t = truth_of(c); }).join(), 0; });
   EXPECT_FALSE(t.yes);  // the centers are twice as far apart as the radii reach
@@ -81,9 +84,10 @@ bool same(const Enclosure& a, const Enclosure& b) {
 }
 bool same(const Finding& f, const Finding& g) {
   return f.verdict == g.verdict && f.disagreement == g.disagreement && f.truth_yes == g.truth_yes &&
-         f.decided_by == g.decided_by && f.clause == g.clause && f.worst == g.worst && same(f.forward_ulps, g.forward_ulps) &&
-         same(f.forward_absolute, g.forward_absolute) && same(f.unit_error, g.unit_error) &&
-         f.backward.has_value() == g.backward.has_value() && (!f.backward || f.backward->above == g.backward->above);
+         f.decided_by == g.decided_by && f.clause == g.clause && f.worst == g.worst &&
+         same(f.forward_ulps, g.forward_ulps) && same(f.forward_absolute, g.forward_absolute) &&
+         same(f.unit_error, g.unit_error) && f.backward.has_value() == g.backward.has_value() &&
+         (!f.backward || f.backward->above == g.backward->above);
 }
 bool same(const Truth& t, const Truth& u) {
   return t.yes == u.yes && t.margin_at_least == u.margin_at_least &&
@@ -104,19 +108,22 @@ struct Said {
 };
 Said said(const Case& c, const Answer& answer, const collide::Contract& contract) {
   const Oracle& oracle = oracle_of(*c.query);
-  Said s{judge(c, answer, contract, Detail::full), truth_of(c), {}, {}, widening(*c.query, c.values, c.scalar, 4), false};
+  Said s{judge(c, answer, contract, Detail::full),  truth_of(c), {}, {},
+         widening(*c.query, c.values, c.scalar, 4), false};
   s.interval = oracle.interval(c.values, s.widening, answer, c.scalar);
   s.exact = oracle.exact(c.values, answer, c.scalar, nullptr);
   if (oracle.may_be_on_surface != nullptr) {
     const auto& outputs = c.query->outputs;
-    const auto place = std::find_if(outputs.begin(), outputs.end(), [](const Field& f) { return f.role == Role::position; });
-    s.on_surface = oracle.may_be_on_surface(c.values, s.widening, answer, std::size_t(place - outputs.begin()), 1, c.scalar);
+    const auto place =
+        std::find_if(outputs.begin(), outputs.end(), [](const Field& f) { return f.role == Role::position; });
+    s.on_surface =
+        oracle.may_be_on_surface(c.values, s.widening, answer, std::size_t(place - outputs.begin()), 1, c.scalar);
   }
   return s;
 }
 bool same(const Said& a, const Said& b) {
-  return same(a.finding, b.finding) && same(a.truth, b.truth) && same(a.interval, b.interval) && same(a.exact, b.exact) &&
-         a.widening == b.widening && a.on_surface == b.on_surface;
+  return same(a.finding, b.finding) && same(a.truth, b.truth) && same(a.interval, b.interval) &&
+         same(a.exact, b.exact) && a.widening == b.widening && a.on_surface == b.on_surface;
 }
 
 /// The same shapes of the least numbers that there are; empty where that breaks a rule.

@@ -1,7 +1,7 @@
 /// Queries that `Fast` answers in lanes have a text in plain numbers too, for machines without lanes and for the other
 /// tiers: it keeps the same promises. Lanes compute a contact of every case and must not leave it in a miss.
-#include <collide/tiers.hpp>
 #include <gtest/gtest.h>
+#include <collide/tiers.hpp>
 
 #include "corpus/generator.hpp"
 #include "corpus/store.hpp"
@@ -55,7 +55,8 @@ TEST_P(FastWithoutLanes, KeepsItsContract) {
     for (std::uint64_t i = 0; i < 5000; ++i) {
       const Case c = generate(query, scalar, stream(7), i);
       const Answer answer = (is_float ? GetParam().in_float : GetParam().in_double)(c.values);
-      ASSERT_FALSE(is_violation(judge(c, answer, contract, Detail::verdict))) << query.name << ' ' << name_of(scalar) << ' ' << i;
+      ASSERT_FALSE(is_violation(judge(c, answer, contract, Detail::verdict)))
+          << query.name << ' ' << name_of(scalar) << ' ' << i;
     }
   }
 }
@@ -76,7 +77,7 @@ TEST_P(FastInLanes, LeavesNothingInAMiss) {
   }
 }
 
-#define NEARMISS_QUERY(name)                                                                                       \
+#define NEARMISS_QUERY(name)                                                                          \
   Asked{#name, answer_without_lanes<inputs::name, float>, answer_without_lanes<inputs::name, double>, \
         misses_emptily<inputs::name, float>, misses_emptily<inputs::name, double>},
 constexpr Asked every[] = {

@@ -1,5 +1,5 @@
-/// The judge lets no gross lie pass. Answers that are wrong by construction (corpus/lies.hpp), further than a bound times
-/// 2^10, are told to be further than that bound: whatever the shapes and sizes.
+/// The judge lets no gross lie pass. Answers that are wrong by construction (corpus/lies.hpp), further than a bound
+/// times 2^10, are told to be further than that bound: whatever the shapes and sizes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,16 +30,18 @@ void tell(const Case& c, double bound, double beyond, std::uint64_t salt, Told& 
     ++sum.lies;
     sum.told += told;
     if (told || !sum.first_untold.empty()) continue;
-    sum.first_untold = fmt::format("{} {} of {}", lie.answer.yes ? "yes" : "no", name_of(lie.topic), case_to_json(c).dump());
+    sum.first_untold =
+        fmt::format("{} {} of {}", lie.answer.yes ? "yes" : "no", name_of(lie.topic), case_to_json(c).dump());
     for (std::size_t i = 0; i < c.query->outputs.size(); ++i) {
-      if (lie.answer.gives(i)) sum.first_untold += fmt::format(", {} = {}", c.query->outputs[i].name, lie.answer.values[i]);
+      if (lie.answer.gives(i))
+        sum.first_untold += fmt::format(", {} = {}", c.query->outputs[i].name, lie.answer.values[i]);
     }
   }
 }
 
-/// Of the lies about a class of cases, at both scalars and all bounds. What falls short of all of them is a proof that the
-/// oracle's enclosures do not find, never a false one. Of the gross ones 99.9 % are told (benchmarks/oracle_power, which asks
-/// about many more); of the few here one may be missing.
+/// Of the lies about a class of cases, at both scalars and all bounds. What falls short of all of them is a proof that
+/// the oracle's enclosures do not find, never a false one. Of the gross ones 99.9 % are told (benchmarks/oracle_power,
+/// which asks about many more); of the few here one may be missing.
 constexpr int may_be_missing = 1;
 /// Of lies nearer to the bound an enclosure may allow some: the least share measured was 98.15 %.
 constexpr double least_share_not_gross = 0.98;
@@ -78,7 +80,8 @@ TEST_P(Lies, AreNoExactAnswer) {
     for (std::uint64_t i = 0; i < cases; ++i) {
       const Case c = case_of(family, query(), scalars[i % 2], 32, i);
       for (const Lie& lie : lies_about(c, widening_of_lies(c, 8), i)) {
-        ASSERT_FALSE(oracle_of(query()).exact(c.values, lie.answer, c.scalar, nullptr).may_match) << case_to_json(c).dump();
+        ASSERT_FALSE(oracle_of(query()).exact(c.values, lie.answer, c.scalar, nullptr).may_match)
+            << case_to_json(c).dump();
         ++lies;
       }
     }
@@ -116,13 +119,12 @@ TEST_P(SpheresFarFromThinTriangles, AreSurelyApart) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, SpheresFarFromThinTriangles,
-    testing::Values(Apart{"two equal corners", Scalar::float64, {0, 100, 0, 0.5, -2, 0, 0, 2, 0, 0, 2, 0, 0}},
-                    Apart{"short legs", Scalar::float32, {0, 0, 5, 1, 0, 0, 0, 0x1p-20, 0, 0, 0, 0x1p-20, 0}},
-                    Apart{"short legs", Scalar::float64, {0, 0, 5, 1, 0, 0, 0, 0x1p-20, 0, 0, 0, 0x1p-20, 0}},
-                    Apart{"nearly on a line", Scalar::float32,
-                          {0, 0, 5, 1, 0, 0, 0, 1 + 0x1p-13, 1, 0, 1, 1 - 0x1p-13, 0}},
-                    Apart{"nearly on a line", Scalar::float64,
-                          {0, 0, 5, 1, 0, 0, 0, 1 + 0x1p-13, 1, 0, 1, 1 - 0x1p-13, 0}}));
+    testing::Values(
+        Apart{"two equal corners", Scalar::float64, {0, 100, 0, 0.5, -2, 0, 0, 2, 0, 0, 2, 0, 0}},
+        Apart{"short legs", Scalar::float32, {0, 0, 5, 1, 0, 0, 0, 0x1p-20, 0, 0, 0, 0x1p-20, 0}},
+        Apart{"short legs", Scalar::float64, {0, 0, 5, 1, 0, 0, 0, 0x1p-20, 0, 0, 0, 0x1p-20, 0}},
+        Apart{"nearly on a line", Scalar::float32, {0, 0, 5, 1, 0, 0, 0, 1 + 0x1p-13, 1, 0, 1, 1 - 0x1p-13, 0}},
+        Apart{"nearly on a line", Scalar::float64, {0, 0, 5, 1, 0, 0, 0, 1 + 0x1p-13, 1, 0, 1, 1 - 0x1p-13, 0}}));
 
 }  // namespace
 }  // namespace nearmiss

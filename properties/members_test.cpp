@@ -25,9 +25,7 @@ Answer yes(std::vector<double> values) {
   return a;
 }
 /// A ball of radius 1 that flies along x from -10 with speed 2, at the unit box around (0, y, 0).
-Case flight(double y) {
-  return asked("moving_sphere_box", {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1});
-}
+Case flight(double y) { return asked("moving_sphere_box", {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1}); }
 const MemberFinding* found(const Finding& f, Disagreement d) {
   const auto at = std::find_if(f.members.begin(), f.members.end(), [&](const auto& m) { return m.disagreement == d; });
   return at == f.members.end() ? nullptr : &*at;
@@ -103,8 +101,7 @@ TEST(Members, ANormalsLengthAndDirectionAreTwo) {
 
 /// Of several right answers the nearest counts, though another has more numbers in common with the given one.
 TEST(NearestAnswer, IsNotTheOneWithTheFewestMismatches) {
-  const Case c = asked("sphere_box_penetration",
-                       {0, 0, 0, 0, 0, 0, 0, 1, 1, 2, -1, 1.0000000000000007, 0, 0.5});
+  const Case c = asked("sphere_box_penetration", {0, 0, 0, 0, 0, 0, 0, 1, 1, 2, -1, 1.0000000000000007, 0, 0.5});
   const Truth t = truth_of(c);
   ASSERT_EQ(t.alternatives.size(), 4u);
   int coincidences = 0;

@@ -1,7 +1,7 @@
 /// The number types below the tiers keep their bounds: seen against rationals and 512 bits.
-#include <collide/certified.hpp>
 #include <gmpxx.h>
 #include <gtest/gtest.h>
+#include <collide/certified.hpp>
 
 #include <cmath>
 #include <random>
@@ -159,12 +159,16 @@ TEST(CompensatedSums, LoseOnlyWhatTwiceThePrecisionLoses) {
     if (random() % 2 == 0 && a.z != 0) b.z = -(a.x * b.x + a.y * b.y) / a.z;  // nearly perpendicular
     const Q allowed_of_result(0x1p-50), allowed_of_terms(0x1p-100);
     const Q dot = Q(a.x) * Q(b.x) + Q(a.y) * Q(b.y) + Q(a.z) * Q(b.z);
-    ASSERT_LE(Q(abs(Q(Compensated::dot(a, b)) - dot)), abs(dot) * allowed_of_result + (abs(Q(a.x) * Q(b.x)) + abs(Q(a.y) * Q(b.y)) + abs(Q(a.z) * Q(b.z))) * allowed_of_terms);
+    ASSERT_LE(Q(abs(Q(Compensated::dot(a, b)) - dot)),
+              abs(dot) * allowed_of_result +
+                  (abs(Q(a.x) * Q(b.x)) + abs(Q(a.y) * Q(b.y)) + abs(Q(a.z) * Q(b.z))) * allowed_of_terms);
     const Q difference = Q(a.x) * Q(b.y) - Q(a.y) * Q(b.x);
-    ASSERT_LE(Q(abs(Q(Compensated::difference_of_products(a.x, b.y, a.y, b.x)) - difference)), abs(difference) * allowed_of_result + (abs(Q(a.x) * Q(b.y)) + abs(Q(a.y) * Q(b.x))) * allowed_of_terms);
+    ASSERT_LE(Q(abs(Q(Compensated::difference_of_products(a.x, b.y, a.y, b.x)) - difference)),
+              abs(difference) * allowed_of_result + (abs(Q(a.x) * Q(b.y)) + abs(Q(a.y) * Q(b.x))) * allowed_of_terms);
     const double r = std::sqrt(Plain::dot(a, a)) * (random() % 2 == 0 ? 1 : 0.5);
     const Q beyond = Q(a.x) * Q(a.x) + Q(a.y) * Q(a.y) + Q(a.z) * Q(a.z) - Q(r) * Q(r);
-    ASSERT_LE(Q(abs(Q(Compensated::beyond_radius(a, r)) - beyond)), abs(beyond) * allowed_of_result + Q(r) * Q(r) * 8 * allowed_of_terms);
+    ASSERT_LE(Q(abs(Q(Compensated::beyond_radius(a, r)) - beyond)),
+              abs(beyond) * allowed_of_result + Q(r) * Q(r) * 8 * allowed_of_terms);
   }
 }
 

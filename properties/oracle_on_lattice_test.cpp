@@ -1,13 +1,13 @@
-/// The oracle against slow, obvious derivations on small integer lattices, where touches, ties and degenerate shapes are
-/// common. Decisions are compared, and the derivation's numbers to one unit in the last place.
+/// The oracle against slow, obvious derivations on small integer lattices, where touches, ties and degenerate shapes
+/// are common. Decisions are compared, and the derivation's numbers to one unit in the last place.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <random>
 #include <set>
 
-#include "properties/derivation.hpp"
 #include "oracles/exact/oracle.hpp"
+#include "properties/derivation.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss::derived {
@@ -77,7 +77,8 @@ TEST(Lattice, HasADerivationForEveryQuery) {
   for (const Query& query : catalogue()) EXPECT_NE(derivation_of(query), nullptr) << query.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, OracleOnLattice, testing::ValuesIn(derived_queries()), testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Every, OracleOnLattice, testing::ValuesIn(derived_queries()),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss::derived

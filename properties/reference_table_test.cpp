@@ -69,11 +69,13 @@ TEST(ReferenceTable, NamesTheSameQueriesAsTheCatalogue) {
   for (const Query& query : catalogue()) known.insert(std::string(query.name));
   std::ranges::set_difference(named, known, std::inserter(not_in_catalogue, not_in_catalogue.end()));
   std::ranges::set_difference(known, named, std::inserter(not_in_table, not_in_table.end()));
-  EXPECT_TRUE(not_in_catalogue.empty()) << "docs/reference.md names what impl/catalogue/catalogue.def has no line for:\n  "
-                                        << fmt::format("{}", fmt::join(not_in_catalogue, "\n  "));
-  EXPECT_TRUE(not_in_table.empty()) << "docs/reference.md has no row for these lines of impl/catalogue/catalogue.def (one that the"
-                                       " reference does not have goes under \"Beyond the reference\"):\n  "
-                                    << fmt::format("{}", fmt::join(not_in_table, "\n  "));
+  EXPECT_TRUE(not_in_catalogue.empty())
+      << "docs/reference.md names what impl/catalogue/catalogue.def has no line for:\n  "
+      << fmt::format("{}", fmt::join(not_in_catalogue, "\n  "));
+  EXPECT_TRUE(not_in_table.empty())
+      << "docs/reference.md has no row for these lines of impl/catalogue/catalogue.def (one that the"
+         " reference does not have goes under \"Beyond the reference\"):\n  "
+      << fmt::format("{}", fmt::join(not_in_table, "\n  "));
 }
 
 TEST(ReferenceTable, CallsNothingBeyondTheReferenceThatIsInIt) {

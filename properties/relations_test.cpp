@@ -23,7 +23,8 @@ Answer asked_here(const Subject& subject, const Case& c) { return subject.offeri
 /// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
 std::optional<RelationFinding> examined(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s,
                                         bool bit_for_bit) {
-  return examine(r, c, seed, s, [&](const Case& asked) { return asked_here(s, asked); }, bit_for_bit);
+  return examine(
+      r, c, seed, s, [&](const Case& asked) { return asked_here(s, asked); }, bit_for_bit);
 }
 
 bool is_certified(const Subject& s) { return s.name.starts_with("collide-certified"); }
@@ -44,7 +45,8 @@ TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswersToStoredCases) {
     for (const Relation& r : relations()) {
       for (std::uint64_t seed = 0; seed < 8; ++seed) {
         const auto found = examined(r, s.question, seed, *subject, claims_same_bits(*subject));
-        EXPECT_TRUE(!found || (found->broken.empty() && found->oracle.empty())) << s.file << " " << r.name << " " << seed;
+        EXPECT_TRUE(!found || (found->broken.empty() && found->oracle.empty()))
+            << s.file << " " << r.name << " " << seed;
       }
     }
   }
@@ -136,7 +138,9 @@ bool lies_on_the_surface(const Case& c, const Answer& a) {
     }
     return std::sqrt(sum);
   };
-  const char* fixed = c.query->name == "moving_sphere_sphere" ? "fixed" : c.query->name == "moving_point_sphere" ? "sphere" : nullptr;
+  const char* fixed = c.query->name == "moving_sphere_sphere"  ? "fixed"
+                      : c.query->name == "moving_point_sphere" ? "sphere"
+                                                               : nullptr;
   if (fixed != nullptr) {
     const double radius = c.values[input(*c.query, fmt::format("{}.radius", fixed))];
     long double rounding = 0;
@@ -160,7 +164,8 @@ std::string broken_postcondition(const Case& c, const Subject& s) {
   const std::size_t time = output(query, "time"), solid = input(query, "solid");
   const Answer a = asked_here(s, c);
   if (!a.yes) return {};
-  if (output(query, "weights.x") < query.outputs.size() && !weights_add_up(c, a)) return "the weights do not add up to 1";
+  if (output(query, "weights.x") < query.outputs.size() && !weights_add_up(c, a))
+    return "the weights do not add up to 1";
   if (query.kind != Kind::impact) return {};
   if (!touches_at_impact(c, a, s)) return "there is no touch at the time of impact";
   // A point that starts inside of a solid is there already.
@@ -209,7 +214,9 @@ TEST_P(RelatedTruths, KeepEveryRelationOfTheirDecisions) {
       std::vector<Answer> others;
       for (const Case& other : follow_ups->cases) others.push_back(truth(other));
       ASSERT_NE(follow_ups->compare(truth(c), others), Agreement::decisions_differ)
-          << r.name << "\n" << case_to_json(c).dump() << "\n" << case_to_json(follow_ups->cases[0]).dump();
+          << r.name << "\n"
+          << case_to_json(c).dump() << "\n"
+          << case_to_json(follow_ups->cases[0]).dump();
     }
   }
 }
@@ -236,7 +243,8 @@ TEST_P(ForgetfulSubject, MakesNobodyContradictThemselves) {
     for (const Relation& r : relations()) {
       const auto found = examine(r, c, i, subject, forgetful, true);
       ASSERT_TRUE(!found || found->oracle.empty()) << r.name << ": " << found->oracle << "\n" << case_to_json(c).dump();
-      ASSERT_TRUE(!found || found->breach != Breach::bits) << r.name << ": " << found->broken << "\n" << case_to_json(c).dump();
+      ASSERT_TRUE(!found || found->breach != Breach::bits) << r.name << ": " << found->broken << "\n"
+                                                           << case_to_json(c).dump();
     }
   }
 }
@@ -297,8 +305,13 @@ Subject mistaken(std::string_view query, Mistake answer) {
 TEST(Relations, AnAnswerThatALostNumberMakesRightIsNoContradiction) {
   constexpr double error = 0x1p-6;
   const Relation& relation = *find_relation("sphere-as-point");
-  const Case c{find_query("moving_sphere_box"), Scalar::float64,
-               {0, 1 + 3.5 * error, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1}, "", 0, 0, {}};
+  const Case c{find_query("moving_sphere_box"),
+               Scalar::float64,
+               {0, 1 + 3.5 * error, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1},
+               "",
+               0,
+               0,
+               {}};
   const FollowUps follow_ups = *relation.of(c, 0);
   Subject measured = *find_subject("collide-certified-double");
   for (Offering& o : measured.offerings) o.contract = {.backward = error / 0x1p-53, .forward = 0x1p53, .unit = 0x1p50};
@@ -307,24 +320,31 @@ TEST(Relations, AnAnswerThatALostNumberMakesRightIsNoContradiction) {
   ASSERT_TRUE(hit.yes && !miss.yes);
   const RelationFinding found = relate(relation, follow_ups, c, {hit, miss}, measured, false);
   EXPECT_FALSE(found.findings[0].is_proved()) << found.findings[0].clause;
-  EXPECT_TRUE(confirmed(follow_ups.cases[0], hit, measured.standard_for("moving_point_box"), Detail::verdict).is_proved());
+  EXPECT_TRUE(
+      confirmed(follow_ups.cases[0], hit, measured.standard_for("moving_point_box"), Detail::verdict).is_proved());
   EXPECT_EQ(found.oracle, "");
 }
 
 /// Near a bound the proof is found for one order of a capsule's ends and not for the other.
 TEST(Relations, AnAnswerThatIsNotProvedToBeWrongIsNotYetRight) {
   const Relation& relation = *find_relation("turned-corners");
-  const Case c{find_query("moving_sphere_capsule"), Scalar::float64,
+  const Case c{find_query("moving_sphere_capsule"),
+               Scalar::float64,
                {3.208552239228606, -3.6878210926869617, 3.9009941126583483, 0.150390625, 0.5017885250901633,
                 -0.4910210782009093, -2.027119566426956, 4.438009534131537, -4.5367018818573035, 2.435438576593205,
-                3.302302239228606, -3.5471960926869617, 3.8697441126583483, 0.021484375}, "", 0, 0, {}};
+                3.302302239228606, -3.5471960926869617, 3.8697441126583483, 0.021484375},
+               "",
+               0,
+               0,
+               {}};
   const FollowUps follow_ups = *relation.of(c, 0);
   Subject lenient = *find_subject("collide-certified-double");
   for (Offering& o : lenient.offerings) o.contract = {.backward = 0x1p40};
   const Answer hit = right("moving_sphere_capsule", c.values);
   const RelationFinding found = relate(relation, follow_ups, c, {Answer{}, hit}, lenient, false);
   EXPECT_EQ(found.findings[0].verdict, Verdict::not_proved);
-  EXPECT_TRUE(confirmed(follow_ups.cases[0], Answer{}, lenient.standard_for(c.query->name), Detail::verdict).is_proved());
+  EXPECT_TRUE(
+      confirmed(follow_ups.cases[0], Answer{}, lenient.standard_for(c.query->name), Detail::verdict).is_proved());
   EXPECT_EQ(found.oracle, "");
 }
 
@@ -354,105 +374,104 @@ TEST_P(EachRelation, CatchesAMistakeOfItsKind) {
 
 INSTANTIATE_TEST_SUITE_P(
     Planted, EachRelation,
-    testing::Values(
-        Planted{"scaled-lengths", "sphere_sphere_overlap",  // an absolute tolerance
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  w[3] += 0.05;
-                  return right("sphere_sphere_overlap", w);
-                }},
-        Planted{"scaled-time", "moving_sphere_passes_sphere",  // a limit that is cut off
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  w[11] = std::min(w[11], 1.0);
-                  return right("moving_sphere_passes_sphere", w);
-                }},
-        Planted{"reflected", "closest_point_segment",  // a sign
-                [](std::span<const double> v) {
-                  Answer a = right("closest_point_segment", v);
-                  if (v[0] > 0) a.values[0] += 0.5;
-                  return a;
-                }},
-        Planted{"permuted-axes", "sphere_box_overlap",  // one axis forgotten
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  w[2] = w[6];
-                  return right("sphere_box_overlap", w);
-                }},
-        Planted{"translated", "moving_point_sphere",  // relative to the origin
-                [](std::span<const double> v) {
-                  Answer a = right("moving_point_sphere", v);
-                  if (v[0] > 8) a.yes = false, a.values[0] = HUGE_VAL;
-                  return a;
-                }},
-        Planted{"rotated", "moving_sphere_sphere",  // the larger of two coordinates for a length
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  w[3] = v[3] * (std::abs(v[4]) > std::abs(v[5]) ? 1 : 0.5);
-                  return right("moving_sphere_sphere", w);
-                }},
-        Planted{"contained-ball", "moving_sphere_box",  // half of its half extents
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  for (std::size_t k = 10; k < 13; ++k) w[k] = 0.5 * v[k];
-                  return right("moving_sphere_box", w);
-                }},
-        Planted{"sphere-as-point", "moving_point_plane",  // two-sided
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  const double along = v[3] * v[6] + v[4] * v[7] + v[5] * v[8];
-                  for (std::size_t k = 6; along > 0 && k < 10; ++k) w[k] = -v[k];
-                  return right("moving_point_plane", w);
-                }},
-        Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  w[6] = 2 * v[6] - v[9], w[7] = 2 * v[7] - v[10], w[8] = 2 * v[8] - v[11];
-                  return right("moving_point_triangle", w);
-                }},
-        Planted{"reversed-corners", "sphere_triangle_overlap",  // seen from its front only
-                [](std::span<const double> v) {
-                  Answer a = right("sphere_triangle_overlap", v);
-                  const double ax = v[7] - v[4], ay = v[8] - v[5], bx = v[10] - v[4], by = v[11] - v[5];
-                  if (ax * by < ay * bx) a.yes = false;
-                  return a;
-                }},
-        Planted{"swapped", "box_box_overlap",  // the second box's size taken for the first
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  w[13] = w[3];
-                  return right("box_box_overlap", w);
-                }},
-        Planted{"another-hint", "box_box_overlap",  // a hint that decides
-                [](std::span<const double> v) {
-                  Answer a = right("box_box_overlap", v);
-                  if (v[20] == 3) a.yes = false;
-                  return a;
-                }},
-        Planted{"later-start", "moving_sphere_box",  // a horizon
-                [](std::span<const double> v) {
-                  Answer a = right("moving_sphere_box", v);
-                  if (a.yes && a.values[0] > 0.75) a.yes = false, a.values[0] = HUGE_VAL;
-                  return a;
-                }},
-        Planted{"grown-size", "sphere_sphere_penetration",  // a contained sphere as if it were apart
-                [](std::span<const double> v) {
-                  Answer a = right("sphere_sphere_penetration", v);
-                  if (v[3] > 1.5) a.yes = false, a.values[0] = -1;
-                  return a;
-                }},
-        Planted{"two-triangles", "moving_point_rectangle",  // the second triangle is forgotten
-                [](std::span<const double> v) {
-                  std::vector<double> w(v.begin(), v.end());
-                  for (std::size_t k = 0; k < 3; ++k) w[15 + k] = w[6 + k];
-                  return right("moving_point_rectangle", w);
-                }},
-        Planted{"same-decision", "sphere_box_overlap",  // open instead of closed
-                [](std::span<const double> v) {
-                  Answer a = right("sphere_box_overlap", v);
-                  if (right("sphere_box_penetration", v).values[0] == 0) a.yes = false;
-                  return a;
-                }}),
+    testing::Values(Planted{"scaled-lengths", "sphere_sphere_overlap",  // an absolute tolerance
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[3] += 0.05;
+                              return right("sphere_sphere_overlap", w);
+                            }},
+                    Planted{"scaled-time", "moving_sphere_passes_sphere",  // a limit that is cut off
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[11] = std::min(w[11], 1.0);
+                              return right("moving_sphere_passes_sphere", w);
+                            }},
+                    Planted{"reflected", "closest_point_segment",  // a sign
+                            [](std::span<const double> v) {
+                              Answer a = right("closest_point_segment", v);
+                              if (v[0] > 0) a.values[0] += 0.5;
+                              return a;
+                            }},
+                    Planted{"permuted-axes", "sphere_box_overlap",  // one axis forgotten
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[2] = w[6];
+                              return right("sphere_box_overlap", w);
+                            }},
+                    Planted{"translated", "moving_point_sphere",  // relative to the origin
+                            [](std::span<const double> v) {
+                              Answer a = right("moving_point_sphere", v);
+                              if (v[0] > 8) a.yes = false, a.values[0] = HUGE_VAL;
+                              return a;
+                            }},
+                    Planted{"rotated", "moving_sphere_sphere",  // the larger of two coordinates for a length
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[3] = v[3] * (std::abs(v[4]) > std::abs(v[5]) ? 1 : 0.5);
+                              return right("moving_sphere_sphere", w);
+                            }},
+                    Planted{"contained-ball", "moving_sphere_box",  // half of its half extents
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              for (std::size_t k = 10; k < 13; ++k) w[k] = 0.5 * v[k];
+                              return right("moving_sphere_box", w);
+                            }},
+                    Planted{"sphere-as-point", "moving_point_plane",  // two-sided
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              const double along = v[3] * v[6] + v[4] * v[7] + v[5] * v[8];
+                              for (std::size_t k = 6; along > 0 && k < 10; ++k) w[k] = -v[k];
+                              return right("moving_point_plane", w);
+                            }},
+                    Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[6] = 2 * v[6] - v[9], w[7] = 2 * v[7] - v[10], w[8] = 2 * v[8] - v[11];
+                              return right("moving_point_triangle", w);
+                            }},
+                    Planted{"reversed-corners", "sphere_triangle_overlap",  // seen from its front only
+                            [](std::span<const double> v) {
+                              Answer a = right("sphere_triangle_overlap", v);
+                              const double ax = v[7] - v[4], ay = v[8] - v[5], bx = v[10] - v[4], by = v[11] - v[5];
+                              if (ax * by < ay * bx) a.yes = false;
+                              return a;
+                            }},
+                    Planted{"swapped", "box_box_overlap",  // the second box's size taken for the first
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[13] = w[3];
+                              return right("box_box_overlap", w);
+                            }},
+                    Planted{"another-hint", "box_box_overlap",  // a hint that decides
+                            [](std::span<const double> v) {
+                              Answer a = right("box_box_overlap", v);
+                              if (v[20] == 3) a.yes = false;
+                              return a;
+                            }},
+                    Planted{"later-start", "moving_sphere_box",  // a horizon
+                            [](std::span<const double> v) {
+                              Answer a = right("moving_sphere_box", v);
+                              if (a.yes && a.values[0] > 0.75) a.yes = false, a.values[0] = HUGE_VAL;
+                              return a;
+                            }},
+                    Planted{"grown-size", "sphere_sphere_penetration",  // a contained sphere as if it were apart
+                            [](std::span<const double> v) {
+                              Answer a = right("sphere_sphere_penetration", v);
+                              if (v[3] > 1.5) a.yes = false, a.values[0] = -1;
+                              return a;
+                            }},
+                    Planted{"two-triangles", "moving_point_rectangle",  // the second triangle is forgotten
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              for (std::size_t k = 0; k < 3; ++k) w[15 + k] = w[6 + k];
+                              return right("moving_point_rectangle", w);
+                            }},
+                    Planted{"same-decision", "sphere_box_overlap",  // open instead of closed
+                            [](std::span<const double> v) {
+                              Answer a = right("sphere_box_overlap", v);
+                              if (right("sphere_box_penetration", v).values[0] == 0) a.yes = false;
+                              return a;
+                            }}),
     [](const auto& planted) {
       std::string name(planted.param.relation);
       std::replace(name.begin(), name.end(), '-', '_');

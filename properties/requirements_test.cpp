@@ -65,7 +65,8 @@ TEST(Preconditions, UnitLengthIsHeldToFourEpsilonOfTheCasesScalar) {
     EXPECT_FALSE(unit(1 - 5 * epsilon));
     EXPECT_FALSE(unit(2));
   }
-  EXPECT_TRUE(meets(with("sphere_sphere_overlap", {0, 0, 0, 1, 0, 0, 0, 1}), Precondition::unit_normal)) << "there is none";
+  EXPECT_TRUE(meets(with("sphere_sphere_overlap", {0, 0, 0, 1, 0, 0, 0, 1}), Precondition::unit_normal))
+      << "there is none";
 }
 
 bool rectangle(std::array<double, 12> corners) {

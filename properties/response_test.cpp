@@ -1,6 +1,6 @@
 /// Directions after a contact have the lengths of directions: 1 for a bounce, at most 1 for a slide. No other input
-/// explains another length, so an answer that is exact for some input, to one unit in the last place of each number, has
-/// it to as much. The oracle's enclosures are too wide to see that.
+/// explains another length, so an answer that is exact for some input, to one unit in the last place of each number,
+/// has it to as much. The oracle's enclosures are too wide to see that.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ Number length(const Answer& a) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
-/// How much a length changes where each number does by one unit in the last place of the largest, and what rounding makes
-/// of the length itself.
+/// How much a length changes where each number does by one unit in the last place of the largest, and what rounding
+/// makes of the length itself.
 Number slack(const Answer& a, Scalar scalar) {
   const double x = std::abs(a.values[0]), y = std::abs(a.values[1]), z = std::abs(a.values[2]);
   const Number change = ulp(std::max({x, y, z}), scalar), sum = Number(x) + y + z;
@@ -31,7 +31,8 @@ Number slack(const Answer& a, Scalar scalar) {
 std::string fault(const Case& c, const Answer& a) {
   if (length(a) == 0) return "";
   const Number excess = length(a) - 1;
-  const bool is_wrong = excess > slack(a, c.scalar) || (c.query->name == "bounce_direction" && -excess > slack(a, c.scalar));
+  const bool is_wrong =
+      excess > slack(a, c.scalar) || (c.query->name == "bounce_direction" && -excess > slack(a, c.scalar));
   return is_wrong ? fmt::format("a length of 1 + {}", double(excess)) : "";
 }
 
@@ -39,20 +40,24 @@ class Response : public testing::TestWithParam<Pairing> {};
 
 TEST_P(Response, HasTheLengthOfADirection) {
   const auto [query, subject] = GetParam();
-  const auto answer = [offering = &subject->offering(query->name)](const Case& c) { return offering->answer(c.values); };
+  const auto answer = [offering = &subject->offering(query->name)](const Case& c) {
+    return offering->answer(c.values);
+  };
   int moving = 0;
   for (std::uint64_t i = 0; i < 100000; ++i) {
     const Case c = generate(*query, subject->scalar, stream(21), i);
     if (has_extreme_move(c)) continue;
     moving += length(answer(c)) > 0;
-    ASSERT_EQ(fault(c, answer(c)), "") << told(c, *subject, [&](const Case& other) { return fault(other, answer(other)); });
+    ASSERT_EQ(fault(c, answer(c)), "") << told(c, *subject,
+                                               [&](const Case& other) { return fault(other, answer(other)); });
   }
   EXPECT_GT(moving, 10000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Response, testing::ValuesIn([] {
                            std::vector<Pairing> responses = our_pairings();
-                           std::erase_if(responses, [](const Pairing& p) { return !p.query->name.ends_with("_direction"); });
+                           std::erase_if(responses,
+                                         [](const Pairing& p) { return !p.query->name.ends_with("_direction"); });
                            return responses;
                          }()),
                          testing::PrintToStringParamName());

@@ -1,6 +1,6 @@
-/// Where many answers are right, a given one is held against the nearest of them: a member of the set is never told more
-/// than it was rounded by, and what is off by more than a few ulps from every member is told. Members are built here, in
-/// long double, from what the query means; the oracle is asked about them.
+/// Where many answers are right, a given one is held against the nearest of them: a member of the set is never told
+/// more than it was rounded by, and what is off by more than a few ulps from every member is told. Members are built
+/// here, in long double, from what the query means; the oracle is asked about them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "oracles/judge.hpp"
 #include "oracles/exact/oracle.hpp"
+#include "oracles/judge.hpp"
 
 namespace nearmiss {
 namespace {
@@ -83,7 +83,8 @@ void expect_wrong(const Asked& a, double ulps) {
 
 TEST(RightAnswers, OfConcentricSpheresArePairsOfANormalAndItsContact) {
   expect_right(asked("sphere_sphere_penetration", {-3, -4, 0, 5, -3, -4, 0, 1}, true, {6, 0.6, 0.8, 0, 0, 0, 0}));
-  expect_wrong(asked("sphere_sphere_penetration", {-3, -4, 0, 5, -3, -4, 0, 1}, true, {6, 0.6, 0.8, 0, 0, 0, 0x1p-40}), 1000);
+  expect_wrong(asked("sphere_sphere_penetration", {-3, -4, 0, 5, -3, -4, 0, 1}, true, {6, 0.6, 0.8, 0, 0, 0, 0x1p-40}),
+               1000);
   expect_wrong(asked("sphere_sphere_penetration", {-3, -4, 0, 5, -3, -4, 0, 1}, true, {6, 0, 1, 0, 0, 0, 0}), 0x1p45);
 }
 
@@ -102,7 +103,8 @@ TEST(RightAnswers, WeightsWithoutAreaAreComparedNumberByNumber) {
 }
 
 TEST(RightAnswers, WeightsWithoutAreaAreNotNegative) {
-  // (0, 0), (1, 0), (2, 0) and (0, 0): twice the first less the second and some of the third give the point, all the same.
+  // (0, 0), (1, 0), (2, 0) and (0, 0): twice the first less the second and some of the third give the point, all the
+  // same.
   expect_right(asked("point_in_triangle", {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 1, -1, 0, 0, 0}, true, {1, 0, 0}));
   expect_wrong(asked("point_in_triangle", {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 1, -1, 0, 0, 0}, true, {2, -2, 1}), 0x1p45);
   expect_right(asked("point_in_triangle", {3, 4, 5, 3, 4, 5, 3, 4, 5, 0, 0, 1, -1, 3, 4, 0}, true, {0.25, 0.75, 0}));
@@ -138,7 +140,8 @@ TEST(RightAnswers, OfAFlatBoxTheNormalIsThatOfTheSideThatIsMet) {
   }
   const Numbers flat_aligned{-1, -1, 0, 1, 1, 0};
   expect_right(asked("moving_point_aabox", Numbers{0, 0, 2, 0, 0, -1} + flat_aligned, true, {0, 0, 0, 0, 2, 0, 0, 1}));
-  expect_wrong(asked("moving_point_aabox", Numbers{0, 0, 2, 0, 0, -1} + flat_aligned, true, {0, 0, 0, 0, 2, 0, 0, -1}), 0x1p45);
+  expect_wrong(asked("moving_point_aabox", Numbers{0, 0, 2, 0, 0, -1} + flat_aligned, true, {0, 0, 0, 0, 2, 0, 0, -1}),
+               0x1p45);
 }
 
 TEST(RightAnswers, AMissByItsTimeStartsOutside) {
@@ -199,27 +202,42 @@ Member concentric(Draw& d) {
 Member on_the_center(Draw& d) {
   const Vec c = d.place(), n = d.direction();
   const double own = d.size(octaves), radius = d.size(octaves);
-  return {"moving_sphere_sphere", Numbers{} + c + Numbers{own} + d.axis() + c + Numbers{radius}, {0}, {c + radius * n, n}, 0, n};
+  return {"moving_sphere_sphere",
+          Numbers{} + c + Numbers{own} + d.axis() + c + Numbers{radius},
+          {0},
+          {c + radius * n, n},
+          0,
+          n};
 }
 /// On the axis of a capsule: in its middle out at a right angle, at an end at a right angle or further away.
 Member on_the_axis(Draw& d) {
   const Vec p0 = d.place(), along = d.axis();
   const int halves = d.below(3);
   Vec n = d.direction();
-  if (halves == 1 || d.below(2) == 0) n = unit(cross(along, n));
-  else if ((halves == 0) == (dot(n, along) > 0)) n = -1 * n;
+  if (halves == 1 || d.below(2) == 0)
+    n = unit(cross(along, n));
+  else if ((halves == 0) == (dot(n, along) > 0))
+    n = -1 * n;
   const double radius = d.size(octaves);
   const Vec center = p0 + Real(halves) / 2 * along;
   return {"moving_sphere_capsule",
           Numbers{} + center + Numbers{d.size(octaves)} + d.axis() + p0 + (p0 + along) + Numbers{radius},
-          {0}, {center + radius * n, n}, 0, halves == 1 && d.below(2) == 0 ? unit(along) : n};
+          {0},
+          {center + radius * n, n},
+          0,
+          halves == 1 && d.below(2) == 0 ? unit(along) : n};
 }
 /// A capsule without a radius: the normals at a right angle to it, against the motion.
 Member on_a_segment(Draw& d) {
   const Vec p0 = d.place(), along = d.axis(), v = d.axis(), center = p0 + 0.5L * along;
   Vec n = unit(cross(along, d.direction()));
   if (dot(n, v) > 0) n = -1 * n;
-  return {"moving_point_capsule", Numbers{} + center + v + p0 + (p0 + along) + Numbers{0}, {0}, {center, n}, 1, unit(along)};
+  return {"moving_point_capsule",
+          Numbers{} + center + v + p0 + (p0 + along) + Numbers{0},
+          {0},
+          {center, n},
+          1,
+          unit(along)};
 }
 
 /// A box turned about one axis by cosine 3/5 and sine 4/5, or not at all; its half extents are multiples of 5.
@@ -257,8 +275,12 @@ Member onto_a_box(Draw& d, bool as_ball) {
   }
   const Vec start = d.below(2) == 0 ? place : place - v;
   const Numbers ball = as_ball ? Numbers{0} : Numbers{};
-  return {as_ball ? "moving_sphere_box" : "moving_point_box", Numbers{} + start + ball + v + box.at({0, 0, 0}),
-          {start == place ? 0.0 : 1.0}, {place, unit(n)}, level < 3 ? 1 : -1, level < 3 ? box.axes[level] : Vec{}};
+  return {as_ball ? "moving_sphere_box" : "moving_point_box",
+          Numbers{} + start + ball + v + box.at({0, 0, 0}),
+          {start == place ? 0.0 : 1.0},
+          {place, unit(n)},
+          level < 3 ? 1 : -1,
+          level < 3 ? box.axes[level] : Vec{}};
 }
 Member point_onto_a_box(Draw& d) { return onto_a_box(d, false); }
 Member no_ball_onto_a_box(Draw& d) { return onto_a_box(d, true); }
@@ -279,8 +301,13 @@ Member no_ball_onto_a_triangle(Draw& d) {
   const bool outward = feature != 0 || (dot(n, e) <= 0 && dot(n, f) <= 0);
   if (!outward || dot(n, velocity) > 0 || dot(normal, velocity) >= 0) return no_ball_onto_a_triangle(d);
   const Vec start = d.below(2) == 0 ? place : place - velocity;
-  return {"moving_sphere_triangle", Numbers{} + start + Numbers{0} + velocity + v[0] + v[1] + v[2],
-          {start == place ? 0.0 : 1.0}, {place, n}, feature == 0 ? -1 : 1, unit(e), Numbers{} + w};
+  return {"moving_sphere_triangle",
+          Numbers{} + start + Numbers{0} + velocity + v[0] + v[1] + v[2],
+          {start == place ? 0.0 : 1.0},
+          {place, n},
+          feature == 0 ? -1 : 1,
+          unit(e),
+          Numbers{} + w};
 }
 
 /// Box 2 before a face of box 1: its own face, turned in the plane, or an edge of it.
@@ -302,8 +329,12 @@ Member on_a_patch(Draw& d) {
     }
     contact = contact + share * box2.half[i] * box2.axes[i];
   }
-  return {"box_box_penetration", box1.at({0, 0, 0}) + box2.at(center) + Numbers{-1},
-          {double(depth), 0, 1, 0, 0}, {contact}, 0, way};
+  return {"box_box_penetration",
+          box1.at({0, 0, 0}) + box2.at(center) + Numbers{-1},
+          {double(depth), 0, 1, 0, 0},
+          {contact},
+          0,
+          way};
 }
 
 /// Three corners on a line, or all in one point, seen along z.
@@ -322,9 +353,12 @@ Member weights_without_area(Draw& d) {
   }
   const Vec off{0, 0, d.number()};
   return {"point_in_triangle",
-          Numbers{} + (base + at[0] * along) + (base + at[1] * along) + (base + at[2] * along) + Vec{0, 0, 1} + Numbers{2} +
-              (base + share * along + off),
-          {}, {w}, 0, {1, 1, 1}};
+          Numbers{} + (base + at[0] * along) + (base + at[1] * along) + (base + at[2] * along) + Vec{0, 0, 1} +
+              Numbers{2} + (base + share * along + off),
+          {},
+          {w},
+          0,
+          {1, 1, 1}};
 }
 
 struct Set {
@@ -386,18 +420,20 @@ TEST_P(SetOfRightAnswers, WhatLeavesThemIsTold) {
   EXPECT_GT(asked_about, members / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sets, SetOfRightAnswers,
-    testing::Values(Set{"concentric", concentric}, Set{"on_the_center", on_the_center}, Set{"on_the_axis", on_the_axis},
-                    Set{"on_a_segment", on_a_segment}, Set{"point_onto_a_box", point_onto_a_box},
-                    Set{"no_ball_onto_a_box", no_ball_onto_a_box}, Set{"no_ball_onto_a_triangle", no_ball_onto_a_triangle},
-                    Set{"on_a_patch", on_a_patch}, Set{"weights_without_area", weights_without_area}),
-    [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Sets, SetOfRightAnswers,
+                         testing::Values(Set{"concentric", concentric}, Set{"on_the_center", on_the_center},
+                                         Set{"on_the_axis", on_the_axis}, Set{"on_a_segment", on_a_segment},
+                                         Set{"point_onto_a_box", point_onto_a_box},
+                                         Set{"no_ball_onto_a_box", no_ball_onto_a_box},
+                                         Set{"no_ball_onto_a_triangle", no_ball_onto_a_triangle},
+                                         Set{"on_a_patch", on_a_patch},
+                                         Set{"weights_without_area", weights_without_area}),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // A ball of radius 0 is a point, and what is right at a contact does not depend on where the motion starts.
 
-/// The word on an answer, exactly. Of a right answer a set tells no distance, nor of one further off than `far_off`, and
-/// any other to one part in 128.
+/// The word on an answer, exactly. Of a right answer a set tells no distance, nor of one further off than `far_off`,
+/// and any other to one part in 128.
 struct Word {
   bool yes, matches;
   double ulps;
@@ -484,8 +520,9 @@ TEST(RightAnswers, AtAContactAreTheSameWhereverThePointStarts) {
     std::vector<Vec> normals = some_normals(draw, 4);
     normals.push_back(unit(cross(e, f))), normals.push_back(unit(-1 * velocity));
     for (const Vec& n : normals) {
-      EXPECT_EQ(word(place, 0, n), word(place - velocity, 1, n)) << text(asked("moving_sphere_triangle",
-          Numbers{} + place + Numbers{0} + velocity + corner + e + f, true, Numbers{0} + place + n));
+      EXPECT_EQ(word(place, 0, n), word(place - velocity, 1, n))
+          << text(asked("moving_sphere_triangle", Numbers{} + place + Numbers{0} + velocity + corner + e + f, true,
+                        Numbers{0} + place + n));
     }
     ++asked_about;
   }

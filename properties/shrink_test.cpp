@@ -65,7 +65,8 @@ TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
       const bool thin = query.name.starts_with("moving_point_");
       const double margin = truth_of(c).margin_at_least * unit_roundoff(scalar);
       if (margin < 1.0 / 64) continue;
-      EXPECT_LE(after.size(), thin ? 8u : 6u) << query.name << " case " << i << ", " << margin << " from the other decision";
+      EXPECT_LE(after.size(), thin ? 8u : 6u)
+          << query.name << " case " << i << ", " << margin << " from the other decision";
       ++looked_at;
     }
   }

@@ -1,5 +1,5 @@
-/// The direction of includes: a room includes itself and what stands to its left in the order of docs/architecture.md. An
-/// oracle sees nothing of the implementation but shapes, answers and their members.
+/// The direction of includes: a room includes itself and what stands to its left in the order of docs/architecture.md.
+/// An oracle sees nothing of the implementation but shapes, answers and their members.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,14 +28,10 @@ struct Room {
   int rank;
 };
 constexpr Room rooms[] = {
-    {"impl/collide", 0},      {"impl/catalogue", 1},
-    {"impl/plugin", 1},       {"impl/subject", 2},
-    {"impl/adapters", 3},     {"impl/host", 3},
-    {"oracles/exact", 4},     {"oracles/algorithms", 5},
-    {"oracles", 6},           {"corpus", 7},
-    {"reports/findings", 8},  {"reports/engine", 9},
-    {"reports/commands", 10}, {"reports/tests", 11},
-    {"properties", 11},       {"fuzz", 11},
+    {"impl/collide", 0},      {"impl/catalogue", 1}, {"impl/plugin", 1},      {"impl/subject", 2},
+    {"impl/adapters", 3},     {"impl/host", 3},      {"oracles/exact", 4},    {"oracles/algorithms", 5},
+    {"oracles", 6},           {"corpus", 7},         {"reports/findings", 8}, {"reports/engine", 9},
+    {"reports/commands", 10}, {"reports/tests", 11}, {"properties", 11},      {"fuzz", 11},
     {"benchmarks", 11},
 };
 
@@ -50,7 +46,9 @@ const Room& room_of(const std::string& file) {
   return *found;
 }
 
-bool is_source(const fs::path& p) { return p.extension() == ".cpp" || p.extension() == ".hpp" || p.extension() == ".h"; }
+bool is_source(const fs::path& p) {
+  return p.extension() == ".cpp" || p.extension() == ".hpp" || p.extension() == ".h";
+}
 
 /// Each source and header of a room, from the top of the project; the overlay of another query is of other rooms.
 std::vector<std::string> sources() {

@@ -14,9 +14,9 @@
 #include "oracles/confirmed.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
-#include "reports/findings/pretty_json.hpp"
 #include "reports/engine/related.hpp"
 #include "reports/engine/run.hpp"
+#include "reports/findings/pretty_json.hpp"
 
 namespace nearmiss {
 
@@ -33,7 +33,9 @@ namespace {
 bool is_held_to_its_word(const Subject& s) {
   const char* told = std::getenv("NEARMISS_SUBJECTS");
   const std::string names = fmt::format(",{},", told == nullptr ? "" : told);
-  const auto named = [&](const std::string& name) { return names.find(fmt::format(",{},", name)) != std::string::npos; };
+  const auto named = [&](const std::string& name) {
+    return names.find(fmt::format(",{},", name)) != std::string::npos;
+  };
   const std::vector<std::string> added = added_subjects();
   return s.name.starts_with("collide-") || !s.plugin.empty() || named(s.name) ||
          (named("added") && std::find(added.begin(), added.end(), s.name) != added.end());
@@ -72,8 +74,8 @@ namespace {
 /// Writes the report where nightly runs and people look, and says how to see it again.
 template <class AnyReport>
 std::string left_behind(AnyReport report, const Subject& subject, const Query& query, std::string_view fault) {
-  const std::filesystem::path file = runs_folder() / "properties" / query.name /
-                                     fmt::format("{}-{}-{}.json", subject.name, fault, id_of(report));
+  const std::filesystem::path file =
+      runs_folder() / "properties" / query.name / fmt::format("{}-{}-{}.json", subject.name, fault, id_of(report));
   report.replay = replay_command(subject, file.string());
   try {
     std::filesystem::create_directories(file.parent_path());
@@ -86,21 +88,24 @@ std::string left_behind(AnyReport report, const Subject& subject, const Query& q
 
 std::string seed_text(const Case& c, const Subject& s) {
   if (c.origin != "generator") return fmt::format("from:    {}, seed {}, index {}", c.origin, c.seed, c.index);
-  return fmt::format("seed:    {}, index {}\nrun:     nearmiss run --query {} --subject {} --seed {} --cases {}", c.seed,
-                     c.index, c.query->name, s.name, c.seed, c.index + 1);
+  return fmt::format("seed:    {}, index {}\nrun:     nearmiss run --query {} --subject {} --seed {} --cases {}",
+                     c.seed, c.index, c.query->name, s.name, c.seed, c.index + 1);
 }
 
 }  // namespace
 
-std::string told(const Case& question, const Subject& subject, const std::function<std::string(const Case&)>& failure_of) {
+std::string told(const Case& question, const Subject& subject,
+                 const std::function<std::string(const Case&)>& failure_of) {
   const std::string first = failure_of(question);
-  const Case shrunk = shrink(question, [&](const Case& c) { return !failure_of(c).empty(); }, 4000);
+  const Case shrunk = shrink(
+      question, [&](const Case& c) { return !failure_of(c).empty(); }, 4000);
   Workers workers;
   const Answer answer = ask_here(subject, shrunk);
   const Report report = examine(shrunk, subject, answer, workers);
   return fmt::format("{} {}: {}\n{}\n{}\nshrunk ({}):\n{}\n{}", question.query->name, subject.name, first,
-                     seed_text(question, subject), left_behind(report, subject, *shrunk.query, fault_of(report.finding)),
-                     failure_of(shrunk), case_to_json(shrunk).dump(2), case_to_cpp(shrunk));
+                     seed_text(question, subject),
+                     left_behind(report, subject, *shrunk.query, fault_of(report.finding)), failure_of(shrunk),
+                     case_to_json(shrunk).dump(2), case_to_cpp(shrunk));
 }
 
 std::string told(const Case& question, const Subject& subject) {
@@ -117,8 +122,8 @@ namespace {
 
 /// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
 std::optional<RelationFinding> examined_here(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s) {
-  return examine(r, c, seed, s, [&](const Case& asked) { return ask_here(s, asked); },
-                 claims_same_bits(s));
+  return examine(
+      r, c, seed, s, [&](const Case& asked) { return ask_here(s, asked); }, claims_same_bits(s));
 }
 
 bool breaks(const std::optional<RelationFinding>& f) { return f && !(f->broken.empty() && f->oracle.empty()); }
@@ -126,15 +131,14 @@ bool breaks(const std::optional<RelationFinding>& f) { return f && !(f->broken.e
 }  // namespace
 
 std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject) {
-  const Case shrunk =
-      shrink(question, [&](const Case& c) { return breaks(examined_here(relation, c, seed, subject)); }, 2000);
+  const Case shrunk = shrink(
+      question, [&](const Case& c) { return breaks(examined_here(relation, c, seed, subject)); }, 2000);
   const RelationFinding found = *examined_here(relation, shrunk, seed, subject);
   Workers workers;
   const RelationReport report = report_of({&relation, seed, claims_same_bits(subject)}, found, subject, workers);
-  std::string text = fmt::format("{}\n{}\n{}\n{}\nshrunk:", headline(report), explanation(report),
-                                 seed_text(question, subject),
-                                 left_behind(report, subject, *question.query,
-                                             fmt::format("{}-{}", relation.name, breach_of(report))));
+  std::string text = fmt::format(
+      "{}\n{}\n{}\n{}\nshrunk:", headline(report), explanation(report), seed_text(question, subject),
+      left_behind(report, subject, *question.query, fmt::format("{}-{}", relation.name, breach_of(report))));
   for (std::size_t i = 0; i < found.cases.size(); ++i) {
     text += fmt::format("\ncase {}:\n{}\n{}", i + 1, case_to_json(found.cases[i]).dump(2), case_to_cpp(found.cases[i]));
   }
@@ -146,7 +150,8 @@ std::uint64_t stream(std::uint64_t usual) {
   return seed == nullptr ? usual : std::strtoull(seed, nullptr, 10) + usual;
 }
 
-std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases) {
+std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream,
+                                 std::uint64_t cases) {
   Case c;
   for (std::uint64_t i = 0; i < cases; ++i) {
     generate_inside(c, query, subject.scalar, stream, i, subject.offering(query.name).required);
@@ -155,7 +160,8 @@ std::string failure_of_agreement(const Query& query, const Subject& subject, std
   return {};
 }
 
-std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases) {
+std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream,
+                                 std::uint64_t cases) {
   Case c;
   for (std::uint64_t i = 0; i < cases; ++i) {
     generate_inside(c, query, subject.scalar, stream, i, subject.offering(query.name).required);

@@ -19,8 +19,8 @@ struct Pairing {
   const Subject* subject;
 };
 std::ostream& operator<<(std::ostream& out, const Pairing& p);
-/// Every query with every tier of `collide`, every plugin and every subject that NEARMISS_SUBJECTS names ("added": those
-/// of NEARMISS_ADD), that answers it.
+/// Every query with every tier of `collide`, every plugin and every subject that NEARMISS_SUBJECTS names ("added":
+/// those of NEARMISS_ADD), that answers it.
 std::vector<Pairing> our_pairings();
 /// Every query with the certified tier in each scalar.
 std::vector<Pairing> certified_pairings();
@@ -36,14 +36,13 @@ inline constexpr Scalar scalars[] = {Scalar::float32, Scalar::float64};
 
 /// The subject's answer, given in this process, and the judge's word on it.
 Finding examined(const Case& question, const Subject& subject);
-inline bool is_violation(const Finding& f) {
-  return f.is_proved() || f.verdict == Verdict::broke;
-}
+inline bool is_violation(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
 /// A violation as a person needs it: the finding, its seed, the command that replays it, the shrunk case as JSON and as
 /// C++. It leaves a report in properties/QUERY/ of runs_folder().
 std::string told(const Case& question, const Subject& subject);
 /// The same for a sentence of which `failure_of` says how a case breaks it; "" where it does not.
-std::string told(const Case& question, const Subject& subject, const std::function<std::string(const Case&)>& failure_of);
+std::string told(const Case& question, const Subject& subject,
+                 const std::function<std::string(const Case&)>& failure_of);
 /// The same for a broken relation, with all cases that it is about.
 std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject);
 
@@ -51,7 +50,8 @@ std::string told(const Relation& relation, const Case& question, std::uint64_t s
 /// environment variable NEARMISS_SEED makes of it.
 std::uint64_t stream(std::uint64_t usual);
 
-/// The first of `cases` cases of the stream whose answer breaks the subject's contract, as told() has it; "" where none does.
+/// The first of `cases` cases of the stream whose answer breaks the subject's contract, as told() has it; "" where none
+/// does.
 std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);
 /// The first that breaks one of the relations.
 std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);

@@ -37,7 +37,7 @@ const Values x_and_raised_y{0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 1, 0};
 /// Of the cube around (0, 0, 1/2) the lower corners lie behind z = 0; this one, the first, is asked about.
 Values corners(double x, double y, double z) {
   Values all{0.5, 0, 0, 1,  //
-             1, x, y, z, 1, 1, -1, -0.5, 1, -1, 1, -0.5, 1, 1, 1, -0.5};
+             1,   x, y, z, 1, 1, -1, -0.5, 1, -1, 1, -0.5, 1, 1, 1, -0.5};
   all.resize(all.size() + 16, 0);
   return all;
 }
@@ -79,7 +79,11 @@ const Placed placed[] = {
     {"above", "moving_point_triangle", Values{1, 1, 2, 0, 0, -1} + triangle, {2, 1, 1, four_ulps, 0, 0, 1}, false},
     {"in_the_plane", "moving_point_triangle", Values{1, 1, 2, 0, 0, -1} + triangle, {2, 3, 3, 0, 0, 0, 1}, false},
     {"elsewhere", "moving_point_triangle_prepared", Values{1, 1, 2, 0, 0, -1} + triangle, {2, 2, 1, 0, 0, 0, 1}, true},
-    {"in_the_plane", "moving_point_triangle_prepared", Values{1, 1, 2, 0, 0, -1} + triangle, {2, 3, 3, 0, 0, 0, 1}, false},
+    {"in_the_plane",
+     "moving_point_triangle_prepared",
+     Values{1, 1, 2, 0, 0, -1} + triangle,
+     {2, 3, 3, 0, 0, 0, 1},
+     false},
     {"other_half", "moving_point_rectangle", Values{2, 1, 2, 0, 0, -1} + square, {2, 1, 3, 0, 0, 0, 1}, true},
     {"in_the_plane", "moving_point_rectangle", Values{2, 1, 2, 0, 0, -1} + square, {2, 5, 1, 0, 0, 0, 1}, false},
     // Radius 3 around 0: from (-5, 0, 0) at speed 2, and from inside, where a solid ball is met at the start.
@@ -105,8 +109,16 @@ const Placed placed[] = {
     // A ball of radius 1 above: what it touches with is on the ball, not on what it meets.
     {"elsewhere", "moving_sphere_plane", Values{1, 1, 5, 1, 0, 0, -1} + floor_plane, {4, 2, 1, 0, 0, 0, 1}, true},
     {"on_the_ball", "moving_sphere_plane", Values{1, 1, 5, 1, 0, 0, -1} + floor_plane, {4, 1, 2, 1, 0, 0, 1}, false},
-    {"elsewhere", "moving_sphere_triangle", Values{1, 1, 5, 1, 0, 0, -1} + triangle, {4, 2, 1, 0, 0, 0, 1, 0.5, 0.25, 0.25}, true},
-    {"on_the_ball", "moving_sphere_triangle", Values{1, 1, 5, 1, 0, 0, -1} + triangle, {4, 1, 2, 1, 0, 0, 1, 0.5, 0.25, 0.25}, false},
+    {"elsewhere",
+     "moving_sphere_triangle",
+     Values{1, 1, 5, 1, 0, 0, -1} + triangle,
+     {4, 2, 1, 0, 0, 0, 1, 0.5, 0.25, 0.25},
+     true},
+    {"on_the_ball",
+     "moving_sphere_triangle",
+     Values{1, 1, 5, 1, 0, 0, -1} + triangle,
+     {4, 1, 2, 1, 0, 0, 1, 0.5, 0.25, 0.25},
+     false},
     {"other_half", "moving_sphere_rectangle", Values{2, 1, 5, 1, 0, 0, -1} + square, {4, 1, 2, 0, 0, 0, 1}, true},
     {"in_the_plane", "moving_sphere_rectangle", Values{2, 1, 5, 1, 0, 0, -1} + square, {4, 5, 1, 0, 0, 0, 1}, false},
     {"other_side", "moving_sphere_sphere", {5, 0, 0, 1, -1, 0, 0, 0, 0, 0, 2}, {2, 0, 2, 0, 1, 0, 0}, true},
@@ -117,7 +129,11 @@ const Placed placed[] = {
     {"beside", "moving_sphere_box", Values{5, 0, 0, 1, -1, 0, 0} + cube, {3, 1, 2, 0, 1, 0, 0}, false},
     // Along the turned cube's first axis: (3/5, 4/5, 0) is its face's middle, (1, 0, 0) lies 2/5 within that face and
     // 1/5 within the one across.
-    {"turned_elsewhere", "moving_sphere_box", Values{6, 8, 0, 1, -3, -4, 0} + turned, {1.6, -0.6, -0.8, 0, 0.6, 0.8, 0}, true},
+    {"turned_elsewhere",
+     "moving_sphere_box",
+     Values{6, 8, 0, 1, -3, -4, 0} + turned,
+     {1.6, -0.6, -0.8, 0, 0.6, 0.8, 0},
+     true},
     {"turned_inside", "moving_sphere_box", Values{6, 8, 0, 1, -3, -4, 0} + turned, {1.6, 1, 0, 0, 0.6, 0.8, 0}, false},
     // Balls of radius 2 that are 3 apart: the first one's deepest point is (2, 0, 0), the second one's (1, 0, 0).
     {"other_side", "sphere_sphere_penetration", {0, 0, 0, 2, 3, 0, 0, 2}, {1, 1, 0, 0, 0, 2, 0}, true},
@@ -128,8 +144,10 @@ const Placed placed[] = {
     {"other_face", "sphere_box_penetration", Values{3, 0, 0, 3} + cube, {1, -1, 0, 0, 0, 0, 1}, true},
     {"deepest", "sphere_box_penetration", Values{3, 0, 0, 3} + cube, {1, -1, 0, 0, 0, 0, 0}, true},
     {"between", "sphere_box_penetration", Values{3, 0, 0, 3} + cube, {1, -1, 0, 0, 0.5, 0, 0}, false},
-    {"in_a_face", "box_plane_penetration", Values{0, 0, 0.5, 1, 1, 1, 0, 0, 0, 1} + floor_plane, corners(0, 0, -0.5), true},
-    {"beside", "box_plane_penetration", Values{0, 0, 0.5, 1, 1, 1, 0, 0, 0, 1} + floor_plane, corners(-1, -2, -0.5), false},
+    {"in_a_face", "box_plane_penetration", Values{0, 0, 0.5, 1, 1, 1, 0, 0, 0, 1} + floor_plane, corners(0, 0, -0.5),
+     true},
+    {"beside", "box_plane_penetration", Values{0, 0, 0.5, 1, 1, 1, 0, 0, 0, 1} + floor_plane, corners(-1, -2, -0.5),
+     false},
     {"inside", "box_plane_penetration", Values{0, 0, 0.5, 1, 1, 1, 0, 0, 0, 1} + floor_plane, corners(0, 0, 0), false},
 };
 
@@ -148,14 +166,14 @@ TEST_P(PlaceByHand, IsToldFromOneOffTheSurface) {
   EXPECT_EQ(name_of(f.disagreement), name_of(p.on_surface ? Disagreement::wrong_place : Disagreement::off_surface));
 }
 
-INSTANTIATE_TEST_SUITE_P(Placed, PlaceByHand, testing::ValuesIn(placed), [](const auto& test) {
-  return std::string(test.param.query) + "_" + test.param.name;
-});
+INSTANTIATE_TEST_SUITE_P(Placed, PlaceByHand, testing::ValuesIn(placed),
+                         [](const auto& test) { return std::string(test.param.query) + "_" + test.param.name; });
 
 /// Every query that answers with a place, but those whose place lies between two surfaces or is a vector of numbers.
 bool answers_with_a_place(const Query& query) {
   if (query.kind == Kind::measure || query.name == "box_box_penetration") return false;
-  return std::any_of(query.outputs.begin(), query.outputs.end(), [](const Field& f) { return f.role == Role::position; });
+  return std::any_of(query.outputs.begin(), query.outputs.end(),
+                     [](const Field& f) { return f.role == Role::position; });
 }
 
 TEST(Surfaces, AreNamedByEveryQueryThatAnswersWithAPlace) {

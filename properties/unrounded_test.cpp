@@ -1,6 +1,6 @@
-/// Where no operation of a query's text rounds, the answer of every tier is the exact one, touches included: decision and
-/// numbers. Asked on lattices of small integers and dyadic fractions, where contacts that only touch are common; the
-/// processor's flag tells whether anything was rounded.
+/// Where no operation of a query's text rounds, the answer of every tier is the exact one, touches included: decision
+/// and numbers. Asked on lattices of small integers and dyadic fractions, where contacts that only touch are common;
+/// the processor's flag tells whether anything was rounded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,16 +30,15 @@ struct Texts {
   const char* query;
   AnswerTo in_float, in_double;
 };
-#define NEARMISS_QUERY(name) \
-  Texts{#name, answer_of_text<inputs::name, float>, answer_of_text<inputs::name, double>},
+#define NEARMISS_QUERY(name) Texts{#name, answer_of_text<inputs::name, float>, answer_of_text<inputs::name, double>},
 constexpr Texts texts[] = {
 #include "impl/catalogue/catalogue.def"
 };
 #undef NEARMISS_QUERY
 std::ostream& operator<<(std::ostream& out, const Texts& t) { return out << t.query; }
 
-/// Draws cases of numbers of few bits: lattice points, many of them together, or apart along one axis or by a vector whose
-/// length is an integer; half of the rotations are none, others quarter turns and turns by small integers.
+/// Draws cases of numbers of few bits: lattice points, many of them together, or apart along one axis or by a vector
+/// whose length is an integer; half of the rotations are none, others quarter turns and turns by small integers.
 class SmallLattice {
  public:
   explicit SmallLattice(std::uint64_t seed) : random_(seed) {}
@@ -66,7 +65,8 @@ class SmallLattice {
     if (below(2) == 0) base_ = {double(within(9)), double(within(9)), double(within(9))};
   }
   std::array<double, 3> vector() {
-    static constexpr std::array<double, 3> of_integer_length[] = {{1, 2, 2}, {0, 3, 4}, {2, 3, 6}, {1, 4, 8}, {4, 4, 7}};
+    static constexpr std::array<double, 3> of_integer_length[] = {
+        {1, 2, 2}, {0, 3, 4}, {2, 3, 6}, {1, 4, 8}, {4, 4, 7}};
     std::array<double, 3> v{double(within(range_)), double(within(range_)), double(within(range_))};
     const int kind = below(10);
     if (kind > 7) v = {0, 0, 0};
@@ -84,10 +84,13 @@ class SmallLattice {
       case Role::time: return values.push_back(below(9) * 0.25);
       default: break;
     }
-    if (!f.name.ends_with(".x")) return values.push_back((f.role == Role::size ? below(3 * range_) : within(2 * range_)) * cell_);
+    if (!f.name.ends_with(".x"))
+      return values.push_back((f.role == Role::size ? below(3 * range_) : within(2 * range_)) * cell_);
     const std::array<double, 3> v = vector();
     for (int k = 0; k < 3; ++k) {
-      values.push_back(cell_ * (f.role == Role::position ? base_[k] + v[k] : f.role == Role::size ? std::abs(v[k]) : v[k]));
+      values.push_back(cell_ * (f.role == Role::position ? base_[k] + v[k]
+                                : f.role == Role::size   ? std::abs(v[k])
+                                                         : v[k]));
     }
   }
   void add_rotation(std::vector<double>& values) {
@@ -137,7 +140,8 @@ class WhereNothingRounds : public testing::TestWithParam<Texts> {
     const Finding f = judge(c, answer, collide::Contract{.forward = 0, .exact_decisions = true}, Detail::full);
     truth_yes_ = f.truth_yes;
     EXPECT_EQ(f.verdict, Verdict::agrees) << who << ": " << name_of(f.disagreement) << ", " << f.clause << "\n"
-                                          << case_to_json(c).dump(2) << "\n" << case_to_cpp(c);
+                                          << case_to_json(c).dump(2) << "\n"
+                                          << case_to_cpp(c);
   }
   void examine(const Case& c, Counts& counts) {
     const bool is_float = c.scalar == Scalar::float32;

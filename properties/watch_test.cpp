@@ -1,7 +1,7 @@
 /// Who watches the judge: of answers that are right by construction nothing may be proved that they are not off by, and
-/// answers that are wrong by construction must be told. What is right comes from the derivations (derivation.hpp), which
-/// share no code with the oracle: the exact answer to an input that is moved by at most k epsilon, of several right ones
-/// any, rounded, and pushed by an ulp.
+/// answers that are wrong by construction must be told. What is right comes from the derivations (derivation.hpp),
+/// which share no code with the oracle: the exact answer to an input that is moved by at most k epsilon, of several
+/// right ones any, rounded, and pushed by an ulp.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,9 +30,9 @@ int answers_per_query() {
 
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
 
-/// An answer with the first numbers of the reference; empty where a number is beyond the scalar's range, and where a time is
-/// at its end: a time beyond the largest number is a miss, and the reference, which is truncated, does not tell it from one
-/// that is not.
+/// An answer with the first numbers of the reference; empty where a number is beyond the scalar's range, and where a
+/// time is at its end: a time beyond the largest number is a miss, and the reference, which is truncated, does not tell
+/// it from one that is not.
 std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Reference& reference) {
   Answer a;
   a.yes = reference.yes;
@@ -57,8 +57,8 @@ class Watch : public testing::TestWithParam<NamedQuery> {
   int below(int n) { return int(random_() % std::uint64_t(n)); }
   double uniform() { return std::ldexp(double(random_() >> 11), -53) * 2 - 1; }
 
-  /// Near misses of the generator, families of shapes and sizes, lattices, where ties and touches are common, and cases that
-  /// are beside those by an ulp.
+  /// Near misses of the generator, families of shapes and sizes, lattices, where ties and touches are common, and cases
+  /// that are beside those by an ulp.
   Case draw(std::uint64_t index) {
     const Scalar scalar = scalars[index / 4 % 2];
     switch (index % 4) {
@@ -144,9 +144,11 @@ TEST_P(Watch, NothingIsProvedAgainstWhatIsRight) {
       double k = i < 2 ? 0 : any_rung();
       const Case here = k == 0 ? there : moved(there, k);
       if (here.values == there.values) k = 0;
-      const collide::Contract promise{.backward = k, .forward = k == 0 ? 1 : HUGE_VAL, .exact_decisions = k == 0, .unit = 8};
+      const collide::Contract promise{
+          .backward = k, .forward = k == 0 ? 1 : HUGE_VAL, .exact_decisions = k == 0, .unit = 8};
       const Finding f = judge(here, *exact, promise, i % 2 == 0 ? Detail::full : Detail::verdict);
-      ASSERT_EQ(false_word(f, k), "") << "k = " << k << "\n" << text(here, *exact, f) << "\nright for " << case_to_json(there).dump();
+      ASSERT_EQ(false_word(f, k), "") << "k = " << k << "\n"
+                                      << text(here, *exact, f) << "\nright for " << case_to_json(there).dump();
       ++asked, ++by_k[k == 0 ? 0 : 1 + std::ilogb(k)], yes += exact->yes;
     }
   }
@@ -165,7 +167,8 @@ TEST_P(Watch, SeesAJudgeThatTellsTooMuch) {
     const std::optional<Answer> exact = answer_of(query(), there.scalar, right_answer(there));
     const double k = any_rung();
     if (!exact || k == 0) continue;
-    const Finding f = judge(moved(there, too_much * k), *exact, collide::Contract{.backward = k, .unit = 8}, Detail::verdict);
+    const Finding f =
+        judge(moved(there, too_much * k), *exact, collide::Contract{.backward = k, .unit = 8}, Detail::verdict);
     seen += !false_word(f, k).empty();
   }
   EXPECT_GT(seen, 0);
@@ -198,7 +201,8 @@ TEST_P(Watch, APushByAnUlpIsToldAsNoMore) {
     if (query().kind == Kind::depth && answer.yes && answer.values[0] < 0) continue;  // pushed apart
     // A derivation's doubles are truncated, not rounded to the nearest.
     const double ulps = c.scalar == Scalar::float32 ? 1.5 : 2;
-    const Finding f = judge(c, answer, collide::Contract{.forward = ulps * (1 + 0x1p-20), .exact_decisions = true}, Detail::full);
+    const Finding f =
+        judge(c, answer, collide::Contract{.forward = ulps * (1 + 0x1p-20), .exact_decisions = true}, Detail::full);
     ASSERT_FALSE(f.is_proved()) << text(c, answer, f);
   }
 }
@@ -224,8 +228,8 @@ std::size_t across(const Layout::Part& part, const Answer& a) {
 }
 
 TEST_P(Watch, WhatIsWrongIsTold) {
-  // Of two faces that are as near, or of a cone of normals whose edges are drawn one time in six, forty draws are the same
-  // once in 10^11 cases.
+  // Of two faces that are as near, or of a cone of normals whose edges are drawn one time in six, forty draws are the
+  // same once in 10^11 cases.
   constexpr std::size_t draws = 40;
   constexpr double least = 16, told_at_least = 7;  // an ulp of what is pushed may be two of what is exact
   const int wanted = answers_per_query() / 8;
@@ -282,7 +286,8 @@ TEST_P(Watch, WhatIsWrongIsTold) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Watch, testing::ValuesIn(derived::derived_queries()), testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Every, Watch, testing::ValuesIn(derived::derived_queries()),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -31,10 +31,9 @@ class CountedWork {
  public:
   CountedWork() {
     mp_get_memory_functions(&allocate_, &reallocate_, &free_);
-    mp_set_memory_functions(
-        [](std::size_t n) { return count_bytes(n), std::malloc(n); },
-        [](void* p, std::size_t, std::size_t n) { return count_bytes(n), std::realloc(p, n); },
-        [](void* p, std::size_t) { std::free(p); });
+    mp_set_memory_functions([](std::size_t n) { return count_bytes(n), std::malloc(n); },
+                            [](void* p, std::size_t, std::size_t n) { return count_bytes(n), std::realloc(p, n); },
+                            [](void* p, std::size_t) { std::free(p); });
     work = {};
   }
   ~CountedWork() { mp_set_memory_functions(allocate_, reallocate_, free_); }
@@ -51,8 +50,8 @@ Work larger(const Work& a, const Work& b) {
   return {std::max(a.allocations, b.allocations), std::max(a.bytes, b.bytes)};
 }
 
-/// Asks `answer` about numbers of any magnitude, scenes far from 1, stored cases, and touches on lattices of which a few
-/// numbers are of another magnitude; the largest work that a case took.
+/// Asks `answer` about numbers of any magnitude, scenes far from 1, stored cases, and touches on lattices of which a
+/// few numbers are of another magnitude; the largest work that a case took.
 template <class F>
 Work largest_work(const Query& query, Scalar scalar, std::uint64_t raw_cases, const Work& most, F answer) {
   Work largest;
@@ -90,9 +89,8 @@ TEST_P(WorkOfTheOracle, IsBoundedWhateverTheNumbers) {
   const Query& query = *GetParam().query;
   Work largest;
   for (const Scalar scalar : scalars) {
-    largest = larger(largest, largest_work(query, scalar, 60, most_of_the_oracle, [](const Case& c) {
-                       EXPECT_FALSE(truth_of(c).alternatives.empty());
-                     }));
+    largest = larger(largest, largest_work(query, scalar, 60, most_of_the_oracle,
+                                           [](const Case& c) { EXPECT_FALSE(truth_of(c).alternatives.empty()); }));
   }
   record(largest);
   EXPECT_GT(largest.allocations, 0u);
@@ -100,8 +98,8 @@ TEST_P(WorkOfTheOracle, IsBoundedWhateverTheNumbers) {
 
 INSTANTIATE_TEST_SUITE_P(Every, WorkOfTheOracle, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
-/// Four times what the costliest of 10^6 cases takes (a sphere past a rectangle: 11,000 allocations; the penetration of two
-/// boxes: 1.1 MB).
+/// Four times what the costliest of 10^6 cases takes (a sphere past a rectangle: 11,000 allocations; the penetration of
+/// two boxes: 1.1 MB).
 constexpr Work most_of_the_certified{45'000, 4'500'000};
 
 class WorkOfTheCertified : public testing::TestWithParam<Pairing> {};
@@ -109,8 +107,9 @@ class WorkOfTheCertified : public testing::TestWithParam<Pairing> {};
 TEST_P(WorkOfTheCertified, IsBoundedWhateverTheNumbers) {
   const auto [query, subject] = GetParam();
   const Offering& offering = subject->offering(query->name);
-  const Work largest = largest_work(*query, subject->scalar, 200, most_of_the_certified,
-                                    [&](const Case& c) { EXPECT_EQ(offering.answer(c.values).status, Answer::Status::answered); });
+  const Work largest = largest_work(*query, subject->scalar, 200, most_of_the_certified, [&](const Case& c) {
+    EXPECT_EQ(offering.answer(c.values).status, Answer::Status::answered);
+  });
   record(largest);
 }
 

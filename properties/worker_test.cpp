@@ -35,8 +35,12 @@ Answer misbehave(std::span<const double> inputs) {
     case crashes: std::raise(SIGSEGV); break;
     case throws: throw std::runtime_error("no contact found");
     case throws_an_int: throw 42;
-    case hangs: for (volatile bool forever = true; forever;) {} break;
-    case sleeps: for (;;) pause();
+    case hangs:
+      for (volatile bool forever = true; forever;) {
+      }
+      break;
+    case sleeps:
+      for (;;) pause();
     case eats_memory:
       for (std::vector<std::vector<char>> kept;;) kept.emplace_back(std::size_t{1} << 24, 'x');
     case exits: std::_Exit(3);
@@ -106,7 +110,8 @@ Answer work(std::span<const double>) {
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
   };
-  for (const double begin = worked(); worked() < begin + 0.1;) {}
+  for (const double begin = worked(); worked() < begin + 0.1;) {
+  }
   return {};
 }
 
@@ -123,7 +128,8 @@ class Crowd {
       others_.push_back(fork());
       if (others_.back() == 0) {
         alarm(60);  // whatever becomes of the test
-        for (volatile bool forever = true; forever;) {}
+        for (volatile bool forever = true; forever;) {
+        }
       }
     }
   }
@@ -151,7 +157,8 @@ TEST(Worker, HasPatienceWithASubjectThatWaitsForItsTurn) {
 class Lifeline {
  public:
   Lifeline() {
-    if (mkdtemp(folder_.data()) == nullptr || mkfifo(name().c_str(), 0600) != 0) throw std::runtime_error("a named pipe");
+    if (mkdtemp(folder_.data()) == nullptr || mkfifo(name().c_str(), 0600) != 0)
+      throw std::runtime_error("a named pipe");
     file_ = open(name().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     current = name();
   }
@@ -263,7 +270,8 @@ std::string how_it_left(const testing::TestParamInfo<std::tuple<Leaving, bool>>&
   return std::string(names[std::get<0>(test.param)]) + (std::get<1>(test.param) ? "_of_a_namespace" : "");
 }
 INSTANTIATE_TEST_SUITE_P(Anywhere, WhatASubjectStarted,
-                         testing::Combine(testing::Values(in_its_group, in_its_own_session, twice_removed), testing::Bool()),
+                         testing::Combine(testing::Values(in_its_group, in_its_own_session, twice_removed),
+                                          testing::Bool()),
                          how_it_left);
 
 /// The names of the open files of this process, as a number with a bit for each; of whoever counts, none.

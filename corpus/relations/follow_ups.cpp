@@ -23,7 +23,8 @@ Agreement compare(const Query& query, const Answer& a, const Answer& b) {
   if (a.yes != b.yes) return Agreement::decisions_differ;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     const bool neither_is_a_number = std::isnan(a.values[i]) && std::isnan(b.values[i]);
-    if (a.gives(i) && b.gives(i) && a.values[i] != b.values[i] && !neither_is_a_number) return Agreement::numbers_differ;
+    if (a.gives(i) && b.gives(i) && a.values[i] != b.values[i] && !neither_is_a_number)
+      return Agreement::numbers_differ;
   }
   return Agreement::same;
 }
@@ -36,18 +37,21 @@ FollowUps counterpart(Case other, std::function<Answer(const Answer&)> image) {
           [&query, image](const Answer& own, std::span<const Answer> others) {
             return compare(query, own.status == Answer::Status::answered ? image(own) : own, others[0]);
           },
-          image, true, true};
+          image,
+          true,
+          true};
 }
 
-FollowUps ordered(std::vector<Case> others,
-                 std::function<Agreement(const Answer&, std::span<const Answer>)> compare) {
+FollowUps ordered(std::vector<Case> others, std::function<Agreement(const Answer&, std::span<const Answer>)> compare) {
   return {std::move(others),
           [compare](const Answer& own, std::span<const Answer> answers) {
             const auto answered = [](const Answer& a) { return a.status == Answer::Status::answered; };
             if (!answered(own) || !std::all_of(answers.begin(), answers.end(), answered)) return Agreement::same;
             return compare(own, answers);
           },
-          {}, true, true};
+          {},
+          true,
+          true};
 }
 
 bool valid(const Case& c) {

@@ -49,7 +49,8 @@ bool valid(const Case& c);
 double slack(Scalar scalar, double a, double b);
 inline constexpr double ulps_of_slack = 2;
 
-/// The relations' own functions: the follow-ups of a case, chosen by `seed` where there is a choice; empty where there are none.
+/// The relations' own functions: the follow-ups of a case, chosen by `seed` where there is a choice; empty where there
+/// are none.
 using Follow = std::optional<FollowUps>(const Case& c, std::uint64_t seed);
 Follow scaled_lengths, scaled_time, scaled_directions, scaled_rotations, negated_rotations;
 Follow reflected, permuted_axes;

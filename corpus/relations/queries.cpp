@@ -25,8 +25,9 @@ FollowUps same_answer(const Case& c, const Link& link) {
     Answer a = own;
     for (std::size_t i = 0; i < to.outputs.size(); ++i) {
       const std::size_t at = index_of(from.outputs, to.outputs[i].name);
-      const bool excepted = std::any_of(except.begin(), except.end(),
-                                        [&](std::string_view member) { return is_part_of(member, to.outputs[i].name); });
+      const bool excepted = std::any_of(except.begin(), except.end(), [&](std::string_view member) {
+        return is_part_of(member, to.outputs[i].name);
+      });
       if (at == from.outputs.size() || excepted) {
         a = without(a, i);
       } else {
@@ -82,8 +83,8 @@ std::optional<FollowUps> prepared(const Case& c, std::uint64_t) {
   return link == nullptr ? std::nullopt : std::optional(same_answer(c, *link));
 }
 
-/// A capsule whose ends are one point, and a box without extents, as the sphere or point that they are. Of a capsule the
-/// inside may differ, where a point starts: then the times alone are compared.
+/// A capsule whose ends are one point, and a box without extents, as the sphere or point that they are. Of a capsule
+/// the inside may differ, where a point starts: then the times alone are compared.
 std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::capsule_as_sphere);
   if (link != nullptr && are_equal(c, "capsule.p0", "capsule.p1")) {

@@ -1,5 +1,5 @@
-/// Relations between the exact answers of cases: what a change of the input that is exactly representable must do to the
-/// answer. No tolerance takes part, and no truth is needed to see that one is broken.
+/// Relations between the exact answers of cases: what a change of the input that is exactly representable must do to
+/// the answer. No tolerance takes part, and no truth is needed to see that one is broken.
 #pragma once
 
 #include "corpus/relations/follow_ups.hpp"

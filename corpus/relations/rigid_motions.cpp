@@ -115,8 +115,7 @@ std::optional<Case> turned(const Case& c, const WholeRotation& r) {
       }
       case Role::rotation: {
         const auto [a, b, d, w] = r.quaternion;  // the product of the two, a row for each of its numbers
-        const std::array<std::array<int, 4>, 4> product{
-            {{w, -d, b, a}, {d, w, -a, b}, {-b, a, w, d}, {-a, -b, -d, w}}};
+        const std::array<std::array<int, 4>, 4> product{{{w, -d, b, a}, {d, w, -a, b}, {-b, a, w, d}, {-a, -b, -d, w}}};
         const std::size_t k = std::string_view("xyzw").find(last(fields[i].name));
         x = exact_combination(product[k], &c.values[i - k], c.scalar);
         break;
@@ -137,7 +136,8 @@ std::optional<FollowUps> rotated(const Case& c, std::uint64_t seed) {
   // What is seen along an axis of space, or stands upright in it, is not the same when turned; directions and normals
   // are not exact when turned.
   const auto& fields = c.query->inputs;
-  const bool upright = std::any_of(fields.begin(), fields.end(), [](const Field& f) { return f.name.ends_with(".min.x"); });
+  const bool upright =
+      std::any_of(fields.begin(), fields.end(), [](const Field& f) { return f.name.ends_with(".min.x"); });
   const Traits& traits = c.query->traits;
   const bool turns = !upright && !traits.projects && traits.frame != OutputFrame::operands;
   if (!turns || c.query->kind == Kind::direction) return std::nullopt;
@@ -163,7 +163,10 @@ std::optional<FollowUps> rotated(const Case& c, std::uint64_t seed) {
       } else if (role == Role::normal) {
         x = std::nullopt;
       }
-      if (x) a.values[i] = *x; else a = without(a, i);
+      if (x)
+        a.values[i] = *x;
+      else
+        a = without(a, i);
     }
     return a;
   });

@@ -31,8 +31,8 @@ bool places_are_apart(const Case& c, double least) {
   return true;
 }
 
-/// Room for every product of eight of its numbers, and of the distances of its places: in float places within 2^6 may be
-/// 2^-29 apart, and the product of eight such distances would underflow.
+/// Room for every product of eight of its numbers, and of the distances of its places: in float places within 2^6 may
+/// be 2^-29 apart, and the product of eight such distances would underflow.
 bool far_from_overflow_and_underflow(const Case& c) {
   const bool is_float = c.scalar == Scalar::float32;
   const int orders = is_float ? 6 : 80, orders_apart = is_float ? 13 : 110;

@@ -20,9 +20,7 @@ struct SignedPermutation {
   bool permutes() const { return from[0] != 0; }
   bool turns_over() const { return sign[0] * sign[1] * sign[2] < 0; }  // permutations are cyclic here
   /// Where axis k goes.
-  std::size_t to(std::size_t k) const {
-    return std::size_t(std::find(from.begin(), from.end(), k) - from.begin());
-  }
+  std::size_t to(std::size_t k) const { return std::size_t(std::find(from.begin(), from.end(), k) - from.begin()); }
   /// Of the fifteen axes of two boxes.
   int box_axis(int axis) const {
     if (axis < 0 || axis > 14) return axis;

@@ -11,9 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-bool proves_wrong(const Finding& f) {
-  return f.is_proved() || f.verdict == Verdict::broke;
-}
+bool proves_wrong(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
 
 std::string said_of(const RelationFinding& r, const Subject& subject, const FollowUps& follow_ups, bool bit_for_bit,
                     Breach& breach) {
@@ -95,9 +93,8 @@ bool offers_all(const Subject& subject, const FollowUps& follow_ups) {
 }
 
 bool may_be_asked_all(const Subject& subject, const FollowUps& follow_ups) {
-  return std::all_of(follow_ups.cases.begin(), follow_ups.cases.end(), [&](const Case& c) {
-    return unmet_by(c, subject.offering(c.query->name).required).empty();
-  });
+  return std::all_of(follow_ups.cases.begin(), follow_ups.cases.end(),
+                     [&](const Case& c) { return unmet_by(c, subject.offering(c.query->name).required).empty(); });
 }
 
 RelationFinding relate(const Relation& relation, const FollowUps& follow_ups, const Case& question,

@@ -46,8 +46,8 @@ bool claims_same_bits(const Subject& subject);
 
 using Ask = std::function<Answer(const Case&)>;
 
-/// Asks the subject about the case and its follow-ups. Empty: no follow-ups, one of them is not offered, or one of the cases is
-/// outside of what the subject requires.
+/// Asks the subject about the case and its follow-ups. Empty: no follow-ups, one of them is not offered, or one of the
+/// cases is outside of what the subject requires.
 std::optional<RelationFinding> examine(const Relation& relation, const Case& question, std::uint64_t seed,
                                        const Subject& subject, const Ask& ask, bool bit_for_bit = false);
 /// Whether the subject offers the query of each of the follow-ups.

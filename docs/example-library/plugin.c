@@ -5,12 +5,12 @@
 #include "nearmiss_plugin.h"
 #include "skim.h"
 
-static void to_floats(const double *from, int count, float *to) {
+static void to_floats(const double* from, int count, float* to) {
   for (int i = 0; i < count; ++i) to[i] = (float)from[i]; /* exact: Skim is asked nothing but floats */
 }
 
 /* sphere1.center, sphere1.radius, sphere2.center, sphere2.radius */
-static int sphere_sphere_overlap(const double *inputs, nearmiss_answer *answer) {
+static int sphere_sphere_overlap(const double* inputs, nearmiss_answer* answer) {
   float in[8];
   to_floats(inputs, 8, in);
   answer->yes = skim_balls_meet(in, in[3], in + 4, in[7]);
@@ -18,7 +18,7 @@ static int sphere_sphere_overlap(const double *inputs, nearmiss_answer *answer) 
 }
 
 /* point, velocity, sphere.center, sphere.radius, solid; time, location, normal */
-static int moving_point_sphere(const double *inputs, nearmiss_answer *answer) {
+static int moving_point_sphere(const double* inputs, nearmiss_answer* answer) {
   float in[10], t;
   if (inputs[10] == 0) {
     strcpy(answer->why, "Skim's balls are solid");
@@ -32,7 +32,7 @@ static int moving_point_sphere(const double *inputs, nearmiss_answer *answer) {
 }
 
 /* segment.v0, segment.v1, point; point */
-static int closest_point_segment(const double *inputs, nearmiss_answer *answer) {
+static int closest_point_segment(const double* inputs, nearmiss_answer* answer) {
   float in[9], nearest[3];
   to_floats(inputs, 9, in);
   skim_nearest_on_segment(in, in + 3, in + 6, nearest);
@@ -50,7 +50,7 @@ static const nearmiss_offer offers[] = {
     {"closest_point_segment", 9, 3, NULL, &eight_roundings, closest_point_segment, 0},
 };
 
-static const nearmiss_plugin skim = {NEARMISS_PLUGIN_VERSION, "skim",         "skim 1.0", NEARMISS_FLOAT,
+static const nearmiss_plugin skim = {NEARMISS_PLUGIN_VERSION,        "skim", "skim 1.0", NEARMISS_FLOAT,
                                      sizeof offers / sizeof *offers, offers};
 
-const nearmiss_plugin *nearmiss_plugin_entry(void) { return &skim; }
+const nearmiss_plugin* nearmiss_plugin_entry(void) { return &skim; }

@@ -20,7 +20,7 @@ int skim_balls_meet(const float center1[3], float radius1, const float center2[3
 #endif
 }
 
-int skim_ray_ball(const float origin[3], const float direction[3], const float center[3], float radius, float *t) {
+int skim_ray_ball(const float origin[3], const float direction[3], const float center[3], float radius, float* t) {
   double d[3], m[3];
   for (int i = 0; i < 3; ++i) d[i] = (double)direction[i];
   between(center, origin, m);
@@ -32,7 +32,7 @@ int skim_ray_ball(const float origin[3], const float direction[3], const float c
 #ifdef SKIM_MENDED
   if (discriminant < 0) return 0;
 #else
-  if (discriminant < 1e-6) return 0; /* "nearly parallel": also every slow ray and every small ball */
+  if (discriminant < 1e-6) return 0;        /* "nearly parallel": also every slow ray and every small ball */
 #endif
   *t = (float)(c / (sqrt(discriminant) - b));
   return 1;

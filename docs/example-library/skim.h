@@ -11,7 +11,7 @@ extern "C" {
 int skim_balls_meet(const float center1[3], float radius1, const float center2[3], float radius2);
 
 /* 1 where the ray origin + t * direction, t >= 0, meets a solid ball; its least t goes to *t. Else 0. */
-int skim_ray_ball(const float origin[3], const float direction[3], const float center[3], float radius, float *t);
+int skim_ray_ball(const float origin[3], const float direction[3], const float center[3], float radius, float* t);
 
 /* The point of the segment from a to b nearest to p goes to nearest. */
 void skim_nearest_on_segment(const float a[3], const float b[3], const float p[3], float nearest[3]);

@@ -19,7 +19,7 @@ struct reply {
   uint64_t given;
 };
 
-static int balls_meet(const double *q) {
+static int balls_meet(const double* q) {
   const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
   return x * x + y * y + z * z <= reach * reach;
 }
@@ -30,12 +30,15 @@ int main(void) {
   static struct reply replies[MOST];
   struct request batch;
   if (!cases || !answers) return 2;
-  fputs("{\"nearmiss\": 1, \"name\": \"balls-c\", \"version\": \"1.0\", \"scalar\": \"double\", \"batches\": \"binary\", "
-        "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}]}\n", answers);
+  fputs(
+      "{\"nearmiss\": 1, \"name\": \"balls-c\", \"version\": \"1.0\", \"scalar\": \"double\", \"batches\": \"binary\", "
+      "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}]}\n",
+      answers);
   fflush(answers);
   while (fread(&batch, sizeof batch, 1, cases) == 1 && batch.count <= MOST) {
     if (fread(numbers, sizeof numbers[0], batch.count, cases) != batch.count) return 1;
-    for (uint32_t i = 0; i < batch.count; ++i) replies[i] = (struct reply){.yes = (uint8_t)balls_meet(numbers[i]), .number = batch.first + i};
+    for (uint32_t i = 0; i < batch.count; ++i)
+      replies[i] = (struct reply){.yes = (uint8_t)balls_meet(numbers[i]), .number = batch.first + i};
     if (fwrite(replies, sizeof replies[0], batch.count, answers) != batch.count) return 1;
     fflush(answers);
   }

@@ -27,8 +27,8 @@ int main() {
   print("  normal", impact.normal);
 
   // The same question where rounding must not matter: the tier is an argument, the answer has the same type.
-  const auto bounce = collide::bounce_direction<collide::Accurate>(ball, velocity, impact.time, impact.location,
-                                                                   impact.normal);
+  const auto bounce =
+      collide::bounce_direction<collide::Accurate>(ball, velocity, impact.time, impact.location, impact.normal);
   print("it flies on along     ", bounce.direction);
 
   print("the guard waits at    ", collide::closest_point_segment(rail, impact.location).point);

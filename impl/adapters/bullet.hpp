@@ -1,6 +1,6 @@
-/// Bullet 3.24 as a subject, in double or, without BT_USE_DOUBLE_PRECISION, in float: the algorithms of its dispatcher, its
-/// detectors, its ray tests (btSubsimplexConvexCast) and its sweeps (btContinuousConvexCollision, with GJK and EPA).
-/// What the adapter computes for them, such as the end of a cast, it computes in double and rounds once.
+/// Bullet 3.24 as a subject, in double or, without BT_USE_DOUBLE_PRECISION, in float: the algorithms of its dispatcher,
+/// its detectors, its ray tests (btSubsimplexConvexCast) and its sweeps (btContinuousConvexCollision, with GJK and
+/// EPA). What the adapter computes for them, such as the end of a cast, it computes in double and rounds once.
 ///
 /// Every margin that is not a radius is set to zero: with Bullet's default of 0.04 a box has round edges and is
 /// another body than the one that is asked about.
@@ -82,7 +82,8 @@ struct BulletInDoubles {
     btVector3 corners[3] = {vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)};
     nearest.processTriangle(corners, 0, 0);
     if (!nearest.hit) return collide::Impact<double>::miss();
-    return only(collide::Impact<double>{nearest.m_hitFraction * horizon, {}, doubles(nearest.normal)}, {"time", "normal"});
+    return only(collide::Impact<double>{nearest.m_hitFraction * horizon, {}, doubles(nearest.normal)},
+                {"time", "normal"});
   }
   static auto answer(const in::moving_point_aabox<double>& q) -> Reply<collide::Entry<double>> {
     const double horizon = time_of_cast(q.point, 0, q.velocity, ball_around(q.aabox));
@@ -95,7 +96,8 @@ struct BulletInDoubles {
     }
     btScalar fraction = 1;
     btVector3 normal(0, 0, 0);
-    const bool hit = btRayAabb(vector(q.point), vector(end), vector(q.aabox.min), vector(q.aabox.max), fraction, normal);
+    const bool hit =
+        btRayAabb(vector(q.point), vector(end), vector(q.aabox.min), vector(q.aabox.max), fraction, normal);
     collide::Entry<double> entry = collide::Entry<double>::miss();
     if (hit) entry.time = fraction * horizon;
     return only(entry, {"time"});  // btRayAabb's normal leads inward on one side and outward on the other
@@ -110,7 +112,8 @@ struct BulletInDoubles {
   static constexpr const char* no_cast = "a cast has two ends, apart and finite";
 
   /// As time_to_pass, and some time also for what moves away; 0 where nothing moves.
-  static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity, const collide::Sphere<double>& to) {
+  static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity,
+                             const collide::Sphere<double>& to) {
     const double passing = time_to_pass(from, radius, velocity, to), speed = length(velocity);
     if (passing > 0 || !(speed > 0)) return passing;
     return power_of_two_above((to.radius > 0 ? to.radius : 1.0) / speed);
@@ -151,9 +154,7 @@ struct BulletInDoubles {
   static btSphereShape shape(const collide::Sphere<double>& s) { return btSphereShape(btScalar(s.radius)); }
   static btTransform pose(const collide::Sphere<double>& s) { return at(s.center); }
   static btBoxShape shape(const collide::Box<double>& b) { return btBoxShape(vector(b.half)); }
-  static btTransform pose(const collide::Box<double>& b) {
-    return btTransform(turn(b), vector(b.center));
-  }
+  static btTransform pose(const collide::Box<double>& b) { return btTransform(turn(b), vector(b.center)); }
   static btCapsuleShapeZ shape(const collide::Capsule<double>& c) {
     return btCapsuleShapeZ(btScalar(c.radius), btScalar(length(c.p1 - c.p0)));
   }
@@ -186,7 +187,8 @@ struct BulletInDoubles {
     static btCollisionDispatcher one(&configuration);
     return one;
   }
-  /// What the algorithm of Bullet's dispatcher says: a signed distance, or nothing; the places as its manifolds have them.
+  /// What the algorithm of Bullet's dispatcher says: a signed distance, or nothing; the places as its manifolds have
+  /// them.
   struct Said {
     bool any;
     btScalar distance;
@@ -295,9 +297,11 @@ struct Bullet {
     } else if constexpr (std::same_as<Q, in::box_plane_penetration<Number>>) {
       return "the corners: it tells the deepest alone";
     } else if constexpr (std::same_as<Q, in::sphere_box_penetration<Number>>) {
-      return "the contact: its manifolds have a place on each body, and which one is meant depends on where the center is";
+      return "the contact: its manifolds have a place on each body, and which one is meant depends on where the center "
+             "is";
     } else if constexpr (std::same_as<Q, in::box_box_penetration<Number>>) {
-      return "the axis, which it keeps to itself, and the contact: its manifolds have a place on each body, none between them";
+      return "the axis, which it keeps to itself, and the contact: its manifolds have a place on each body, none "
+             "between them";
     } else if constexpr (std::same_as<Q, in::box_box_overlap<Number>>) {
       return "the axis, which it keeps to itself";
     }
@@ -305,7 +309,8 @@ struct Bullet {
   }
   template <class Q>
   static std::string why_not() {
-    if constexpr (requires(const Q& q) { q.limit; } || requires(const Q& q) { q.location; }) {
+    if constexpr (
+        requires(const Q& q) { q.limit; } || requires(const Q& q) { q.location; }) {
       return "Bullet's casts tell the first contact, and nothing of a whole way or of a response";
     } else if constexpr (requires(const Q& q) { q.rectangle; }) {
       return "Bullet has no rectangles";

@@ -40,7 +40,8 @@ struct Ccd {
   template <class Q>
   static std::string left_out() {
     if constexpr (std::same_as<Q, in::box_box_overlap<double>>) return "the axis, which libccd does not look for";
-    if constexpr (std::same_as<Q, in::box_box_penetration<double>>) return std::string("the axis and the contact: ") + positions;
+    if constexpr (std::same_as<Q, in::box_box_penetration<double>>)
+      return std::string("the axis and the contact: ") + positions;
     if constexpr (std::same_as<Q, in::sphere_sphere_penetration<double>> ||
                   std::same_as<Q, in::sphere_box_penetration<double>>) {
       return std::string("the contact: ") + positions;
@@ -51,7 +52,8 @@ struct Ccd {
   static std::string why_not() {
     if constexpr (requires(const Q& q) { q.plane; }) {
       return "libccd's shapes are bounded, and a plane is not";
-    } else if constexpr (requires(const Q& q) { q.velocity; } || requires(const Q& q) { q.ray; }) {
+    } else if constexpr (
+        requires(const Q& q) { q.velocity; } || requires(const Q& q) { q.ray; }) {
       return "libccd knows no motions";
     } else if constexpr (requires(const Q& q) { q.box1; }) {
       return "libccd knows no boxes, only support functions";
@@ -84,8 +86,8 @@ struct Ccd {
   static constexpr const char* positions =
       "ccd.h calls a position the place where a force should act, and not which point of the two bodies it is";
 
-  /// Of GJK, whose own default is no limit; and of EPA, which has none: to a ball it adds points as long as that brings it
-  /// nearer by the tolerance.
+  /// Of GJK, whose own default is no limit; and of EPA, which has none: to a ball it adds points as long as that brings
+  /// it nearer by the tolerance.
   static constexpr int most_iterations = 1000;
   /// Each iteration of either asks both bodies for a point.
   static constexpr int most_points = 2 * (most_iterations + most_iterations);

@@ -24,17 +24,17 @@ template <class Q>
 struct CollideFunction;
 
 /// Defines that for one query, whose header of `collide` and whose inputs are included.
-#define NEARMISS_COLLIDE_FUNCTION(query)                        \
-  template <class T>                                            \
-  struct CollideFunction<inputs::query<T>> {                    \
-    template <class Tier, class... Arguments>                   \
-    static auto call(const Arguments&... arguments) noexcept {  \
-      return collide::query<Tier>(arguments...);                \
-    }                                                           \
-    template <class Tier>                                       \
-    static constexpr collide::Contract contract() {             \
-      return collide::contracts::query<Tier, T>();              \
-    }                                                           \
+#define NEARMISS_COLLIDE_FUNCTION(query)                       \
+  template <class T>                                           \
+  struct CollideFunction<inputs::query<T>> {                   \
+    template <class Tier, class... Arguments>                  \
+    static auto call(const Arguments&... arguments) noexcept { \
+      return collide::query<Tier>(arguments...);               \
+    }                                                          \
+    template <class Tier>                                      \
+    static constexpr collide::Contract contract() {            \
+      return collide::contracts::query<Tier, T>();             \
+    }                                                          \
   };
 
 /// The arguments that the function takes, in a tuple: the members of the inputs, prepared where it takes them prepared.

@@ -3,9 +3,9 @@
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
-#include <fcl/narrowphase/distance.h>
 #include <fcl/narrowphase/detail/gjk_solver_indep.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/distance.h>
 
 #include <cmath>
 #include <string_view>
@@ -63,7 +63,8 @@ struct Fcl : FclShapes {
   static constexpr double time_of_contact_error = 0x1p40;
 
   template <class Q>
-  static constexpr bool is_motion = requires(const Q& q) { q.sphere, q.velocity; } && !requires(const Q& q) { q.limit; };
+  static constexpr bool is_motion =
+      requires(const Q& q) { q.sphere, q.velocity; } && !requires(const Q& q) { q.limit; };
 
   template <class Q>
   static collide::Contract contract() {
@@ -102,9 +103,11 @@ struct Fcl : FclShapes {
   }
   template <class Q>
   static std::string why_not() {
-    if constexpr (requires(const Q& q) { q.velocity, q.triangle; } || requires(const Q& q) { q.velocity, q.rectangle; }) {
+    if constexpr (
+        requires(const Q& q) { q.velocity, q.triangle; } || requires(const Q& q) { q.velocity, q.rectangle; }) {
       return "FCL moves nothing against a single triangle, which it has only as a part of meshes";
-    } else if constexpr (requires(const Q& q) { q.point, q.velocity; } || requires(const Q& q) { q.ray; }) {
+    } else if constexpr (
+        requires(const Q& q) { q.point, q.velocity; } || requires(const Q& q) { q.ray; }) {
       return "FCL casts no rays";
     } else if constexpr (requires(const Q& q) { q.box1; }) {
       return "FCL keeps the parts of its test of two boxes to itself";
@@ -177,7 +180,8 @@ struct Fcl : FclShapes {
   }
   template <class S>
   static bool meets_triangle(const S& s, const fcl::Transform3d& where, const collide::Triangle<double>& t) {
-    return Solver().shapeTriangleIntersect(s, where, vector(t.v0), vector(t.v1), vector(t.v2), nullptr, nullptr, nullptr);
+    return Solver().shapeTriangleIntersect(s, where, vector(t.v0), vector(t.v1), vector(t.v2), nullptr, nullptr,
+                                           nullptr);
   }
 
   /// The deepest contact's depth and normal. FCL's position of a contact is another point than the one asked for.
@@ -197,7 +201,8 @@ struct Fcl : FclShapes {
   }
 
   template <class B>
-  static Reply<collide::Impact<double>> moved(const collide::Sphere<double>& sphere, const Vec3d& velocity, const B& b) {
+  static Reply<collide::Impact<double>> moved(const collide::Sphere<double>& sphere, const Vec3d& velocity,
+                                              const B& b) {
     using Impact = collide::Impact<double>;
     double horizon = 0;
     if constexpr (std::is_same_v<B, collide::Plane<double>>) {
@@ -250,7 +255,8 @@ struct FclDistance : FclShapes {
   }
   template <class Q>
   static std::string why_not() {
-    if constexpr (requires(const Q& q) { q.plane; } && !requires(const Q& q) { q.velocity; }) {
+    if constexpr (
+        requires(const Q& q) { q.plane; } && !requires(const Q& q) { q.velocity; }) {
       return "FCL 0.7 has no distance to a plane or half-space, and crashes when it is asked for one (its issue 623)";
     }
     if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||

@@ -25,14 +25,17 @@ struct Ode {
 
   template <class Q>
   static std::string equivalence() {
-    return requires(const Q& q) { q.point, q.velocity; } ? "a ray that is long enough; time is its length over the speed" : "";
+    return requires(const Q& q) {
+      q.point, q.velocity;
+    } ? "a ray that is long enough; time is its length over the speed" : "";
   }
   template <class Q>
   static std::string left_out() {
     if constexpr (std::is_same_v<Q, in::box_box_overlap<double>>) {
       return "the axis, which ODE keeps to itself";
     } else if constexpr (std::is_same_v<Q, in::box_box_penetration<double>>) {
-      return "the axis, which it keeps to itself, and the contact: ODE's manual does not say which point its position is";
+      return "the axis, which it keeps to itself, and the contact: ODE's manual does not say which point its position "
+             "is";
     } else if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
                          std::is_same_v<Q, in::sphere_box_penetration<double>> ||
                          std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
@@ -43,7 +46,8 @@ struct Ode {
   }
   template <class Q>
   static std::string why_not() {
-    if constexpr (requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
+    if constexpr (
+        requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
       return "ODE has triangles only as parts of meshes";
     } else if constexpr (requires(const Q& q) { q.sphere, q.velocity; }) {
       return "ODE knows no motions";
@@ -108,7 +112,8 @@ struct Ode {
   }
 
  private:
-  static constexpr const char* on_surface = "ODE's rays do not tell entering from leaving where they start on a surface";
+  static constexpr const char* on_surface =
+      "ODE's rays do not tell entering from leaving where they start on a surface";
 
   struct Destroy {
     void operator()(dGeomID g) const { dGeomDestroy(g); }

@@ -18,7 +18,9 @@ enum class Scalar { float32, float64 };
 inline std::string_view name_of(Scalar s) { return s == Scalar::float32 ? "float" : "double"; }
 /// Half the distance from 1 to the next number: 2^-24 or 2^-53.
 inline double unit_roundoff(Scalar s) { return s == Scalar::float32 ? 0x1p-24 : 0x1p-53; }
-inline double largest_finite(Scalar s) { return s == Scalar::float32 ? double(0x1.fffffep127f) : 0x1.fffffffffffffp1023; }
+inline double largest_finite(Scalar s) {
+  return s == Scalar::float32 ? double(0x1.fffffep127f) : 0x1.fffffffffffffp1023;
+}
 /// Distance from |x| to the next larger number of the scalar.
 inline double ulp(double x, Scalar s) {
   if (!std::isfinite(x)) return x;
@@ -39,12 +41,12 @@ struct Answer {
   static constexpr std::size_t capacity = 40;
 
   Status status = Status::answered;
-  bool yes = false;                       ///< hit, overlap, inside
-  bool late = false;                      ///< broke: a time limit was reached
-  std::uint8_t count = capacity;          ///< of values; those behind are 0
+  bool yes = false;                         ///< hit, overlap, inside
+  bool late = false;                        ///< broke: a time limit was reached
+  std::uint8_t count = capacity;            ///< of values; those behind are 0
   std::uint64_t given = ~std::uint64_t{0};  ///< bit i: values[i] is part of the answer
-  std::array<double, capacity> values{};  ///< in the order of the query's outputs
-  std::array<char, 200> why{};            ///< of cannot_answer and broke, cut to fit
+  std::array<double, capacity> values{};    ///< in the order of the query's outputs
+  std::array<char, 200> why{};              ///< of cannot_answer and broke, cut to fit
 
   bool gives(std::size_t i) const { return (given >> i & 1u) != 0; }
   std::string_view reason() const { return {why.data(), strnlen(why.data(), why.size())}; }

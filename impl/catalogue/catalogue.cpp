@@ -38,7 +38,14 @@ std::optional<Invalid> broken_inputs(std::span<const double> values) {
 template <class Inputs>
 Query make_query(QueryId id, std::string_view name) {
   using A = typename Inputs::Answer;
-  return {id, name, kind_of<A>, fields_of<Inputs>(), fields_of<A>(), Layout::of<A>(), broken_inputs<Inputs>, Inputs::traits};
+  return {id,
+          name,
+          kind_of<A>,
+          fields_of<Inputs>(),
+          fields_of<A>(),
+          Layout::of<A>(),
+          broken_inputs<Inputs>,
+          Inputs::traits};
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 /// What the inputs of a query are made of: the shapes of `collide`, listed members and their roles.
 ///
-/// Each file of `queries/` has one query: a struct of its inputs, with the name of the query, that lists its members and
-/// names the type of its answer, and states its traits. Where members depend on each other, `broken()` names the rule that they break.
+/// Each file of `queries/` has one query: a struct of its inputs, with the name of the query, that lists its members
+/// and names the type of its answer, and states its traits. Where members depend on each other, `broken()` names the
+/// rule that they break.
 #pragma once
 
 #include <optional>

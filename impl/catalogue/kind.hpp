@@ -30,23 +30,40 @@ template <Kind k>
 struct Is {
   static constexpr Kind kind = k;
 };
-template <> struct KindOf<collide::Decision> : Is<Kind::decision> {};
-template <> struct KindOf<collide::Containment> : Is<Kind::decision> {};
-template <> struct KindOf<collide::RayHit> : Is<Kind::decision> {};
-template <> struct KindOf<collide::BoxOverlap> : Is<Kind::decision> {};
-template <> struct KindOf<collide::ParallelAxes> : Is<Kind::decision> {};
-template <> struct KindOf<collide::Impact> : Is<Kind::impact> {};
-template <> struct KindOf<collide::TriangleImpact> : Is<Kind::impact> {};
-template <> struct KindOf<collide::Entry> : Is<Kind::impact> {};
-template <> struct KindOf<collide::ClosestPoint> : Is<Kind::points> {};
-template <> struct KindOf<collide::EdgePoint> : Is<Kind::points> {};
-template <> struct KindOf<collide::ClosestPoints> : Is<Kind::points> {};
-template <> struct KindOf<collide::Penetration> : Is<Kind::depth> {};
-template <> struct KindOf<collide::BoxPenetration> : Is<Kind::depth> {};
-template <> struct KindOf<collide::CornerContacts> : Is<Kind::depth> {};
-template <> struct KindOf<collide::Direction> : Is<Kind::direction> {};
-template <> struct KindOf<collide::Measure> : Is<Kind::measure> {};
-template <> struct KindOf<collide::BoxBoxInfo> : Is<Kind::measure> {};
+template <>
+struct KindOf<collide::Decision> : Is<Kind::decision> {};
+template <>
+struct KindOf<collide::Containment> : Is<Kind::decision> {};
+template <>
+struct KindOf<collide::RayHit> : Is<Kind::decision> {};
+template <>
+struct KindOf<collide::BoxOverlap> : Is<Kind::decision> {};
+template <>
+struct KindOf<collide::ParallelAxes> : Is<Kind::decision> {};
+template <>
+struct KindOf<collide::Impact> : Is<Kind::impact> {};
+template <>
+struct KindOf<collide::TriangleImpact> : Is<Kind::impact> {};
+template <>
+struct KindOf<collide::Entry> : Is<Kind::impact> {};
+template <>
+struct KindOf<collide::ClosestPoint> : Is<Kind::points> {};
+template <>
+struct KindOf<collide::EdgePoint> : Is<Kind::points> {};
+template <>
+struct KindOf<collide::ClosestPoints> : Is<Kind::points> {};
+template <>
+struct KindOf<collide::Penetration> : Is<Kind::depth> {};
+template <>
+struct KindOf<collide::BoxPenetration> : Is<Kind::depth> {};
+template <>
+struct KindOf<collide::CornerContacts> : Is<Kind::depth> {};
+template <>
+struct KindOf<collide::Direction> : Is<Kind::direction> {};
+template <>
+struct KindOf<collide::Measure> : Is<Kind::measure> {};
+template <>
+struct KindOf<collide::BoxBoxInfo> : Is<Kind::measure> {};
 
 template <template <class> class Answer, class T>
 constexpr Kind kind_of(const Answer<T>*) {

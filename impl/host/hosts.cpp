@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "impl/catalogue/query.hpp"
 #include "impl/host/replies.hpp"
 #include "impl/subject/printable.hpp"
-#include "impl/catalogue/query.hpp"
 
 namespace nearmiss {
 
@@ -64,7 +64,8 @@ class Members {
     const Json* j = find(name);
     if (j == nullptr) return std::nullopt;
     constexpr double most = 1e6;
-    if (!j->is_number_integer() || std::abs(j->get<double>()) > most) refuse("{} is no whole number within a million", of(name));
+    if (!j->is_number_integer() || std::abs(j->get<double>()) > most)
+      refuse("{} is no whole number within a million", of(name));
     return j->get<int>();
   }
   /// Infinity where it is null or missing.
@@ -101,8 +102,8 @@ collide::Contract contract_in(const Json* j, const std::string& query) {
   c.exact_decisions = m.flag("exact_decisions");
   c.lowest = m.whole("lowest").value_or(c.lowest), c.highest = m.whole("highest").value_or(c.highest);
   if (!(c.backward >= 0 && c.forward >= 0 && c.unit >= 0)) {
-    refuse("its contract of {} promises errors of at most {}, {} and {}: none may be below 0", query, c.backward, c.forward,
-           c.unit);
+    refuse("its contract of {} promises errors of at most {}, {} and {}: none may be below 0", query, c.backward,
+           c.forward, c.unit);
   }
   if (c.lowest > c.highest) refuse("its contract of {} has lowest {} above highest {}", query, c.lowest, c.highest);
   return c;
@@ -118,7 +119,8 @@ Preconditions requirements_in(const Json& list, const std::string& query) {
     if (found == all_preconditions.end()) {
       std::vector<std::string_view> names;
       for (const Precondition p : all_preconditions) names.push_back(name_of(p));
-      refuse("it requires '{}' for {}, which is none of {}", name.substr(0, most_of_a_name), query, fmt::join(names, ", "));
+      refuse("it requires '{}' for {}, which is none of {}", name.substr(0, most_of_a_name), query,
+             fmt::join(names, ", "));
     }
     required.add(*found);
   }
@@ -149,8 +151,8 @@ void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedO
   const int inputs = m.whole("inputs").value_or(int(query->inputs.size()));
   const int outputs = m.whole("outputs").value_or(int(query->outputs.size()));
   if (std::size_t(inputs) != query->inputs.size() || std::size_t(outputs) != query->outputs.size()) {
-    refuse("{} has {} inputs and {} outputs, and its hello says {} and {}", name, query->inputs.size(), query->outputs.size(),
-           inputs, outputs);
+    refuse("{} has {} inputs and {} outputs, and its hello says {} and {}", name, query->inputs.size(),
+           query->outputs.size(), inputs, outputs);
   }
   for (Offering& o : subject.offerings) {
     if (o.query != name) continue;
@@ -179,16 +181,19 @@ HostProgram::Batches batches_in(const std::string& word, bool may_share) {
 Subject described(std::string_view hello, HostProgram program) {
   if (wire::nesting(hello) > wire::most_nested) refuse("its hello is nested more than {} deep", wire::most_nested);
   const Json j = Json::parse(hello, nullptr, false);
-  if (j.is_discarded()) refuse("what it says first is no JSON: {}", hello.substr(0, std::min<std::size_t>(hello.find('\n'), 60)));
+  if (j.is_discarded())
+    refuse("what it says first is no JSON: {}", hello.substr(0, std::min<std::size_t>(hello.find('\n'), 60)));
   const bool may_share = program.batches == HostProgram::Batches::shared;
-  const Members m = may_share ? Members(j, "its hello",
-                                        {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered",
-                                         "referee"})
-                              : Members(j, "its hello",
-                                        {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
+  const Members m =
+      may_share
+          ? Members(j, "its hello",
+                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered", "referee"})
+          : Members(j, "its hello",
+                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
   const std::optional<int> version = m.whole("nearmiss");
   if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
-  if (*version != wire::version) refuse("it speaks version {} of the protocol, and this is version {}", *version, wire::version);
+  if (*version != wire::version)
+    refuse("it speaks version {} of the protocol, and this is version {}", *version, wire::version);
   if (const std::string why = m.text("refused"); !why.empty()) refuse("{}", why);
   Subject s;
   s.name = m.text("name");
@@ -211,7 +216,8 @@ Subject described(std::string_view hello, HostProgram program) {
     o.query = q.name;
     o.how = "it is not among its offers";
     if (not_offered == nullptr) continue;
-    if (const auto why = not_offered->find(q.name); why != not_offered->end() && why->is_string()) o.how = printable(why->get<std::string>().substr(0, most_of_a_text));
+    if (const auto why = not_offered->find(q.name); why != not_offered->end() && why->is_string())
+      o.how = printable(why->get<std::string>().substr(0, most_of_a_text));
   }
   const auto hosted = std::make_shared<HostedOffers>();
   std::uint32_t position = 0;
@@ -232,7 +238,8 @@ void add_hosted(const std::string& where, HostProgram program, const std::string
     throw BadSubject(fmt::format("{}: {}", where, e.what()));
   }
   Subject s = subject_from_hello(where, hello, std::move(program));
-  if (find_subject(s.name) != nullptr) throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
+  if (find_subject(s.name) != nullptr)
+    throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
   s.plugin = plugin;
   s.command = command;
   add_subject(std::move(s));
@@ -247,8 +254,9 @@ std::vector<std::string> parts_of(const char* text, char separator) {
   return parts;
 }
 
-/// A simple command's words, as a shell has them; of any other (pipes, assignments, several commands) what a shell needs to
-/// run it. How long a program works, and what signal ended it, is known only of one that no shell stands before.
+/// A simple command's words, as a shell has them; of any other (pipes, assignments, several commands) what a shell
+/// needs to run it. How long a program works, and what signal ended it, is known only of one that no shell stands
+/// before.
 std::vector<std::string> words_of(const std::string& command) {
   const std::vector<std::string> by_shell{"/bin/sh", "-c", command};
   wordexp_t words{};
@@ -321,7 +329,8 @@ void load_subjects_of_environment() {
 std::vector<Subject> hosted(const std::vector<HostOfBuild>& hosts) {
   std::vector<std::unique_ptr<Worker>> workers;
   for (const HostOfBuild& h : hosts) {
-    workers.push_back(std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(HostProgram{{h.file}})));
+    workers.push_back(
+        std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(HostProgram{{h.file}})));
     workers.back()->begin();
   }
   std::vector<Subject> all;

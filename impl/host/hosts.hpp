@@ -1,5 +1,5 @@
-/// Subjects that are asked in programs of their own: those of this build, plugins, and any program that speaks the protocol
-/// (docs/protocol.md). What such a program says of itself is checked here, word by word.
+/// Subjects that are asked in programs of their own: those of this build, plugins, and any program that speaks the
+/// protocol (docs/protocol.md). What such a program says of itself is checked here, word by word.
 #pragma once
 
 #include <stdexcept>
@@ -19,8 +19,8 @@ struct BadSubject : std::runtime_error {
 /// taken before do not stay valid. Nothing of the library is ever loaded by this process. Throws BadSubject.
 void load_plugin(const std::string& file);
 
-/// Adds the subject that this command line is: a program with its arguments, in a shell's words, or whatever else /bin/sh
-/// runs. Otherwise like load_plugin.
+/// Adds the subject that this command line is: a program with its arguments, in a shell's words, or whatever else
+/// /bin/sh runs. Otherwise like load_plugin.
 void load_command(const std::string& command);
 
 /// Names files of plugins to the programs that have no command line for it, fuzz targets and properties; separated by
@@ -38,7 +38,8 @@ struct HostOfBuild {
 /// They are started, all at once, to hear what they offer. Throws BadSubject.
 std::vector<Subject> hosted(const std::vector<HostOfBuild>& hosts);
 
-/// The subject that a hello describes. `where` begins the line that says what is wrong with it. Exported for who fuzzes it.
+/// The subject that a hello describes. `where` begins the line that says what is wrong with it. Exported for who fuzzes
+/// it.
 Subject subject_from_hello(const std::string& where, std::string_view hello, HostProgram program);
 
 }  // namespace nearmiss

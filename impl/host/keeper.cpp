@@ -143,8 +143,8 @@ struct Plan {
   _exit(127);
 }
 
-/// Returns the file on which is told that the program could not be started, which an exec closes. A program that would have
-/// a file of the judge in place of its own is not started.
+/// Returns the file on which is told that the program could not be started, which an exec closes. A program that would
+/// have a file of the judge in place of its own is not started.
 int give_files(const Plan& plan) {
   std::vector<Program::File> files = plan.program.files;
   files.push_back({plan.nowhere, STDIN_FILENO});
@@ -295,7 +295,15 @@ Kept::Kept(const Program& program, const Confinement& confinement) {
   File nowhere(open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (nowhere.number() < 0) fail("/dev/null");
   fcntl(hears.number(), F_SETFL, O_NONBLOCK);
-  Plan plan{program, confinement, {}, {}, speaks.number(), hears.number(), output.number(), nowhere.number(), own_memory(),
+  Plan plan{program,
+            confinement,
+            {},
+            {},
+            speaks.number(),
+            hears.number(),
+            output.number(),
+            nowhere.number(),
+            own_memory(),
             geteuid() == 0 ? 0 : processes_of_user()};
   for (const std::string& a : program.arguments) plan.arguments.push_back(const_cast<char*>(a.c_str()));
   plan.arguments.push_back(nullptr);
@@ -351,7 +359,8 @@ void Kept::send(int signal) {
 
 void Kept::end() {
   if (reaped_) return;
-  // The system ends all of a namespace with its init; a keeper without one looks for what is left, which may be thousands.
+  // The system ends all of a namespace with its init; a keeper without one looks for what is left, which may be
+  // thousands.
   constexpr int patience = 5000;  // milliseconds
   if (!namespaced_) {
     kill(keeper_, SIGCONT);

@@ -1,4 +1,5 @@
-// The host of a plugin: loads the shared library that its argument names, says what the library says of itself, and asks it.
+// The host of a plugin: loads the shared library that its argument names, says what the library says of itself, and
+// asks it.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -65,7 +66,9 @@ Answer ask(const void* asked, std::span<const double> inputs) {
   return a;
 }
 
-std::string text_or_none(const char* text) { return text == nullptr ? "" : std::string(text, strnlen(text, most_text)); }
+std::string text_or_none(const char* text) {
+  return text == nullptr ? "" : std::string(text, strnlen(text, most_text));
+}
 
 collide::Contract contract_of(const nearmiss_contract* c) {
   if (c == nullptr) return {};
@@ -126,7 +129,8 @@ std::string fault_of(const nearmiss_plugin* plugin) {
 
 int host_plugin(const std::string& path) {
   // What the library starts in place of this program does not get the pipes.
-  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered}) fcntl(file, F_SETFD, FD_CLOEXEC);
+  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered})
+    fcntl(file, F_SETFD, FD_CLOEXEC);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     std::string why = dlerror();

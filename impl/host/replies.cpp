@@ -59,18 +59,21 @@ std::string another_case(std::uint64_t named, std::uint32_t number) {
 }
 
 std::string neither_0_nor_1(const char* which, int byte) {
-  return std::string("an answer whose ").append(which).append(" byte is ").append(std::to_string(byte)) + ": it must be 0 or 1";
+  return std::string("an answer whose ").append(which).append(" byte is ").append(std::to_string(byte)) +
+         ": it must be 0 or 1";
 }
 
 Taken answer_in(const Json& j, std::uint32_t number, std::size_t outputs, Taken taken) {
   if (!j.is_object()) return error("a line that is no object");
   for (const auto& [name, value] : j.items()) {
     if (name != "case" && name != "yes" && name != "values" && name != "cannot") {
-      return error(std::string("'").append(name, 0, 40) + "', which is none of \"case\", \"yes\", \"values\", \"cannot\"");
+      return error(std::string("'").append(name, 0, 40) +
+                   "', which is none of \"case\", \"yes\", \"values\", \"cannot\"");
     }
   }
   const auto named = j.find("case");
-  if (named == j.end() || !named->is_number_unsigned()) return error("an object without \"case\", the number of its case");
+  if (named == j.end() || !named->is_number_unsigned())
+    return error("an object without \"case\", the number of its case");
   if (*named != number) return error(another_case(named->get<std::uint64_t>(), number));
   if (const auto why = j.find("cannot"); why != j.end()) {
     if (j.contains("yes") || j.contains("values")) return error("\"cannot\" beside \"yes\" or \"values\"");
@@ -117,7 +120,8 @@ std::size_t nesting(std::string_view json) {
   return deepest;
 }
 
-std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values, std::size_t inputs) {
+std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values,
+                           std::size_t inputs) {
   const Request head{offer, std::uint32_t(values.size() / inputs), first, 0};
   std::string bytes(sizeof head + values.size_bytes(), '\0');
   std::memcpy(bytes.data(), &head, sizeof head);
@@ -125,8 +129,10 @@ std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<c
   return bytes;
 }
 
-std::string json_request(std::string_view query, std::uint32_t first, std::span<const double> values, std::size_t inputs) {
-  std::string line = "{\"query\": \"" + std::string(query) + "\", \"first\": " + std::to_string(first) + ", \"cases\": [";
+std::string json_request(std::string_view query, std::uint32_t first, std::span<const double> values,
+                         std::size_t inputs) {
+  std::string line =
+      "{\"query\": \"" + std::string(query) + "\", \"first\": " + std::to_string(first) + ", \"cases\": [";
   for (std::size_t i = 0; i < values.size(); ++i) {
     line += i % inputs == 0 ? i == 0 ? "[" : "], [" : ", ";
     append(line, values[i]);
@@ -164,7 +170,8 @@ Taken take_json(std::string_view bytes, std::uint32_t number, std::size_t output
   if (end > max_line) return error("a line of more than 65,536 bytes");
   if (nesting(bytes.substr(0, end)) > most_nested) return error("a line that is nested more than 64 deep");
   const Json j = Json::parse(with_quoted_words(bytes.substr(0, end)), nullptr, false);
-  if (j.is_discarded()) return error("a line that is no JSON: " + std::string(bytes.substr(0, std::min<std::size_t>(end, 60))));
+  if (j.is_discarded())
+    return error("a line that is no JSON: " + std::string(bytes.substr(0, std::min<std::size_t>(end, 60))));
   return answer_in(j, number, outputs, {end + 1, {}, {}});
 }
 

@@ -1,4 +1,5 @@
-/// Batches as a program gets and answers them over pipes. What it says is not believed: a reply is an answer or an error.
+/// Batches as a program gets and answers them over pipes. What it says is not believed: a reply is an answer or an
+/// error.
 #pragma once
 
 #include <optional>
@@ -10,14 +11,16 @@
 
 namespace nearmiss::wire {
 
-/// How deep lists and objects of JSON are within each other. What is nested without end is not to be copied or printed, which
-/// its library does by calling itself.
+/// How deep lists and objects of JSON are within each other. What is nested without end is not to be copied or printed,
+/// which its library does by calling itself.
 std::size_t nesting(std::string_view json);
 inline constexpr std::size_t most_nested = 64;
 
 /// A batch in binary, and as one line of JSON: {"query": "...", "first": N, "cases": [[...], ...]}.
-std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values, std::size_t inputs);
-std::string json_request(std::string_view query, std::uint32_t first, std::span<const double> values, std::size_t inputs);
+std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values,
+                           std::size_t inputs);
+std::string json_request(std::string_view query, std::uint32_t first, std::span<const double> values,
+                         std::size_t inputs);
 
 /// The reply to the case `number`, or what is wrong with it, or neither where it has not come to its end yet.
 struct Taken {

@@ -44,8 +44,8 @@ Json bound(double x) {
 }
 
 Json contract_to_json(const collide::Contract& c) {
-  return {{"backward", bound(c.backward)}, {"forward", bound(c.forward)}, {"unit", bound(c.unit)},
-          {"exact_decisions", c.exact_decisions}, {"lowest", c.lowest},   {"highest", c.highest}};
+  return {{"backward", bound(c.backward)},        {"forward", bound(c.forward)}, {"unit", bound(c.unit)},
+          {"exact_decisions", c.exact_decisions}, {"lowest", c.lowest},          {"highest", c.highest}};
 }
 
 template <class T>
@@ -76,14 +76,9 @@ void serve(int from_judge, int to_judge, const wire::Asked& asked, wire::Answere
 }
 
 std::string hello_of(const Subject& subject) {
-  Json j{{"nearmiss", wire::version},
-         {"name", subject.name},
-         {"version", subject.version},
-         {"scalar", name_of(subject.scalar)},
-         {"batches", "shared"},
-         {"referee", subject.referee},
-         {"offers", Json::array()},
-         {"not_offered", Json::object()}};
+  Json j{{"nearmiss", wire::version},         {"name", subject.name},         {"version", subject.version},
+         {"scalar", name_of(subject.scalar)}, {"batches", "shared"},          {"referee", subject.referee},
+         {"offers", Json::array()},           {"not_offered", Json::object()}};
   for (const Offering& o : subject.offerings) {
     if (o.offer == Offer::not_offered) {
       j["not_offered"][o.query] = o.how;
@@ -105,14 +100,16 @@ std::string hello_of(const Subject& subject) {
 }
 
 std::string refusal(const std::string& why) {
-  return Json{{"nearmiss", wire::version}, {"refused", why}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return Json{{"nearmiss", wire::version}, {"refused", why}}.dump(-1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
 }
 
 int refuse(const std::string& why) { return say(wire::to_judge, refusal(why)) ? 0 : 1; }
 
 int host_of(Subject (*subject)()) {
   // What a library starts in place of this program does not get the pipes.
-  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered}) fcntl(file, F_SETFD, FD_CLOEXEC);
+  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered})
+    fcntl(file, F_SETFD, FD_CLOEXEC);
   FloatingPointModes::standard().set();  // a library may have set others when it was loaded
   return host(subject());
 }

@@ -8,8 +8,8 @@
 
 namespace nearmiss {
 
-/// Answers in shared memory, for as long as the judge is there. `offers` are those of the hello, or empty where the request
-/// has the function itself.
+/// Answers in shared memory, for as long as the judge is there. `offers` are those of the hello, or empty where the
+/// request has the function itself.
 void serve(int from_judge, int to_judge, const wire::Asked& asked, wire::Answered& answered,
            std::span<const AnswerFunction> offers);
 

@@ -23,7 +23,7 @@ enum File : int {
   answered = 6,  ///< shared memory, to be written; likewise
 };
 
-inline constexpr std::size_t capacity = 2048;              ///< cases of a batch
+inline constexpr std::size_t capacity = 2048;             ///< cases of a batch
 inline constexpr std::size_t max_values = capacity * 64;  ///< numbers of a batch
 inline constexpr std::size_t max_hello = std::size_t{1} << 20;
 inline constexpr std::size_t max_reason = 65535;
@@ -37,8 +37,8 @@ struct Asked {
   std::array<double, max_values> values;
 };
 
-/// Written by the host while it works. To move memory from one core to another is what isolation costs most, so an answer
-/// takes no more of it than it has numbers, one behind the other. The judge believes none of it.
+/// Written by the host while it works. To move memory from one core to another is what isolation costs most, so an
+/// answer takes no more of it than it has numbers, one behind the other. The judge believes none of it.
 struct Answered {
   struct Head {
     Answer::Status status;
@@ -53,8 +53,8 @@ struct Answered {
   std::array<decltype(Answer::why), capacity> reasons;      ///< of those without an answer; the others are not written
 };
 
-/// A batch in binary: the request is this, then count * inputs doubles. Every answer names its case, so that one too many, or
-/// too few, is never taken for the answer to another.
+/// A batch in binary: the request is this, then count * inputs doubles. Every answer names its case, so that one too
+/// many, or too few, is never taken for the answer to another.
 struct Request {
   std::uint32_t offer, count;
   std::uint32_t first;  ///< number of the first case; they count up from 0 while the program runs
@@ -70,9 +70,11 @@ struct Reply {
 };
 static_assert(sizeof(Request) == 16 && sizeof(Reply) == 16);
 
-/// Takes the answers [begin, end) out of shared memory; `at` counts the numbers before `begin`. False where one of them is
-/// none: nothing behind it is taken, and `begin` is its position. `outputs` is how many numbers an answer must have, or 0.
-inline bool take(const Answered& from, std::size_t& begin, std::size_t end, std::size_t& at, std::size_t outputs, Answer* into) {
+/// Takes the answers [begin, end) out of shared memory; `at` counts the numbers before `begin`. False where one of them
+/// is none: nothing behind it is taken, and `begin` is its position. `outputs` is how many numbers an answer must have,
+/// or 0.
+inline bool take(const Answered& from, std::size_t& begin, std::size_t end, std::size_t& at, std::size_t outputs,
+                 Answer* into) {
   for (; begin < end; ++begin) {
     const Answered::Head head = from.heads[begin];
     std::atomic_signal_fence(std::memory_order_seq_cst);  // what has been looked at is never read again: it may change

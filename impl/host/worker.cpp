@@ -25,13 +25,13 @@ namespace nearmiss {
 
 namespace {
 
-constexpr int between_looks = 50;                ///< milliseconds
+constexpr int between_looks = 50;  ///< milliseconds
 constexpr std::size_t most_output = 4096;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// While it lives, files may be as large as this process may ever make them: memory is a file here, and what limits files, or
-/// stands for a full disk, is not meant for it.
+/// While it lives, files may be as large as this process may ever make them: memory is a file here, and what limits
+/// files, or stands for a full disk, is not meant for it.
 class AnyFileSize {
  public:
   AnyFileSize() {
@@ -128,8 +128,8 @@ struct Worker::Child {
   }
 };
 
-/// How long a host takes for a case: of processor time, and of time that passes without that for which a busy machine lets
-/// it wait. A host that keeps the machine busy itself gets that grace as well, so it is bounded.
+/// How long a host takes for a case: of processor time, and of time that passes without that for which a busy machine
+/// lets it wait. A host that keeps the machine busy itself gets that grace as well, so it is bounded.
 class Worker::Patience {
  public:
   static constexpr double most_in_line = 5;  ///< times WorkerLimits::wall
@@ -226,7 +226,8 @@ void Worker::spawn_once() {
       return 0;
     };
   }
-  child->kept = std::make_unique<Kept>(run, Confinement{.bytes = limits_.bytes, .pid_namespace = limits_.pid_namespace});
+  child->kept =
+      std::make_unique<Kept>(run, Confinement{.bytes = limits_.bytes, .pid_namespace = limits_.pid_namespace});
   child->to_host = down.take(1);
   child->from_host = up.take(0);
   for (const int file : {child->to_host, child->from_host}) fcntl(file, F_SETFL, O_NONBLOCK);
@@ -238,7 +239,8 @@ void Worker::start() {
   spawn();
   if (program_ == nullptr) return;
   try {
-    if (first_line() != program_->hello) throw HostFailed("it says something else of itself than when it was first started");
+    if (first_line() != program_->hello)
+      throw HostFailed("it says something else of itself than when it was first started");
     refused_since_.reset();
   } catch (const HostFailed&) {
     end();
@@ -348,7 +350,8 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
 /// Writes what the pipe has room for. False where nobody reads it.
 bool Worker::flush() {
   while (child_->has_more_to_say()) {
-    const ssize_t put = write(child_->to_host, child_->out.data() + child_->written, child_->out.size() - child_->written);
+    const ssize_t put =
+        write(child_->to_host, child_->out.data() + child_->written, child_->out.size() - child_->written);
     if (put < 0 && errno == EINTR) continue;
     if (put < 0) return errno == EAGAIN;
     child_->written += std::size_t(put);
@@ -435,7 +438,8 @@ Worker::Event Worker::await() {
     if (!is_gone && ready > 0 && Clock::now() < looked_ + std::chrono::milliseconds(between_looks)) continue;
     looked_ = Clock::now();
     const auto late = is_gone ? std::nullopt : patience_->lost(*child_->kept, limits_);
-    const bool is_too_large = limits_.bytes > 0 && child_->kept->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
+    const bool is_too_large =
+        limits_.bytes > 0 && child_->kept->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
     if (!is_gone && !late && !is_too_large) continue;
     if (got_ == requested_) {  // what it does after its last answer is no case's fault
       end();
@@ -450,7 +454,9 @@ Worker::Event Worker::await() {
       }
       return how_it_ended();
     }
-    if (late) return end_as(Event::late, is_shared() || heard_ ? *late : *late + ": it wrote nothing to file 4, or did not flush it");
+    if (late)
+      return end_as(Event::late,
+                    is_shared() || heard_ ? *late : *late + ": it wrote nothing to file 4, or did not flush it");
     return end_as(Event::broke, "memory limit reached");
   }
 }

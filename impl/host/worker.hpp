@@ -36,14 +36,14 @@ struct HostFailed : std::runtime_error {
   bool late;  ///< a time limit was reached
 };
 
-/// A process, called a host, that answers batches of cases: a program that says of itself what it offers, or a copy of this
-/// process for a subject of this program. It has nothing of this process but the cases (see keeper.hpp). One that throws,
-/// aborts, crashes, hangs, eats memory or answers with what is no answer gives that case the answer `broke` with the reason
-/// (where it wrote something, its last line); a new host goes on with the next case. One batch at a time; not for use from
-/// several threads.
+/// A process, called a host, that answers batches of cases: a program that says of itself what it offers, or a copy of
+/// this process for a subject of this program. It has nothing of this process but the cases (see keeper.hpp). One that
+/// throws, aborts, crashes, hangs, eats memory or answers with what is no answer gives that case the answer `broke`
+/// with the reason (where it wrote something, its last line); a new host goes on with the next case. One batch at a
+/// time; not for use from several threads.
 ///
-/// Throws std::system_error when the operating system refuses a process or memory, for some seconds: no subject is blamed for
-/// that.
+/// Throws std::system_error when the operating system refuses a process or memory, for some seconds: no subject is
+/// blamed for that.
 class Worker {
  public:
   /// Called some twenty times a second while a host is awaited; false gives it up.
@@ -61,8 +61,8 @@ class Worker {
 
   /// Answers to values.size() / inputs_per_case cases, in order. Until `receive` the caller is free to
   /// do other work: the host runs beside it. At most `capacity` cases and max_values numbers. What is received stays
-  /// valid until the next send. It is less than what was asked where the pulse gave up, and where `most_late` cases of the
-  /// batch were late.
+  /// valid until the next send. It is less than what was asked where the pulse gave up, and where `most_late` cases of
+  /// the batch were late.
   void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
   std::span<const Answer> receive();
   /// The end of what the host had written when the case broke: standard output and error, some thousand bytes at most;
@@ -121,23 +121,23 @@ class Worker {
   std::unique_ptr<Child> child_;
   std::unique_ptr<Patience> patience_;
   std::optional<HostFailed> cannot_start_;
-  bool decides_ = true;           ///< an answer's yes says something
-  bool heard_ = false;            ///< something came by the pipe since the request
-  std::size_t outputs_ = 0;       ///< numbers of the answers, where the host must give them
-  std::size_t count_ = 0;         ///< cases of the batch
-  std::size_t got_ = 0;           ///< answered, or broke
-  std::size_t numbers_got_ = 0;   ///< of the request, in shared memory
-  std::size_t requested_ = 0;     ///< up to this case
+  bool decides_ = true;          ///< an answer's yes says something
+  bool heard_ = false;           ///< something came by the pipe since the request
+  std::size_t outputs_ = 0;      ///< numbers of the answers, where the host must give them
+  std::size_t count_ = 0;        ///< cases of the batch
+  std::size_t got_ = 0;          ///< answered, or broke
+  std::size_t numbers_got_ = 0;  ///< of the request, in shared memory
+  std::size_t requested_ = 0;    ///< up to this case
   Clock::time_point requested_since_{};
   std::optional<Clock::time_point> refused_since_;  ///< the system has no process or memory
-  Clock::time_point looked_{};    ///< at how long it takes, and how much memory
-  std::size_t piped_at_once_ = 64;  ///< cases of a request over a pipe, at most
-  bool singly_ = false;           ///< which of them broke a host that answers late is found out by asking one by one
+  Clock::time_point looked_{};                      ///< at how long it takes, and how much memory
+  std::size_t piped_at_once_ = 64;                  ///< cases of a request over a pipe, at most
+  bool singly_ = false;  ///< which of them broke a host that answers late is found out by asking one by one
   std::optional<Event> suspected_;
   std::size_t suspected_at_ = 0;
   std::string suspected_output_, suspected_with_;
   std::string query_;
-  std::vector<Answer> answers_;   ///< of the batch that was received last
+  std::vector<Answer> answers_;  ///< of the batch that was received last
   std::vector<Output> broken_;
 };
 

@@ -26,16 +26,17 @@ enum { NEARMISS_ANSWERED = 0, NEARMISS_CANNOT_ANSWER = 1 };
 #define NEARMISS_MAX_VALUES 40
 
 typedef struct nearmiss_answer {
-  int yes;                            /* hit, overlap, inside; for depths: touching or overlapping. Ignored where
-                                       * the query has no yes or no */
-  uint64_t given;                     /* bit i: values[i] is part of the answer; all bits are set at the call */
-  double values[NEARMISS_MAX_VALUES]; /* in the order of the query's outputs; zero at the call. A miss: time is INFINITY */
-  char why[200];                      /* of NEARMISS_CANNOT_ANSWER: the reason, for people */
+  int yes;        /* hit, overlap, inside; for depths: touching or overlapping. Ignored where
+                   * the query has no yes or no */
+  uint64_t given; /* bit i: values[i] is part of the answer; all bits are set at the call */
+  double
+      values[NEARMISS_MAX_VALUES]; /* in the order of the query's outputs; zero at the call. A miss: time is INFINITY */
+  char why[200];                   /* of NEARMISS_CANNOT_ANSWER: the reason, for people */
 } nearmiss_answer;
 
 /* Answers one case. `inputs` has the query's inputs in their order; flags are 0 or 1, indices small integers. It may
  * do what it likes: it runs in a process of its own, and a crash or an endless loop costs this one case. */
-typedef int (*nearmiss_answer_function)(const double *inputs, nearmiss_answer *answer);
+typedef int (*nearmiss_answer_function)(const double* inputs, nearmiss_answer* answer);
 
 /* What the library promises for a query, as collide/contract.hpp has it; INFINITY promises nothing. */
 typedef struct nearmiss_contract {
@@ -58,25 +59,25 @@ enum {
 };
 
 typedef struct nearmiss_offer {
-  const char *query;                 /* its name in the catalogue */
+  const char* query;                 /* its name in the catalogue */
   int inputs, outputs;               /* how many numbers it has: checked, so that an older plugin is told so */
-  const char *equivalence;           /* by which other operation it is answered; NULL: by this very one */
-  const nearmiss_contract *contract; /* NULL: no promise */
+  const char* equivalence;           /* by which other operation it is answered; NULL: by this very one */
+  const nearmiss_contract* contract; /* NULL: no promise */
   nearmiss_answer_function answer;
   uint32_t needs; /* what it requires: some of the bits above; 0: nothing */
 } nearmiss_offer;
 
 typedef struct nearmiss_plugin {
   int version;                 /* NEARMISS_PLUGIN_VERSION */
-  const char *name;            /* as the command line knows it */
-  const char *library_version; /* for reports */
+  const char* name;            /* as the command line knows it */
+  const char* library_version; /* for reports */
   int scalar;                  /* NEARMISS_FLOAT or NEARMISS_DOUBLE */
   size_t offer_count;
-  const nearmiss_offer *offers; /* queries that are not among them are not offered */
+  const nearmiss_offer* offers; /* queries that are not among them are not offered */
 } nearmiss_plugin;
 
 /* The one symbol that a plugin must export. What it returns lives as long as the process. */
-const nearmiss_plugin *nearmiss_plugin_entry(void);
+const nearmiss_plugin* nearmiss_plugin_entry(void);
 
 #ifdef __cplusplus
 }

@@ -7,8 +7,8 @@
 ///   static auto answer(const inputs::QUERY<Number>&);   // one for each query that it answers
 ///   template <class Q> static collide::Contract contract();      // optional: its promise for inputs Q
 ///   template <class Q> static std::string equivalence();         // optional: "" or by which equivalence
-///   template <class Q> static std::string left_out();            // optional: "" or what of an answer it does not give, and why
-///   template <class Q> static std::string why_not();             // optional: why a query is not offered
+///   template <class Q> static std::string left_out();            // optional: "" or what of an answer it does not
+///   give, and why template <class Q> static std::string why_not();             // optional: why a query is not offered
 ///   template <class Q> static nearmiss::Preconditions needs();   // optional: what it requires of inputs Q
 #pragma once
 
@@ -19,7 +19,6 @@
 #include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
 namespace nearmiss {
-
 
 template <class Adapter, class Q>
 Offering offering_of(std::string_view query) {

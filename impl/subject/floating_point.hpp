@@ -1,5 +1,6 @@
-/// The modes of floating-point arithmetic: rounding, what becomes of subnormal numbers, which exceptions trap. Any code of
-/// the process may set them for its thread, and a library does so by being loaded where it is linked with -ffast-math.
+/// The modes of floating-point arithmetic: rounding, what becomes of subnormal numbers, which exceptions trap. Any code
+/// of the process may set them for its thread, and a library does so by being loaded where it is linked with
+/// -ffast-math.
 #pragma once
 
 #include <cfenv>
@@ -41,9 +42,9 @@ class FloatingPointModes {
   unsigned short x87_;  ///< long double: rounding, masks, precision
 };
 
-/// These modes for its lifetime; the thread's own come back afterwards, with their flags, except an exception of the x87
-/// unit that was about to trap: a compiler may place a wait wherever it likes, which would trap here. Some sixteen cycles
-/// where the modes are the same, some sixty where they are not.
+/// These modes for its lifetime; the thread's own come back afterwards, with their flags, except an exception of the
+/// x87 unit that was about to trap: a compiler may place a wait wherever it likes, which would trap here. Some sixteen
+/// cycles where the modes are the same, some sixty where they are not.
 class FloatingPointScope {
  public:
   explicit FloatingPointScope(const FloatingPointModes& modes = FloatingPointModes::standard()) : mxcsr_(_mm_getcsr()) {

@@ -23,9 +23,9 @@ inline constexpr std::size_t precondition_count = 7;
 
 /// How a precondition is spoken of.
 struct PreconditionText {
-  std::string_view name;        ///< in JSON and on the command line
-  std::string_view required;    ///< "it requires ..."
-  std::string_view meaning;     ///< one sentence
+  std::string_view name;      ///< in JSON and on the command line
+  std::string_view required;  ///< "it requires ..."
+  std::string_view meaning;   ///< one sentence
 };
 
 inline constexpr std::array<PreconditionText, precondition_count> precondition_texts = {{
@@ -72,7 +72,8 @@ class Preconditions {
 };
 
 inline constexpr std::array<Precondition, precondition_count> all_preconditions = {
-    Precondition::true_rectangle, Precondition::unit_normal, Precondition::unit_direction,
-    Precondition::unit_quaternion, Precondition::starts_outside, Precondition::moves, Precondition::no_zero_sizes};
+    Precondition::true_rectangle,  Precondition::unit_normal,    Precondition::unit_direction,
+    Precondition::unit_quaternion, Precondition::starts_outside, Precondition::moves,
+    Precondition::no_zero_sizes};
 
 }  // namespace nearmiss

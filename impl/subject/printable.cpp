@@ -32,7 +32,8 @@ Character first_character(std::string_view text) {
 
 /// Marks and overrides of direction, line and paragraph separators, and the mark of byte order.
 bool changes_the_line(char32_t c) {
-  return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == 0xFEFF;
+  return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) ||
+         c == 0xFEFF;
 }
 
 std::string in_hexadecimal(const char* format, unsigned number) {

@@ -9,7 +9,7 @@ namespace nearmiss {
 
 struct Standard {
   collide::Contract contract;
-  bool promised = true;  ///< false: the subject has not promised this
+  bool promised = true;      ///< false: the subject has not promised this
   Preconditions required{};  ///< a case that does not surely meet them is not asked, and never judged
 
   Standard(const collide::Contract& c = {}, bool is_promised = true, Preconditions r = {})

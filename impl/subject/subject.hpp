@@ -59,8 +59,8 @@ struct Offering {
   Offer offer = Offer::not_offered;
   std::string how;  ///< by which equivalence, or why not
   collide::Contract contract{};
-  AnswerFunction answer{};  ///< nullptr where it is not offered
-  Preconditions required{};  ///< it is asked no case outside of them
+  AnswerFunction answer{};     ///< nullptr where it is not offered
+  Preconditions required{};    ///< it is asked no case outside of them
   std::uint32_t position = 0;  ///< among the offers of a host's hello
   bool decides = true;         ///< false for a query without a yes or no: what a host says there means nothing
   std::uint32_t outputs = 0;   ///< numbers of an answer, where a host must give them; 0: unknown
@@ -86,9 +86,10 @@ struct Subject {
   Scalar scalar = Scalar::float64;
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
-  std::string plugin{};  ///< the file that it was loaded from; empty for a subject of this build
+  std::string plugin{};   ///< the file that it was loaded from; empty for a subject of this build
   std::string command{};  ///< the command line that is asked, as it runs from any folder; empty for any other
-  std::shared_ptr<const HostProgram> host{};  ///< the program that is it, or loads it; nullptr: functions of this program
+  std::shared_ptr<const HostProgram>
+      host{};                             ///< the program that is it, or loads it; nullptr: functions of this program
   std::shared_ptr<const void> context{};  ///< what its functions work on, where that has to live as long
 
   const Offering& offering(std::string_view query) const {

@@ -45,7 +45,8 @@ struct BoxAndTriangle {
   /// Edge i along axis k.
   bool surely_meets_along(int i, int k) const {
     const N &a = corner[i][k], &b = corner[(i + 1) % 3][k];
-    return (!may_be_less(a, low[k]) || !may_be_less(b, low[k])) && (!may_be_less(high[k], a) || !may_be_less(high[k], b));
+    return (!may_be_less(a, low[k]) || !may_be_less(b, low[k])) &&
+           (!may_be_less(high[k], a) || !may_be_less(high[k], b));
   }
   /// Edge i across itself, seen along axis k: or one of its corners is in the box's shadow.
   bool surely_meets_across(int i, int k) const {
@@ -55,8 +56,8 @@ struct BoxAndTriangle {
     const N at = inner(axis, corner[i]);
     return !may_be_less(at, of_box.low) && !may_be_less(of_box.high, at);
   }
-  /// Does the box meet an edge of the triangle, seen along axis k? Then no axis at a right angle to that one separates them,
-  /// and so no cross product with it, which may be of an edge that is nothing as so seen.
+  /// Does the box meet an edge of the triangle, seen along axis k? Then no axis at a right angle to that one separates
+  /// them, and so no cross product with it, which may be of an edge that is nothing as so seen.
   bool surely_meet_seen_along(int k) const {
     for (int i = 0; i < 3; ++i) {
       const bool beside = surely_meets_along(i, (k + 1) % 3) && surely_meets_along(i, (k + 2) % 3);
@@ -81,7 +82,8 @@ template <class N, class Out>
 void aabox_triangle_overlap(const inputs::aabox_triangle_overlap<N>& q, Out& out) {
   BoxAndTriangle<N> both;
   const Vector<N> origin = vector(q.triangle.v0);
-  both.corner = {Vector<N>{N(0), N(0), N(0)}, minus(vector(q.triangle.v1), origin), minus(vector(q.triangle.v2), origin)};
+  both.corner = {Vector<N>{N(0), N(0), N(0)}, minus(vector(q.triangle.v1), origin),
+                 minus(vector(q.triangle.v2), origin)};
   both.edge = {both.corner[1], minus(both.corner[2], both.corner[1]), negated(both.corner[2])};
   both.low = minus(vector(q.box.min), origin), both.high = minus(vector(q.box.max), origin);
   for (int i = 0; i < 8; ++i) {
@@ -91,8 +93,7 @@ void aabox_triangle_overlap(const inputs::aabox_triangle_overlap<N>& q, Out& out
   /// The axis; whether they surely meet along whatever it may be is asked where it may separate them.
   const auto separated = [&](const Vector<N>& axis, const auto& surely_meet) {
     const Shadow<N> of_box = shadow(axis, both.box), of_triangle = shadow(axis, both.corner);
-    const bool surely =
-        !may_be_at_most(of_triangle.low, of_box.high) || !may_be_at_most(of_box.low, of_triangle.high);
+    const bool surely = !may_be_at_most(of_triangle.low, of_box.high) || !may_be_at_most(of_box.low, of_triangle.high);
     const bool may = may_be_less(of_box.high, of_triangle.low) || may_be_less(of_triangle.high, of_box.low);
     may_separate = may_separate || surely || (may && !(is_enclosure<N> && surely_meet()));
     return surely;

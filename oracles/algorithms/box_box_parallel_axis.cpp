@@ -16,8 +16,8 @@ void box_box_parallel_axis(const inputs::box_box_parallel_axis<N>& q, Out& out) 
       const N same = q.epsilon - norm2(minus(boxes.axes1[i], boxes.axes2[j])) / N(2);
       const N opposite = q.epsilon - norm2(plus(boxes.axes1[i], boxes.axes2[j])) / N(2);
       const bool may = may_be_at_least_zero(beyond) && (may_be_at_least_zero(same) || may_be_at_least_zero(opposite));
-      const bool may_not = may_be_negative(beyond) && may_be_negative(same) && may_be_negative(opposite) &&
-                           may_be_less(q.epsilon, N(1));
+      const bool may_not =
+          may_be_negative(beyond) && may_be_negative(same) && may_be_negative(opposite) && may_be_less(q.epsilon, N(1));
       if (may) out.yes({true, i, j});
       if (!may_not) return;
     }

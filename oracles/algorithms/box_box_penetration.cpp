@@ -65,9 +65,12 @@ class Penetration {
       }
       for_each_sign(N(inner(boxes_.between, axis_[k].direction)), [&](int side) {
         const Vector<N> unit = times(axis_[k].direction, N(N(side) / axis_[k].length));
-        if (k < 3) face_of_1(k, unit, depth);
-        else if (k < 6) face_of_2(k, unit, depth);
-        else edges(k, unit, depth);
+        if (k < 3)
+          face_of_1(k, unit, depth);
+        else if (k < 6)
+          face_of_2(k, unit, depth);
+        else
+          edges(k, unit, depth);
       });
     }
   }
@@ -83,8 +86,10 @@ class Penetration {
       double least = std::max(least_depth(axis_[k]), -apart);
       if (k >= 6) {
         const double across = least_depth_across(boxes_, axis_, k);
-        if (across >= 0) least = std::max(least, across);
-        else if (may_be_positive(axis_[k].gap)) least = std::max(least, -most_gap_across(boxes_, axis_, k));
+        if (across >= 0)
+          least = std::max(least, across);
+        else if (may_be_positive(axis_[k].gap))
+          least = std::max(least, -most_gap_across(boxes_, axis_, k));
       }
       const double high = axis_[k].must_exist ? std::min(axis_[k].depth.sup(), most.sup()) : most.sup();
       depth[k] = N(std::min(least, high), high);
@@ -107,8 +112,8 @@ class Penetration {
 
   Vector<N> middle_of(const Vector<N>& a, const Vector<N>& b) const { return times(plus(a, b), N(N(1) / N(2))); }
 
-  /// Where a box may reach furthest along a direction, of which `along` are the components in its frame: at a vertex or,
-  /// where some of its axes are at a right angle to the direction, on the hull of several.
+  /// Where a box may reach furthest along a direction, of which `along` are the components in its frame: at a vertex
+  /// or, where some of its axes are at a right angle to the direction, on the hull of several.
   struct Furthest {
     const Vector<N>& center;
     const std::array<Vector<N>, 3>& axes;
@@ -230,7 +235,8 @@ class Penetration {
       for (int c = 0; c < 3; ++c) {
         N around(0);
         for (int l = 0; l < 3; ++l) {
-          around = around + boxes_.half1[l] * magnitude(boxes_.axes1[l][c]) + boxes_.half2[l] * magnitude(boxes_.axes2[l][c]);
+          around = around + boxes_.half1[l] * magnitude(boxes_.axes1[l][c]) +
+                   boxes_.half2[l] * magnitude(boxes_.axes2[l][c]);
         }
         contact[c] = contact[c] + around * N(-0.5, 0.5);
       }

@@ -10,9 +10,8 @@ template <class N, class Out>
 void closest_point_rectangle_perimeter(const inputs::closest_point_rectangle_perimeter<N>& q, Out& out) {
   const auto& r = q.rectangle;
   const std::array<Vector<N>, 4> corner{vector(r.v0), vector(r.v1), vector(r.v2), vector(r.v3)};
-  for_each_nearest(perimeter(corner, vector(q.point)), [&](std::size_t, const Place<N>& place) {
-    out.yes({answer_vector(place.point)});
-  });
+  for_each_nearest(perimeter(corner, vector(q.point)),
+                   [&](std::size_t, const Place<N>& place) { out.yes({answer_vector(place.point)}); });
 }
 
 template <class N>

@@ -1,8 +1,8 @@
 /// Truth: the minimum of a quadratic over [0, 1], by the sign of its derivative at both ends.
 #include "impl/catalogue/queries/closest_point_segment.hpp"
 
-#include "oracles/exact/outcomes.hpp"
 #include "oracles/algorithms/surface.hpp"
+#include "oracles/exact/outcomes.hpp"
 
 namespace nearmiss::oracle {
 

@@ -9,9 +9,8 @@ namespace nearmiss::oracle {
 template <class N, class Out>
 void closest_point_triangle_perimeter(const inputs::closest_point_triangle_perimeter<N>& q, Out& out) {
   const std::array<Vector<N>, 3> corner{vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)};
-  for_each_nearest(perimeter(corner, vector(q.point)), [&](std::size_t, const Place<N>& place) {
-    out.yes({answer_vector(place.point)});
-  });
+  for_each_nearest(perimeter(corner, vector(q.point)),
+                   [&](std::size_t, const Place<N>& place) { out.yes({answer_vector(place.point)}); });
 }
 
 template <class N>

@@ -49,8 +49,8 @@ Window times_on_side(const N& start, const N& step, const N& half, int side) {
   return w;
 }
 
-/// Encloses the times at which a point at w that moves by u is as near to the origin as the root of `reach2`; `moment2` is
-/// |w x u|^2. For enclosures.
+/// Encloses the times at which a point at w that moves by u is as near to the origin as the root of `reach2`; `moment2`
+/// is |w x u|^2. For enclosures.
 inline Window times_within(const Vector<Interval>& w, const Vector<Interval>& u, const Interval& reach2,
                            const Interval& moment2) {
   const Interval closing = -inner(w, u), speed2 = norm2(u), chord2 = speed2 * reach2 - moment2;

@@ -18,8 +18,8 @@ struct FrontHit {
 template <class N>
 FrontHit<N> front_hit(const Vector<N>& p, const Vector<N>& v, const std::array<Vector<N>, 3>& corner) {
   const Vector<N> n = outer(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
-  const N approach = -inner(n, v);                  // > 0: toward the front
-  const N height = inner(n, minus(p, corner[0]));   // >= 0: starts in front
+  const N approach = -inner(n, v);                 // > 0: toward the front
+  const N height = inner(n, minus(p, corner[0]));  // >= 0: starts in front
   FrontHit<N> hit;
   if (!may_be_positive(approach) || !may_be_at_least_zero(height)) return hit;
   bool may_miss = may_be_at_most_zero(approach) || may_be_negative(height);

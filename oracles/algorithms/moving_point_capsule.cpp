@@ -9,8 +9,8 @@ namespace nearmiss::oracle {
 template <class N, class Out>
 void moving_point_capsule(const inputs::moving_point_capsule<N>& q, Out& out) {
   const auto& c = q.capsule;
-  report_first_contact<N>(
-      {vector(q.point), vector(q.velocity), N(0), {vector(c.p0), vector(c.p1)}, c.radius, false}, out);
+  report_first_contact<N>({vector(q.point), vector(q.velocity), N(0), {vector(c.p0), vector(c.p1)}, c.radius, false},
+                          out);
 }
 
 template <class N>

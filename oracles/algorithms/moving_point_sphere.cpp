@@ -1,8 +1,8 @@
 /// Truth: the quadratic |p + v t - c|^2 = r^2, its discriminant by Lagrange's identity.
 #include "impl/catalogue/queries/moving_point_sphere.hpp"
 
-#include "oracles/exact/outcomes.hpp"
 #include "oracles/algorithms/surface.hpp"
+#include "oracles/exact/outcomes.hpp"
 
 namespace nearmiss::oracle {
 

@@ -23,7 +23,7 @@ struct Motion {
   Vector<N> origin;             // the box's center, in the world
   Vector<N> start, step, half;  // of the sphere's center, in the box's frame
   N radius;
-  Vector<N> from, velocity;     // the same start and step, in the world
+  Vector<N> from, velocity;  // the same start and step, in the world
 
   Vector<N> at(const N& time) const { return plus(start, times(step, time)); }
   Vector<N> to_world(const Vector<N>& local) const { return plus(origin, out_of(axes, local)); }
@@ -40,7 +40,8 @@ struct Contact {
 template <class N>
 std::optional<Vector<N>> turned_last(const Motion<N>& m, const N& time) {
   if constexpr (is_enclosure<N>) {
-    const bool moderate = is_moderate(m.from) && is_moderate(m.velocity) && is_moderate(m.half) && is_moderate(m.radius);
+    const bool moderate =
+        is_moderate(m.from) && is_moderate(m.velocity) && is_moderate(m.half) && is_moderate(m.radius);
     if (moderate && is_moderate(time)) return into(m.axes, plus(m.from, times(m.velocity, time)));
   }
   return std::nullopt;
@@ -138,7 +139,6 @@ void report_first(const std::vector<Contact<N>>& roots, Out& out) {
   }
 }
 
-
 /// What a start may be.
 struct Start {
   bool may_be_apart = false, may_be_contact = false;
@@ -172,7 +172,8 @@ bool starts_on_surface(const Motion<Exact>& m) {
   bool on_some_face = false;
   for (int i = 0; i < 3; ++i) {
     if (!may_be_on_side(m.start[i], m.half[i], 0)) return false;
-    on_some_face = on_some_face || may_be_on_side(m.start[i], m.half[i], 1) || may_be_on_side(m.start[i], m.half[i], -1);
+    on_some_face =
+        on_some_face || may_be_on_side(m.start[i], m.half[i], 1) || may_be_on_side(m.start[i], m.half[i], -1);
   }
   return on_some_face;
 }
@@ -185,8 +186,10 @@ void start_on_surface(const Motion<Exact>& m, Out& out) {
   for_each_cone_at(m.start, m.half, [&](const Sides& sides) { leads_away = leads_away && !may_be_met(m.step, sides); });
   for_each_cone_at(m.start, m.half, [&](const Sides& sides) {
     const Normals<Exact> outward = normal_cone(m.axes, sides);
-    if (leads_away) out.yes(impact, outward);
-    else if (may_be_met(m.step, sides)) out.yes(impact, outward.against(m.velocity));
+    if (leads_away)
+      out.yes(impact, outward);
+    else if (may_be_met(m.step, sides))
+      out.yes(impact, outward.against(m.velocity));
   });
 }
 
@@ -238,7 +241,10 @@ template <class N>
 double time_of_least_distance(const Motion<N>& m, Window w) {
   if (!(w.to < Window{}.to)) return w.from;
   double c[3], v[3], h[3];
-  const auto middle = [](const N& x) { const Bounds b = bounds(x); return 0.5 * b.low + 0.5 * b.high; };
+  const auto middle = [](const N& x) {
+    const Bounds b = bounds(x);
+    return 0.5 * b.low + 0.5 * b.high;
+  };
   for (int i = 0; i < 3; ++i) c[i] = middle(m.start[i]), v[i] = middle(m.step[i]), h[i] = middle(m.half[i]);
   const auto slope = [&](double t) {
     double s = 0;
@@ -264,9 +270,14 @@ void moving_sphere_box(const inputs::moving_sphere_box<N>& q, Out& out) {
   if (!may_be_positive(q.sphere.radius)) return;
   const auto axes = rotation_axes<N>(q.box.orientation);
   const Vector<N> origin = vector(q.box.center);
-  const Motion<N> m{axes, origin, into(axes, minus(vector(q.sphere.center), origin)),
-                    into(axes, vector(q.velocity)), vector(q.box.half), q.sphere.radius,
-                    minus(vector(q.sphere.center), origin), vector(q.velocity)};
+  const Motion<N> m{axes,
+                    origin,
+                    into(axes, minus(vector(q.sphere.center), origin)),
+                    into(axes, vector(q.velocity)),
+                    vector(q.box.half),
+                    q.sphere.radius,
+                    minus(vector(q.sphere.center), origin),
+                    vector(q.velocity)};
   const Start at_start = start(m, out);
   if (!at_start.may_be_apart) return;
 
@@ -288,7 +299,8 @@ void moving_sphere_box(const inputs::moving_sphere_box<N>& q, Out& out) {
   report_first(roots, out);
   if (!out.result().may_be_yes) return out.no();
   if constexpr (is_enclosure<N>) {
-    const bool surely = surely_overlaps(m, time_of_least_distance(m, near)) || (!at_start.may_be_contact && surely_enters(m));
+    const bool surely =
+        surely_overlaps(m, time_of_least_distance(m, near)) || (!at_start.may_be_contact && surely_enters(m));
     if (!surely) out.no();
   }
 }

@@ -10,7 +10,8 @@ template <class N, class Out>
 void moving_sphere_capsule(const inputs::moving_sphere_capsule<N>& q, Out& out) {
   const auto& c = q.capsule;
   report_first_contact<N>(
-      {vector(q.sphere.center), vector(q.velocity), q.sphere.radius, {vector(c.p0), vector(c.p1)}, c.radius, false}, out);
+      {vector(q.sphere.center), vector(q.velocity), q.sphere.radius, {vector(c.p0), vector(c.p1)}, c.radius, false},
+      out);
 }
 
 template <class N>

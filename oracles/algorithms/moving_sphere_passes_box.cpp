@@ -136,7 +136,8 @@ double least_distance2(const Path<Interval>& path, double near, double limit) {
     }
     return infinity;
   };
-  const double up = least_reach(std::min(limit - near, 0x1p400), [&](double t) { return slope_at(near + t).inf() >= 0; });
+  const double up =
+      least_reach(std::min(limit - near, 0x1p400), [&](double t) { return slope_at(near + t).inf() >= 0; });
   const double down = least_reach(near, [&](double t) { return slope_at(near - t).sup() <= 0; });
   const double after = up < infinity ? near + up : limit, before = down < infinity ? near - down : 0;
   const Interval down_after = Interval(std::max(-slope.inf(), 0.0)), down_before = Interval(std::max(slope.sup(), 0.0));
@@ -169,8 +170,10 @@ void moving_sphere_passes_box(const inputs::moving_sphere_passes_box<N>& q, Out&
     if (touches || least_distance2(path, near, limit.sup()) <= radius2.sup()) out.yes({true});
   } else {
     const std::optional<N> limit = q.forever ? std::nullopt : std::optional<N>(q.limit);
-    if (passes(path, radius2, limit)) out.yes({true});
-    else out.no();
+    if (passes(path, radius2, limit))
+      out.yes({true});
+    else
+      out.no();
   }
 }
 

@@ -11,8 +11,8 @@ void moving_sphere_passes_sphere(const inputs::moving_sphere_passes_sphere<N>& q
   const Vector<N> m = minus(vector(q.sphere.center), vector(q.fixed.center)), v = vector(q.velocity);
   const N reach2 = square(N(q.sphere.radius + q.fixed.radius));
   const N limit = assume_at_least_zero(q.limit);
-  const N outside = norm2(m) - reach2;                    // at the start
-  const N closing = -inner(m, v);                         // half of minus the derivative there
+  const N outside = norm2(m) - reach2;                         // at the start
+  const N closing = -inner(m, v);                              // half of minus the derivative there
   const N clearance = norm2(outer(m, v)) - norm2(v) * reach2;  // <= 0: the line of motion comes near enough
   bool may_meet = may_be_at_most_zero(outside), may_miss = may_be_positive(outside);
   bool may_end_later = true, may_end_earlier = false;  // than the closest approach

@@ -12,13 +12,16 @@ void moving_sphere_rectangle(const inputs::moving_sphere_rectangle<N>& q, Out& o
                                    vector(q.rectangle.v3)};
   const auto with = [&](int second, int third) {
     return SphereAndTriangle<N>(vector(q.sphere.center), q.sphere.radius, vector(q.velocity),
-                                {v[0], v[second], v[third]}).contacts();
+                                {v[0], v[second], v[third]})
+        .contacts();
   };
   std::array<TriangleContacts<N>, 2> both{with(1, 2), with(2, 3)};
   const double surely_by = std::min(both[0].surely_by, both[1].surely_by);
   for (const TriangleContacts<N>& one : both) {
     for (const TriangleContact<N>& c : one.list) {
-      const auto earlier = [&](const TriangleContact<N>& other) { return may_be_less(other.impact.time, c.impact.time); };
+      const auto earlier = [&](const TriangleContact<N>& other) {
+        return may_be_less(other.impact.time, c.impact.time);
+      };
       const bool later = std::any_of(both[0].list.begin(), both[0].list.end(), earlier) ||
                          std::any_of(both[1].list.begin(), both[1].list.end(), earlier);
       if (is_enclosure<N> ? bounds(c.impact.time).low > surely_by : later) continue;

@@ -13,8 +13,10 @@ void moving_sphere_triangle(const inputs::moving_sphere_triangle<N>& q, Out& out
   constexpr std::size_t before_weights = 7;  // time, location, normal
   const TriangleContacts<N> all = pair.contacts();
   for (const TriangleContact<N>& c : all.list) {
-    if (c.any_weights) out.yes(c.impact, c.normals, before_weights);
-    else out.yes(c.impact, c.normals);
+    if (c.any_weights)
+      out.yes(c.impact, c.normals, before_weights);
+    else
+      out.yes(c.impact, c.normals);
   }
   if (all.may_miss) out.no();
 }

@@ -95,8 +95,8 @@ struct FacePiece {
   bool surely_within = false;  ///< off all three edges: they are further away
 };
 
-/// The foot of the perpendicular in a triangle that may have no area: it lies in the box of the corners and near each edge,
-/// within the triangle's height over that edge and beside it, as the point does. Empty where that is impossible.
+/// The foot of the perpendicular in a triangle that may have no area: it lies in the box of the corners and near each
+/// edge, within the triangle's height over that edge and beside it, as the point does. Empty where that is impossible.
 template <class N>
 std::optional<Place<N>> thin_face(const std::array<Vector<N>, 3>& v, const N& normal2, const Vector<N>& p) {
   Place<N> place;

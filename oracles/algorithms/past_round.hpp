@@ -21,8 +21,8 @@ struct RoundMotion {
   Vector<N> at, step;  // of the moving center
   N own;               // its radius
   std::array<Vector<N>, 2> end;
-  N radius;            // of the fixed thing
-  bool is_ball;        // one end
+  N radius;      // of the fixed thing
+  bool is_ball;  // one end
 
   N reach() const { return own + radius; }
   Vector<N> axis() const { return minus(end[1], end[0]); }
@@ -62,13 +62,14 @@ struct RoundPast {
     return surely_zero(x[0]) && surely_zero(x[1]) && surely_zero(x[2]);
   }
 
-  /// The normals at a center on the axis: those that lead out of that part. Any other normal of the part is one of them.
+  /// The normals at a center on the axis: those that lead out of that part. Any other normal of the part is one of
+  /// them.
   Normals<N> normals_of_axis(Part part) const {
     if (m.is_ball || surely_zero(length2)) return Normals<N>::any();
     return Normals<N>::cone({{d, part == Part::first_end ? -1 : 0, part == Part::second_end ? 1 : 0}});
   }
-  /// Where the center lies on the axis every normal out of it is right, with the place that it leads to. Of a fixed thing
-  /// that is but its axis, all surface, only those against the motion.
+  /// Where the center lies on the axis every normal out of it is right, with the place that it leads to. Of a fixed
+  /// thing that is but its axis, all surface, only those against the motion.
   template <class Out>
   void yes_on_axis(const RoundContact<N>& c, Normals<N> normals, Out& out) const {
     constexpr std::size_t location = 1, normal = 4;
@@ -78,8 +79,8 @@ struct RoundPast {
                });
   }
 
-  /// Where `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does not
-  /// start there, meets no normal that leads along its motion.
+  /// Where `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does
+  /// not start there, meets no normal that leads along its motion.
   template <class Out>
   void yes(const RoundContact<N>& c, const N& distance, bool arrives, Out& out) const {
     if (may_be_zero(distance)) {
@@ -184,7 +185,8 @@ struct RoundPast {
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     if (!earlier_root(speed2, closing, outside, root(discriminant), time)) return;
     if (!may_be_at_most_zero(closing) && !may_be_negative(discriminant)) reaches_by(time, roots);
-    add({time, m.end[i], from, part}, m.step, roots.list, [&](const Vector<N>& away) { return may_belong_to_end(away, part); });
+    add({time, m.end[i], from, part}, m.step, roots.list,
+        [&](const Vector<N>& away) { return may_belong_to_end(away, part); });
   }
 
   void root_of_tube(N time, Roots& roots) const {
@@ -201,7 +203,8 @@ struct RoundPast {
     const N outside = norm2(from_d) - square(m.reach()) * length2;
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     const N half = root(discriminant);
-    // Does it surely touch the line between the ends? What `time` has been narrowed by assumes that it does, and is left out.
+    // Does it surely touch the line between the ends? What `time` has been narrowed by assumes that it does, and is
+    // left out.
     N of_line = any_time<N>();
     const bool touches_line = !may_be_at_most_zero(closing) && !may_be_negative(discriminant) &&
                               earlier_root(a, closing, outside, half, of_line);
@@ -309,7 +312,10 @@ struct RoundPast {
   }
   /// The same near the closest approach: found in plain doubles, so it proves nothing by itself.
   bool surely_reaches_somewhere() const {
-    const auto middle = [](const Vector<N>& x, int i) { const Bounds b = bounds(x[i]); return 0.5 * b.low + 0.5 * b.high; };
+    const auto middle = [](const Vector<N>& x, int i) {
+      const Bounds b = bounds(x[i]);
+      return 0.5 * b.low + 0.5 * b.high;
+    };
     double c[3], v[3], e[3], speed2 = 0, length2_ = 0;
     for (int i = 0; i < 3; ++i) {
       c[i] = middle(m.at, i) - middle(m.end[0], i), v[i] = middle(m.step, i), e[i] = middle(d, i);

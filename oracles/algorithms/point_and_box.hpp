@@ -53,8 +53,8 @@ Normals<N> normal_cone(const std::array<Vector<N>, 3>& axes, const Sides& sides)
   return Normals<N>::cone(std::move(facing));
 }
 
-/// Calls f(sides) for regions that meet where the point may be on the surface: the outward normals there are those of these.
-/// A region between two face planes has no others than its neighbour beyond one of them.
+/// Calls f(sides) for regions that meet where the point may be on the surface: the outward normals there are those of
+/// these. A region between two face planes has no others than its neighbour beyond one of them.
 template <class N, class F>
 void for_each_cone_at(const Vector<N>& local, const Vector<N>& half, F&& f) {
   for_each_possible_region(local, half, [&](const Sides& sides) {

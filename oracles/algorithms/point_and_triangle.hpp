@@ -23,10 +23,10 @@ void for_each_possible_axis(const Vector<N>& normal, F&& f) {
 template <class N>
 struct SeenAlong {
   bool may_be_inside = false, may_be_outside = false;
-  bool may_be_flat = false;      ///< inside, and the triangle has no area
-  bool may_have_area = false;    ///< inside, and it has one
-  std::array<N, 3> weight;       ///< of the corners, where it has an area
-  std::array<int, 2> seen;       ///< the other two axes
+  bool may_be_flat = false;    ///< inside, and the triangle has no area
+  bool may_have_area = false;  ///< inside, and it has one
+  std::array<N, 3> weight;     ///< of the corners, where it has an area
+  std::array<int, 2> seen;     ///< the other two axes
 
   SeenAlong(const std::array<Vector<N>, 3>& corner, int axis, const Vector<N>& p)
       : seen{(axis + 1) % 3, (axis + 2) % 3} {

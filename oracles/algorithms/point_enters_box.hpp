@@ -16,7 +16,11 @@ struct PointAndBox {
 
   template <class B>
   PointAndBox(const Vector<N>& p, const Vector<N>& v, const B& box)
-      : point(p), velocity(v), axes(rotation_axes<N>(box.orientation)), origin(vector(box.center)), half(vector(box.half)) {}
+      : point(p),
+        velocity(v),
+        axes(rotation_axes<N>(box.orientation)),
+        origin(vector(box.center)),
+        half(vector(box.half)) {}
 };
 
 /// All right answers: Impact's, with every outward normal against the motion.

@@ -1,5 +1,5 @@
-/// Truth: the areas that the point forms with the edges. In a triangle without area many weights are right: those that are
-/// not negative, have the sum 1 and give the point.
+/// Truth: the areas that the point forms with the edges. In a triangle without area many weights are right: those that
+/// are not negative, have the sum 1 and give the point.
 #include "impl/catalogue/queries/point_in_triangle.hpp"
 
 #include "oracles/algorithms/point_and_triangle.hpp"
@@ -46,7 +46,8 @@ inline std::vector<Vector<Exact>> ends_of_weights(const FlatTriangle<Exact>& t) 
     const Vector<Exact> x = t.from_point(k);
     if (!surely_zero(x[0]) || !surely_zero(x[1]) || !surely_zero(x[2])) return ends_of_weights(x);
   }
-  return {weight_of_two(0, 0, Exact(0)), weight_of_two(1, 1, Exact(0)), weight_of_two(2, 2, Exact(0))};  // all one point
+  return {weight_of_two(0, 0, Exact(0)), weight_of_two(1, 1, Exact(0)),
+          weight_of_two(2, 2, Exact(0))};  // all one point
 }
 
 template <class Out, class Make>
@@ -78,9 +79,10 @@ void point_in_triangle(const inputs::point_in_triangle<N>& q, Out& out) {
     if (view.may_be_outside) out.no();
     if (view.may_have_area) out.yes({answer_vector<N>(view.weight), true});
     if (!view.may_be_flat) return;
-    yes_to_any_weights(FlatTriangle<N>{corner, view.seen, p}, out, [](const Vector<N>& weight) -> collide::Containment<N> {
-      return {answer_vector(weight), true};
-    });
+    yes_to_any_weights(FlatTriangle<N>{corner, view.seen, p}, out,
+                       [](const Vector<N>& weight) -> collide::Containment<N> {
+                         return {answer_vector(weight), true};
+                       });
   };
   if (q.axis >= 0) return along(q.axis);
   for_each_possible_axis(vector(q.normal), along);

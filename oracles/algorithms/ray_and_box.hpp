@@ -35,8 +35,8 @@ bool surely_starts_in_seen_along(const RayAndBox<N>& r, int k) {
 }
 
 /// May the ray miss the box? Two convex sets are apart when an axis separates them: one of the box's, or a
-/// cross product of one of these with the ray's direction. Such a product, which is nothing where the ray runs along the
-/// axis, separates none that meet as seen along it.
+/// cross product of one of these with the ray's direction. Such a product, which is nothing where the ray runs along
+/// the axis, separates none that meet as seen along it.
 template <class N>
 bool may_miss(const RayAndBox<N>& r) {
   for (int i = 0; i < 3; ++i) {

@@ -15,7 +15,9 @@ inline double near_middle(const Interval& x) { return double(float(0.5 * x.inf()
 
 /// Far from overflow, also as a float: no operation on a few such numbers is invalid.
 inline bool is_moderate(const Interval& x) { return x.inf() > -0x1p+100 && x.sup() < 0x1p+100; }
-inline bool is_moderate(const Vector<Interval>& x) { return is_moderate(x[0]) && is_moderate(x[1]) && is_moderate(x[2]); }
+inline bool is_moderate(const Vector<Interval>& x) {
+  return is_moderate(x[0]) && is_moderate(x[1]) && is_moderate(x[2]);
+}
 
 /// Narrows every number; false where there is none left, so that the branch is impossible.
 inline bool narrow(Vector<Interval>& x, const Vector<Interval>& to) {
@@ -23,7 +25,8 @@ inline bool narrow(Vector<Interval>& x, const Vector<Interval>& to) {
 }
 
 /// Weights of few bits with which the corners combine to about x, as far as x lies in their plane.
-inline std::array<double, 2> near_weights(const std::array<Vector<Interval>, 3>& corner, const std::array<double, 3>& x) {
+inline std::array<double, 2> near_weights(const std::array<Vector<Interval>, 3>& corner,
+                                          const std::array<double, 3>& x) {
   double aa = 0, ab = 0, bb = 0, aw = 0, bw = 0;
   for (int k = 0; k < 3; ++k) {
     const double c = near_middle(corner[0][k]);

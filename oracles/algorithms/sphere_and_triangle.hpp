@@ -111,8 +111,10 @@ class SphereAndTriangle {
 
   void set_weights(Contact& c, const Vector<N>& weights) const {
     if (surely_has_area()) {
-      for (int i = 0; i < 3; ++i) (i == 0 ? c.impact.weights.x : i == 1 ? c.impact.weights.y : c.impact.weights.z) =
-          assume_within(weights[i], 0.0, 1.0);
+      for (int i = 0; i < 3; ++i)
+        (i == 0   ? c.impact.weights.x
+         : i == 1 ? c.impact.weights.y
+                  : c.impact.weights.z) = assume_within(weights[i], 0.0, 1.0);
       return;
     }
     if constexpr (is_enclosure<N>) {
@@ -327,7 +329,8 @@ class SphereAndTriangle {
     window.clip(times_not_positive(N(inner(w, e_[i]) - e2_[i]), N(inner(v_, e_[i]))));
     if constexpr (is_enclosure<N>) window.clip(times_near_edge(i, r_));
     if (window.empty()) return;
-    const auto of_line = root_time(outer(w, e_[i]), outer(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), Window{}, surely);
+    const auto of_line =
+        root_time(outer(w, e_[i]), outer(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), Window{}, surely);
     if (!of_line) return;
     N time = *of_line;
     if constexpr (is_enclosure<N>) {
@@ -343,8 +346,8 @@ class SphereAndTriangle {
     Vector<N> away = minus(x, place.point);
     if (edge_about_middle(i, time, place, away)) add_root(time, place, away, false);
   }
-  /// Within reach of an edge the center is no further from the edge's start than both together: the line of a short edge, of
-  /// which hardly the direction is known, passes near much that the edge does not.
+  /// Within reach of an edge the center is no further from the edge's start than both together: the line of a short
+  /// edge, of which hardly the direction is known, passes near much that the edge does not.
   Window times_near_edge(int i, const N& reach) const {
     const Vector<N> w = from_corner(i);
     return times_within(w, v_, square(N(reach + root(e2_[i]))), moment2(w));
@@ -466,8 +469,8 @@ class SphereAndTriangle {
     const bool beside = !may_be_negative(third) && !may_be_positive(N(third - N(1)));
     return beside ? std::min(most, N(root(n2_) / root(e2_[l])).sup()) : most;
   }
-  /// The sphere touches the triangle only while it is as near to the longest edge as the triangle reaches from it. That holds
-  /// for every triangle, but tells something of thin ones alone.
+  /// The sphere touches the triangle only while it is as near to the longest edge as the triangle reaches from it. That
+  /// holds for every triangle, but tells something of thin ones alone.
   Window times_near_longest_edge() const {
     Window times;
     if constexpr (is_enclosure<N>) {
@@ -486,8 +489,8 @@ class SphereAndTriangle {
     return times;
   }
 
-  /// The same of the place that a sphere at x touches: near it is a place on the longest edge, in reach of x. False where
-  /// there is none.
+  /// The same of the place that a sphere at x touches: near it is a place on the longest edge, in reach of x. False
+  /// where there is none.
   bool narrow_to_longest_edge(const Vector<N>& x, Vector<N>& place) const {
     if constexpr (is_enclosure<N>) {
       const int l = longest();
@@ -522,7 +525,8 @@ class SphereAndTriangle {
   void keep_first(std::size_t at_start) {
     std::vector<Contact>& list = all_.list;
     if constexpr (is_enclosure<N>) {
-      const bool hits = surely_by_ < std::numeric_limits<double>::infinity() || center_surely_crosses() || surely_overlaps();
+      const bool hits =
+          surely_by_ < std::numeric_limits<double>::infinity() || center_surely_crosses() || surely_overlaps();
       if (!hits) all_.may_miss = true;
       if (surely_passes_) all_.surely_by = surely_by_;
       std::vector<Contact> kept(list.begin(), list.begin() + std::ptrdiff_t(at_start));
@@ -597,9 +601,11 @@ class SphereAndTriangle {
     }
     return d;
   }
-  /// How far the center is at that time beyond the radius, squared, from the place with those weights of corners 1 and 2.
+  /// How far the center is at that time beyond the radius, squared, from the place with those weights of corners 1
+  /// and 2.
   N beyond(double time, const std::array<double, 2>& weights) const {
-    const Vector<N> q = plus(corner_[0], plus(times(e_[0], N(weights[0])), times(minus(corner_[2], corner_[0]), N(weights[1]))));
+    const Vector<N> q =
+        plus(corner_[0], plus(times(e_[0], N(weights[0])), times(minus(corner_[2], corner_[0]), N(weights[1]))));
     return norm2(minus(at(N(time)), q)) - square(r_);
   }
   bool surely_overlaps_at_start() const {

@@ -8,8 +8,8 @@ namespace nearmiss::oracle {
 template <class N, class Out>
 void sphere_box_overlap(const inputs::sphere_box_overlap<N>& q, Out& out) {
   const Vector<N> half = vector(q.box.half);
-  const Vector<N> local = into(rotation_axes<N>(q.box.orientation),
-                               minus(vector(q.sphere.center), vector(q.box.center)));
+  const Vector<N> local =
+      into(rotation_axes<N>(q.box.orientation), minus(vector(q.sphere.center), vector(q.box.center)));
   bool may_meet = true;  // inside?
   for (int i = 0; i < 3; ++i) may_meet = may_meet && may_be_on_side(local[i], half[i], 0);
   bool may_be_apart = false;

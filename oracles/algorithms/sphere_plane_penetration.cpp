@@ -1,8 +1,8 @@
 /// Truth: the signed distance of the center, one root.
 #include "impl/catalogue/queries/sphere_plane_penetration.hpp"
 
-#include "oracles/exact/outcomes.hpp"
 #include "oracles/algorithms/surface.hpp"
+#include "oracles/exact/outcomes.hpp"
 
 namespace nearmiss::oracle {
 

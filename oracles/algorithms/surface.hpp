@@ -1,5 +1,5 @@
-/// May a place of the answer lie on a shape's surface? The squared distance of the place, which may be some slack off, is
-/// held against the slack. Shared by the oracles of queries that answer with a place on a surface.
+/// May a place of the answer lie on a shape's surface? The squared distance of the place, which may be some slack off,
+/// is held against the slack. Shared by the oracles of queries that answer with a place on a surface.
 #pragma once
 
 #include "oracles/algorithms/nearest_piece.hpp"
@@ -88,7 +88,8 @@ bool may_be_on_faces(const GivenPlace<N>& g, const Vector<N>& local, const Vecto
       may_be_beyond = true;
     }
     distance2 = distance2 + square(beyond);
-    may_reach_a_face = may_reach_a_face || may_be_at_least_zero(N(below + g.slack)) || may_be_at_least_zero(N(above + g.slack));
+    may_reach_a_face =
+        may_reach_a_face || may_be_at_least_zero(N(below + g.slack)) || may_be_at_least_zero(N(above + g.slack));
   }
   return may_reach_a_face && within_slack(g, distance2);
 }

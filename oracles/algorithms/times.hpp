@@ -27,8 +27,7 @@ N time_across(const N& gap, const N& speed) {
 /// Narrows `time`, at which the point at + step t lies between the points low and high, to what that leaves
 /// of it; false where it leaves nothing. Exact times stay as they are.
 template <class N>
-bool narrow_to_range(N& time, const Vector<N>& at, const Vector<N>& step, const Vector<N>& low,
-                     const Vector<N>& high) {
+bool narrow_to_range(N& time, const Vector<N>& at, const Vector<N>& step, const Vector<N>& low, const Vector<N>& high) {
   if constexpr (is_enclosure<N>) {
     for (int i = 0; i < 3; ++i) {
       if (may_be_zero(step[i])) continue;

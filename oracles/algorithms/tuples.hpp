@@ -1,13 +1,14 @@
 /// Sets of right answers whose numbers go together: a normal with the place that it leads to, the points of a patch. An
-/// oracle names the set; the given answer is held against the nearest member. Shared by the oracles of queries with them.
+/// oracle names the set; the given answer is held against the nearest member. Shared by the oracles of queries with
+/// them.
 #pragma once
 
 #include "oracles/exact/outcomes.hpp"
 
 namespace nearmiss::oracle {
 
-/// Each of the normals n is right together with the place base + reach n. `normal` and `place` say where they begin in the
-/// answer.
+/// Each of the normals n is right together with the place base + reach n. `normal` and `place` say where they begin in
+/// the answer.
 template <class N>
 struct NormalWithPlace {
   Normals<N> normals;
@@ -32,7 +33,9 @@ inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, co
 template <class Out, class Make>
 void yes_to_any(const NormalWithPlace<Exact>& set, Out& out, Make make) {
   const Cone cone = cone_of(set.normals);
-  const auto answer = [&](const Vector<Exact>& normal) { return make(normal, plus(set.base, times(normal, set.reach))); };
+  const auto answer = [&](const Vector<Exact>& normal) {
+    return make(normal, plus(set.base, times(normal, set.reach)));
+  };
   const Vector<Exact> of_cone;
   if (surely_zero(set.reach)) return out.yes(make(of_cone, set.base), set.normals);
   if (!out.compares_yes()) return out.yes(answer(some_normal(cone)), set.normals);

@@ -2,12 +2,13 @@
 ///
 /// An enclosure of a cross product a x b that holds zero may have any direction u at a right angle to a, an axis of one
 /// box, and to b, one of the other. Seen along a, both boxes are polygons but for h |b . u|, h the half extent along b,
-/// which is at most h |a x b|. The polygons' edges stand at a right angle to four axes: the two others of a's box, and a's
-/// cross products with the two others of b's. So
+/// which is at most h |a x b|. The polygons' edges stand at a right angle to four axes: the two others of a's box, and
+/// a's cross products with the two others of b's. So
 /// 1. the overlap along u is at least the least of these four minus h |a x b|;
-/// 2. a gap along u is at most the distance of the polygons. That is the gap along one of the four axes, or the distance of
-///    two corners: then two of the axes that stand at an angle of at most 90 degrees, with gaps f and g, enclose it, and it
-///    is at most the root of f^2 + g^2, and at most the larger gap over the cosine of half the angle.
+/// 2. a gap along u is at most the distance of the polygons. That is the gap along one of the four axes, or the
+/// distance of
+///    two corners: then two of the axes that stand at an angle of at most 90 degrees, with gaps f and g, enclose it,
+///    and it is at most the root of f^2 + g^2, and at most the larger gap over the cosine of half the angle.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +25,13 @@ struct TwoBoxes {
 
   template <class B>
   TwoBoxes(const B& box1, const B& box2)
-      : axes1(rotation_axes<N>(box1.orientation)), axes2(rotation_axes<N>(box2.orientation)),
-        center1(vector(box1.center)), center2(vector(box2.center)),
-        half1(vector(box1.half)), half2(vector(box2.half)), between(minus(center2, center1)) {}
+      : axes1(rotation_axes<N>(box1.orientation)),
+        axes2(rotation_axes<N>(box2.orientation)),
+        center1(vector(box1.center)),
+        center2(vector(box2.center)),
+        half1(vector(box1.half)),
+        half2(vector(box2.half)),
+        between(minus(center2, center1)) {}
 
   /// 0-2 the axes of box 1, 3-5 of box 2, 6 + 3 i + j the cross product of axis i and axis j.
   Vector<N> axis(int k) const {
@@ -40,7 +45,9 @@ struct TwoBoxes {
 
   /// Half the lengths of the boxes' shadows on axis k, times |axis k|. A box reaches its half extent along
   /// an axis of its own, and nothing of an edge at a right angle to it.
-  N reach1(int k, const Vector<N>& axis) const { return reach(axes1, half1, axis, k < 3 ? k : -1, k < 6 ? -1 : (k - 6) / 3); }
+  N reach1(int k, const Vector<N>& axis) const {
+    return reach(axes1, half1, axis, k < 3 ? k : -1, k < 6 ? -1 : (k - 6) / 3);
+  }
   N reach2(int k, const Vector<N>& axis) const {
     return reach(axes2, half2, axis, k >= 3 && k < 6 ? k - 3 : -1, k < 6 ? -1 : (k - 6) % 3);
   }
@@ -68,7 +75,7 @@ struct PairAxis {
   Vector<N> direction;  // of any length
   N gap{0}, length{1};  // times the length
   bool may_exist = true, must_exist = true;
-  N depth{0};           // minus the gap, of the unit axis; where the axis must exist
+  N depth{0};  // minus the gap, of the unit axis; where the axis must exist
 
   PairAxis() = default;
   PairAxis(const TwoBoxes<N>& boxes, int k) : direction(boxes.axis(k)), gap(boxes.gap(k, direction)) {

@@ -35,7 +35,7 @@ class Exact {
 
   bool is_extended() const { return value_.index() == 1; }
   const Rational& a0() const { return is_extended() ? extension()->a0() : rational(); }
-  const Rational& a1() const { return extension()->a1(); }      ///< never zero
+  const Rational& a1() const { return extension()->a1(); }  ///< never zero
   const Rational& root() const { return extension()->root(); }
 
   CGAL::Sign sign() const { return is_extended() ? extension()->sign() : CGAL::sign(rational()); }
@@ -95,11 +95,17 @@ inline bool may_be_negative(const Exact& x) { return x.sign() == CGAL::NEGATIVE;
 inline bool may_be_positive(const Exact& x) { return x.sign() == CGAL::POSITIVE; }
 inline bool may_be_zero(const Exact& x) { return x.sign() == CGAL::ZERO; }
 template <class N>
-bool may_be_at_most_zero(const N& x) { return may_be_negative(x) || may_be_zero(x); }
+bool may_be_at_most_zero(const N& x) {
+  return may_be_negative(x) || may_be_zero(x);
+}
 template <class N>
-bool may_be_at_least_zero(const N& x) { return may_be_positive(x) || may_be_zero(x); }
+bool may_be_at_least_zero(const N& x) {
+  return may_be_positive(x) || may_be_zero(x);
+}
 template <class N>
-bool surely_zero(const N& x) { return !may_be_negative(x) && !may_be_positive(x); }
+bool surely_zero(const N& x) {
+  return !may_be_negative(x) && !may_be_positive(x);
+}
 
 inline bool may_be_less(const Interval& a, const Interval& b) { return !(a.inf() >= b.sup()); }
 inline bool may_be_at_most(const Interval& a, const Interval& b) { return !(a.inf() > b.sup()); }
@@ -165,21 +171,37 @@ template <class N>
 using Vector = std::array<N, 3>;
 
 template <class N>
-Vector<N> vector(const collide::Vec3<N>& v) { return {v.x, v.y, v.z}; }
+Vector<N> vector(const collide::Vec3<N>& v) {
+  return {v.x, v.y, v.z};
+}
 template <class N>
-collide::Vec3<N> answer_vector(const Vector<N>& v) { return {v[0], v[1], v[2]}; }
+collide::Vec3<N> answer_vector(const Vector<N>& v) {
+  return {v[0], v[1], v[2]};
+}
 template <class N>
-Vector<N> plus(const Vector<N>& a, const Vector<N>& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vector<N> plus(const Vector<N>& a, const Vector<N>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 template <class N>
-Vector<N> minus(const Vector<N>& a, const Vector<N>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector<N> minus(const Vector<N>& a, const Vector<N>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 template <class N>
-Vector<N> times(const Vector<N>& a, const N& s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+Vector<N> times(const Vector<N>& a, const N& s) {
+  return {a[0] * s, a[1] * s, a[2] * s};
+}
 template <class N>
-Vector<N> negated(const Vector<N>& a) { return {-a[0], -a[1], -a[2]}; }
+Vector<N> negated(const Vector<N>& a) {
+  return {-a[0], -a[1], -a[2]};
+}
 template <class N>
-N inner(const Vector<N>& a, const Vector<N>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+N inner(const Vector<N>& a, const Vector<N>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 template <class N>
-N norm2(const Vector<N>& a) { return square(a[0]) + square(a[1]) + square(a[2]); }
+N norm2(const Vector<N>& a) {
+  return square(a[0]) + square(a[1]) + square(a[2]);
+}
 template <class N>
 Vector<N> outer(const Vector<N>& a, const Vector<N>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

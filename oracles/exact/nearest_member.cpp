@@ -60,7 +60,8 @@ RationalBox around(const GivenVector& g, const Rational& reach, const Rational& 
     box.low[i] = -bound, box.high[i] = bound;
     if (!g.told[i] || std::isnan(g.high[i])) continue;
     if (std::isinf(g.high[i])) {
-      (g.high[i] > 0 ? box.low[i] : box.high[i]) = g.high[i] > 0 ? Rational(largest - reach) : Rational(reach - largest);
+      (g.high[i] > 0 ? box.low[i] : box.high[i]) =
+          g.high[i] > 0 ? Rational(largest - reach) : Rational(reach - largest);
       continue;
     }
     const Rational at = Rational(g.high[i]) + Rational(g.low[i]);
@@ -70,7 +71,8 @@ RationalBox around(const GivenVector& g, const Rational& reach, const Rational& 
 }
 
 /// Every vector within so many ulps lies in one of these boxes, and in these no other: one with the unit of the given
-/// vector and, where a right one may reach the next power of two, where the unit is larger, one for each number that may.
+/// vector and, where a right one may reach the next power of two, where the unit is larger, one for each number that
+/// may.
 std::vector<RationalBox> within(const GivenVector& g, double ulps, const Rational& bound) {
   double largest = largest_of(g);
   if (!all_told(g)) largest = std::max(largest, CGAL::to_interval(bound).second);
@@ -87,7 +89,8 @@ std::vector<RationalBox> within(const GivenVector& g, double ulps, const Rationa
     down.high[i] = std::min(down.high[i], Rational(-power));
     boxes.push_back(up), boxes.push_back(down);
   }
-  boxes.erase(std::remove_if(boxes.begin() + 1, boxes.end(), [](const RationalBox& b) { return b.empty(); }), boxes.end());
+  boxes.erase(std::remove_if(boxes.begin() + 1, boxes.end(), [](const RationalBox& b) { return b.empty(); }),
+              boxes.end());
   return boxes;
 }
 
@@ -98,9 +101,9 @@ bool in_cone(const RationalVector& x, const Cone& cone) {
   });
 }
 
-/// Is there a unit vector in a box and a cone? Both are convex: there is one where some point of what they have in common
-/// is at most as long and some at least as long. The shortest point is that of the box, or lies on an edge of what they
-/// have in common; the longest is a vertex, at the end of such an edge.
+/// Is there a unit vector in a box and a cone? Both are convex: there is one where some point of what they have in
+/// common is at most as long and some at least as long. The shortest point is that of the box, or lies on an edge of
+/// what they have in common; the longest is a vertex, at the end of such an edge.
 class UnitVectorIn {
  public:
   UnitVectorIn(const RationalBox& box, const Cone& cone) : box_(box), cone_(cone) { search(); }
@@ -133,7 +136,8 @@ class UnitVectorIn {
     for (int i = 0; i < 3; ++i) edges_of_box(i);
     for (std::size_t s = 0; s < cone_.size(); ++s) {
       for (int i = 0; i < 3; ++i) edges_of_side_and_faces(cone_[s].direction, i);
-      for (std::size_t r = 0; r < s; ++r) edge(RationalVector{0, 0, 0}, crossed(cone_[r].direction, cone_[s].direction));
+      for (std::size_t r = 0; r < s; ++r)
+        edge(RationalVector{0, 0, 0}, crossed(cone_[r].direction, cone_[s].direction));
     }
   }
   static RationalVector crossed(const RationalVector& a, const RationalVector& b) {
@@ -209,7 +213,8 @@ class UnitVectorIn {
 };
 
 /// The part of a convex polygon where sign x[axis] <= sign bound.
-std::vector<RationalVector> clipped(const std::vector<RationalVector>& polygon, int axis, int sign, const Rational& bound) {
+std::vector<RationalVector> clipped(const std::vector<RationalVector>& polygon, int axis, int sign,
+                                    const Rational& bound) {
   std::vector<RationalVector> kept;
   const auto beyond = [&](const RationalVector& x) -> Rational { return sign * (x[axis] - bound); };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -224,8 +229,8 @@ std::vector<RationalVector> clipped(const std::vector<RationalVector>& polygon, 
   return kept;
 }
 
-/// The least distance at which `find` finds a member; a shorter one finds none. Up to one ulp it is not told; further away
-/// to one part in 128.
+/// The least distance at which `find` finds a member; a shorter one finds none. Up to one ulp it is not told; further
+/// away to one part in 128.
 template <class Nearest, class Find>
 Nearest nearest(Scalar scalar, Find find) {
   constexpr double share = 0x1p-7;
@@ -288,7 +293,8 @@ NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const L
     const std::vector<RationalBox> normals = within(given, ulps, Rational(1));
     for (RationalBox box : within(lever.place, ulps, bound)) {
       for (int i = 0; i < 3; ++i) {
-        box.low[i] = (box.low[i] - lever.base[i]) / lever.reach, box.high[i] = (box.high[i] - lever.base[i]) / lever.reach;
+        box.low[i] = (box.low[i] - lever.base[i]) / lever.reach,
+        box.high[i] = (box.high[i] - lever.base[i]) / lever.reach;
       }
       for (const RationalBox& other : normals) {
         const RationalBox both = common(box, other);
@@ -316,8 +322,8 @@ NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<Rati
   return with_slack(nearest<NearestPoint>(given.scalar, find), given);
 }
 
-// Of a vector that is further off than 2^-8 of the given one's largest number the distance is more than `far_ulps`; of a
-// nearer one the unit is at most that of a number larger by as much.
+// Of a vector that is further off than 2^-8 of the given one's largest number the distance is more than `far_ulps`; of
+// a nearer one the unit is at most that of a number larger by as much.
 
 double far_ulps(Scalar scalar) { return std::ldexp(1.0, digits(scalar) - 10); }
 

@@ -3,8 +3,8 @@
 ///
 /// Distances are in the maximum norm and in units in the last place (ulps): one is that of the largest number of the
 /// vector, given or right. Of several vectors together the furthest counts. What is told is a proved range: never more
-/// than the distance at its lower end, never less at its upper one. Up to one ulp, where the answer is right, the lower end
-/// is 0.
+/// than the distance at its lower end, never less at its upper one. Up to one ulp, where the answer is right, the lower
+/// end is 0.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-/// The right normals where they are more than one, and how far a given answer is from the nearest. Included by the oracles'
-/// .cpp files only.
+/// The right normals where they are more than one, and how far a given answer is from the nearest. Included by the
+/// oracles' .cpp files only.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace nearmiss::oracle {
 
-/// `direction . normal` lies within [low, high] times the direction's length: [-1, 0], [0, 0] or [0, 1]. The direction has
-/// any length; a zero one says nothing. An exact one is rational.
+/// `direction . normal` lies within [low, high] times the direction's length: [-1, 0], [0, 0] or [0, 1]. The direction
+/// has any length; a zero one says nothing. An exact one is rational.
 template <class N>
 struct Facing {
   Vector<N> direction;

@@ -20,8 +20,8 @@ struct Oracle {
   /// May the place of the answer that number `number` belongs to be, but for `ulps` units in its last place, on the
   /// surface that the query names, for some input within the widening? False is a proof that it is not. Empty where
   /// the query names no surface.
-  bool (*may_be_on_surface)(std::span<const double> values, Widening widening, const Answer& about,
-                            std::size_t number, double ulps, Scalar scalar);
+  bool (*may_be_on_surface)(std::span<const double> values, Widening widening, const Answer& about, std::size_t number,
+                            double ulps, Scalar scalar);
   /// The exact decision where each number is `values[i] + by[i] * 2^-exponent`.
   bool (*exact_decision)(std::span<const double> values, std::span<const double> by, int exponent);
 };

@@ -142,8 +142,8 @@ struct Tally::Distance {
   }
 };
 
-/// A normal is as near as it is given, or as its direction is: its length is judged on its own. One that has no direction is
-/// no normal, wherever the right ones may point.
+/// A normal is as near as it is given, or as its direction is: its length is judged on its own. One that has no
+/// direction is no normal, wherever the right ones may point.
 Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& errors) const {
   const double unit = unit_of(about_, part, errors.of, scalar_);
   Distance as_given, of_direction;
@@ -161,7 +161,8 @@ Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& error
 }
 
 const Layout::Part& Tally::part_at(std::size_t number) const {
-  return *std::find_if(layout_.parts.begin(), layout_.parts.end(), [&](const Layout::Part& p) { return number < p.end; });
+  return *std::find_if(layout_.parts.begin(), layout_.parts.end(),
+                       [&](const Layout::Part& p) { return number < p.end; });
 }
 
 void Tally::include_enclosure(const Errors& errors, FromSet& set) const {

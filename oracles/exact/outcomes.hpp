@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "impl/catalogue/layout.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "oracles/exact/arithmetic.hpp"
-#include "impl/catalogue/layout.hpp"
 #include "oracles/exact/normals.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/exact/scaling.hpp"
@@ -45,8 +45,8 @@ class Tally {
   const Enclosure& result() const { return result_; }
   /// True where a yes is held against the given answer; else it is but a decision.
   bool compares_yes() const { return about_.yes; }
-  /// The three numbers of the given answer from `begin` on, in the units of the input; a normal also divided by its length,
-  /// where that is near 1. It is as near to a right one as the nearer of the two.
+  /// The three numbers of the given answer from `begin` on, in the units of the input; a normal also divided by its
+  /// length, where that is near 1. It is as near to a right one as the nearer of the two.
   std::vector<GivenVector> given_vector(std::size_t begin) const;
   void list_in(std::vector<Alternative>* list) { list_ = list; }
   /// The oracle answers in these units; `scaling` must outlive this.
@@ -100,9 +100,7 @@ class Outcomes : public Tally {
   void no() { put(false, A{}, {}, 0); }
   /// A right answer is `a`; of its leaves only the first `leaves` mean anything.
   void no(const A& a, std::size_t leaves) { put(false, a, {}, leaves); }
-  void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) {
-    put(true, a, normals, Answer::capacity);
-  }
+  void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) { put(true, a, normals, Answer::capacity); }
   /// The same; of its leaves only the first `leaves` are held against an answer, the others may be anything.
   void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { put(true, a, normals, leaves); }
   /// Every answer of a set is right: `a` is one of them or, of intervals, encloses them all.
@@ -199,7 +197,8 @@ void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::s
       const N length2 = norm2(f.direction);
       if (may_be_zero(length2)) continue;
       const Vector<N> unit = times(f.direction, N(N(1) / root(length2)));
-      alternative.facing.push_back({{bounds(unit[0]), bounds(unit[1]), bounds(unit[2])}, {double(f.low), double(f.high)}});
+      alternative.facing.push_back(
+          {{bounds(unit[0]), bounds(unit[1]), bounds(unit[2])}, {double(f.low), double(f.high)}});
     }
     list_->push_back(std::move(alternative));
   }
@@ -233,8 +232,8 @@ struct PlaceInAnswer {
                                          Scalar scalar);
 };
 
-// The two stages, in the standard modes of floating-point arithmetic whatever the caller's are, and the line with which an
-// oracle's .cpp file ends.
+// The two stages, in the standard modes of floating-point arithmetic whatever the caller's are, and the line with which
+// an oracle's .cpp file ends.
 
 /// Sets the rounding of the intervals for its lifetime and tells afterwards whether any operation was
 /// invalid (infinity - infinity, 0 * infinity): then the bounds mean nothing.
@@ -289,7 +288,8 @@ Q exact_inputs(std::span<const double> values, std::span<const double> by = {}, 
   collide::for_each_leaf(q, [&](auto& leaf, Role) {
     using Leaf = std::decay_t<decltype(leaf)>;
     if constexpr (std::is_same_v<Leaf, Exact>) {
-      leaf = Exact(by.empty() || by[i] == 0 ? Rational(values[i]) : Rational(Rational(values[i]) + Rational(by[i]) * unit));
+      leaf = Exact(by.empty() || by[i] == 0 ? Rational(values[i])
+                                            : Rational(Rational(values[i]) + Rational(by[i]) * unit));
     } else {
       leaf = static_cast<Leaf>(values[i]);
     }
@@ -345,8 +345,7 @@ struct Stages {
   template <class N>
   static bool on_surface(const Inputs<N>& q, const PlaceInAnswer& place, const Answer& about) {
     const double* x = &about.values[place.number];
-    return Algorithm::on_surface(
-        q, GivenPlace<N>{{N(x[0]), N(x[1]), N(x[2])}, N(place.slack), place.number, about});
+    return Algorithm::on_surface(q, GivenPlace<N>{{N(x[0]), N(x[1]), N(x[2])}, N(place.slack), place.number, about});
   }
   /// A widening of nothing is asked about exactly as well, where the intervals cannot tell.
   static bool may_be_on_surface(std::span<const double> values, Widening widening, const Answer& about,
@@ -359,9 +358,8 @@ struct Stages {
     return on_surface(exact_inputs<Inputs<Exact>>(values), *place, about);
   }
   static Oracle oracle() {
-    constexpr bool names_a_surface = requires(const Inputs<Exact>& q, const GivenPlace<Exact>& g) {
-      Algorithm::on_surface(q, g);
-    };
+    constexpr bool names_a_surface =
+        requires(const Inputs<Exact>& q, const GivenPlace<Exact>& g) { Algorithm::on_surface(q, g); };
     if constexpr (names_a_surface) return {interval, exact, may_be_on_surface, exact_decision};
     return {interval, exact, nullptr, exact_decision};
   }
@@ -381,8 +379,8 @@ struct Stages {
     if (!scaling.any()) return on_surface(q, place, about);
     const auto scaled = [&](double x) { return scaling.to_oracle(Role::position, Interval(x)); };
     const double* x = &about.values[place.number];
-    return Algorithm::on_surface(q, GivenPlace<Interval>{{scaled(x[0]), scaled(x[1]), scaled(x[2])},
-                                                         scaled(place.slack), place.number, about});
+    return Algorithm::on_surface(
+        q, GivenPlace<Interval>{{scaled(x[0]), scaled(x[1]), scaled(x[2])}, scaled(place.slack), place.number, about});
   }
 };
 
@@ -402,8 +400,6 @@ struct Stages {
     }                                                                                             \
   };                                                                                              \
   }                                                                                               \
-  Oracle query##_oracle() {                                                                       \
-    return Stages<inputs::query, query##_algorithm>::oracle();                                    \
-  }
+  Oracle query##_oracle() { return Stages<inputs::query, query##_algorithm>::oracle(); }
 
 }  // namespace nearmiss::oracle

@@ -1,7 +1,7 @@
-/// The units of the interval stage. Doubles have products of up to eight lengths only where lengths are moderate; so where
-/// an input has others, lengths, velocities, directions and rotations are multiplied by powers of two, and what the oracle
-/// answers is multiplied back. Every query allows it: roles are dimensions, and the length of a direction or of a
-/// quaternion means nothing. A number that underflows is enclosed as every other one.
+/// The units of the interval stage. Doubles have products of up to eight lengths only where lengths are moderate; so
+/// where an input has others, lengths, velocities, directions and rotations are multiplied by powers of two, and what
+/// the oracle answers is multiplied back. Every query allows it: roles are dimensions, and the length of a direction or
+/// of a quaternion means nothing. A number that underflows is enclosed as every other one.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ class Scaling {
   Interval to_oracle(Role role, const Interval& x) const { return multiplied(x, -of_answer(role)); }
   Interval to_answer(Role role, const Interval& x) const { return multiplied(x, of_answer(role)); }
 
-  /// A product of eight numbers up to 2^moderate is finite, and one of eight down to 2^-moderate is normal, with room for
-  /// sums.
+  /// A product of eight numbers up to 2^moderate is finite, and one of eight down to 2^-moderate is normal, with room
+  /// for sums.
   static constexpr int moderate = 96;
 
  private:

@@ -19,16 +19,22 @@ class ExtremesCommand : public Command {
     return {
         "extremes",
         "map where subjects break down, far out, tiny, huge, fast or nearly parallel",
-        {"Generated cases of every chosen query are moved over planes: distance from the origin and size of everything; "
+        {"Generated cases of every chosen query are moved over planes: distance from the origin and size of "
+         "everything; "
          "speed, ratio of sizes, and nearly parallel directions, where the query has them. At each place every chosen "
          "subject is asked, and the worst proved errors and the wrong decisions are kept. Contracts play no part: "
          "places where nothing is promised are measured like all others, and nothing found there is a violation.",
-         "The folder receives extremes.json and, where the Debian package node-d3 was there at build, extremes.html: one "
-         "page with everything in it, a heat map for each query and subject. Interrupted, it writes what it has. A subject "
-         "that does not come back is not asked again in that row of a map after 3 time-outs, nor in that map after 12; the "
+         "The folder receives extremes.json and, where the Debian package node-d3 was there at build, extremes.html: "
+         "one "
+         "page with everything in it, a heat map for each query and subject. Interrupted, it writes what it has. A "
+         "subject "
+         "that does not come back is not asked again in that row of a map after 3 time-outs, nor in that map after 12; "
+         "the "
          "map says so.",
-         "The table has a row for each query and subject: wrong decisions in each direction, answers that are not finite, "
-         "and the largest proved errors. GAVE UP: cases that it was not asked after too many time-outs. BACKWARD: how far inputs would have to move to make an answer right, in units "
+         "The table has a row for each query and subject: wrong decisions in each direction, answers that are not "
+         "finite, "
+         "and the largest proved errors. GAVE UP: cases that it was not asked after too many time-outs. BACKWARD: how "
+         "far inputs would have to move to make an answer right, in units "
          "of the scalar's epsilon. FORWARD: the distance of a number from the exact one, in units in the last place."},
         {{"0", "It was written."},
          {"2", "Wrong arguments, nothing to ask, an output that cannot be written, or it was interrupted."},

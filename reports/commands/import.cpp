@@ -9,14 +9,14 @@
 #include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/engine/campaign.hpp"
 #include "reports/engine/interrupt.hpp"
-#include "reports/findings/pretty_json.hpp"
 #include "reports/engine/progress.hpp"
-#include "reports/findings/report.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/engine/tally.hpp"
+#include "reports/findings/explain.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -45,7 +45,7 @@ std::string word(bool collides) { return collides ? "collides" : "does not colli
 struct Score {
   const Subject* subject = nullptr;
   std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
-  std::uint64_t gave_up = 0;  ///< not asked any more
+  std::uint64_t gave_up = 0;       ///< not asked any more
   std::vector<std::string> wrong;  ///< one line each
 };
 
@@ -150,9 +150,9 @@ class NyuCcd : public Sink {
   std::uint64_t queries_ = 0, skipped_ = 0, fit_ = 0, parallel_ = 0;
   std::vector<std::string> oracle_wrong_, parallel_wrong_;
   std::span<const GroundTruth> batch_;
-  std::vector<bool> truth_;       ///< of each of the batch
-  Score* now_ = nullptr;          ///< of the subject that is asked
-  std::vector<std::size_t> at_;   ///< where in the batch each case that it is asked stands
+  std::vector<bool> truth_;      ///< of each of the batch
+  Score* now_ = nullptr;         ///< of the subject that is asked
+  std::vector<std::size_t> at_;  ///< where in the batch each case that it is asked stands
   Campaign campaign_;
 };
 
@@ -176,8 +176,10 @@ std::string NyuCcd::text() {
     rows.push_back({s.subject->name, count_text(s.right), count_text(s.false_hits), count_text(s.false_misses),
                     count_text(s.outside), count_text(s.cannot_answer), count_text(s.broke), count_text(s.violations)});
   }
-  text += "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar, or the case outside of what it\nrequires)\n" +
-          table_text(rows, "", 1);
+  text +=
+      "\nCollides until time 1, by subject (OUTSIDE: a number is not exact in the subject's scalar, or the case "
+      "outside of what it\nrequires)\n" +
+      table_text(rows, "", 1);
   for (const Score& s : scores_) {
     if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query(), late_of(s), s.gave_up));
   }
@@ -206,7 +208,9 @@ class ImportCommand : public Command {
              "the query's definition; where the truth column says otherwise it is listed apart."},
             {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
              {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
-             {"2", "A file cannot be read or is malformed, none holds a query, the output cannot be written, or it was interrupted."},
+             {"2",
+              "A file cannot be read or is malformed, none holds a query, the output cannot be written, or it was "
+              "interrupted."},
              internal_error_status()},
             {{"nearmiss import nyu-ccd erleben-spikes/*.csv", "Compare."},
              {"nearmiss import nyu-ccd erleben-spikes/*.csv --out cases", "Also write each case as a JSON file."}}};

@@ -5,8 +5,8 @@
 #include "corpus/store.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/findings/pretty_json.hpp"
 #include "reports/engine/properties.hpp"
+#include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -121,7 +121,8 @@ class ListCommand : public Command {
              "--why tells for each query and subject by which equivalence, or why not, and what the subject requires: "
              "cases outside of that it is not asked. --json prints one object for "
              "programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by equivalence\" | "
-             "\"not offered\"}, \"referees\": {the same}, \"requires\": {NAME: [what it requires]}, \"fuzz_target\", \"seeds\", \"properties\"}]}."},
+             "\"not offered\"}, \"referees\": {the same}, \"requires\": {NAME: [what it requires]}, \"fuzz_target\", "
+             "\"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
              {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},

@@ -29,19 +29,22 @@ std::string& typed_command_line() {
 }
 
 std::vector<Manual::Line> judging_exit_status() {
-  return {{"0", "Nothing violated its contract, and nothing broke."},
-          {"1", "Violations, or a subject that broke."},
-          {"2",
-           "It could not run, or not to its end: wrong arguments, malformed input, an output that cannot be written; "
-           "or, without a violation, it was interrupted or had no time to ask anything. One line on standard error says "
-           "what and why."},
-          internal_error_status()};
+  return {
+      {"0", "Nothing violated its contract, and nothing broke."},
+      {"1", "Violations, or a subject that broke."},
+      {"2",
+       "It could not run, or not to its end: wrong arguments, malformed input, an output that cannot be written; "
+       "or, without a violation, it was interrupted or had no time to ask anything. One line on standard error says "
+       "what and why."},
+      internal_error_status()};
 }
 
 Manual::Line internal_error_status() {
   return {std::to_string(InternalError::exit_code),
-          "An internal error: the judge contradicts itself. Every answer that it accuses is judged twice, and the two words "
-          "differ, or those on related cases do. It is a fault of Nearmiss and counted nowhere; what was found beside it is "
+          "An internal error: the judge contradicts itself. Every answer that it accuses is judged twice, and the two "
+          "words "
+          "differ, or those on related cases do. It is a fault of Nearmiss and counted nowhere; what was found beside "
+          "it is "
           "kept. One line on standard error has both words, and internal-errors/ of the folder the case."};
 }
 
@@ -79,14 +82,16 @@ class CommandLine {
       throw BadInput(unexpected_text());
     } catch (const CLI::ArgumentMismatch& e) {
       const std::string what = e.what();
-      if (what.find("disallowed flag") != std::string::npos) throw BadInput(fmt::format("{} takes no value", flag_in(what)));
+      if (what.find("disallowed flag") != std::string::npos)
+        throw BadInput(fmt::format("{} takes no value", flag_in(what)));
       const auto [name, type] = named_in(what);
       throw BadInput(fmt::format("{} needs a value{}", name, type));
     } catch (const CLI::ExcludesError& e) {
       throw BadInput(fmt::format("{} cannot be given together", options_in(e.what())));
     } catch (const CLI::RequiredError& e) {
       const std::string what = e.what();
-      throw BadInput(fmt::format("{} is missing; 'nearmiss help {}' shows what it takes", what.substr(0, what.find(' ')),
+      throw BadInput(fmt::format("{} is missing; 'nearmiss help {}' shows what it takes",
+                                 what.substr(0, what.find(' ')),
                                  root_.get_subcommands().empty() ? "" : root_.get_subcommands()[0]->get_name()));
     }
     const auto chosen = root_.get_subcommands();
@@ -153,9 +158,11 @@ class CommandLine {
   std::string unexpected_text() const {
     const auto chosen = root_.get_subcommands();
     const CLI::App& app = chosen.empty() ? root_ : *chosen[0];
-    const std::string manual = chosen.empty() || app.get_name() == "help" ? "nearmiss help" : "nearmiss help " + app.get_name();
+    const std::string manual =
+        chosen.empty() || app.get_name() == "help" ? "nearmiss help" : "nearmiss help " + app.get_name();
     const std::string word = root_.remaining(true).at(0);
-    if (!word.starts_with('-')) return fmt::format("unexpected word '{}'; '{}' shows what it takes", one_line(word, 100), manual);
+    if (!word.starts_with('-'))
+      return fmt::format("unexpected word '{}'; '{}' shows what it takes", one_line(word, 100), manual);
     std::vector<std::string> options;
     for (const CLI::Option* o : app.get_options()) {
       for (const std::string& l : o->get_lnames()) options.push_back("--" + l);
@@ -224,8 +231,8 @@ int run_or_complain(const std::vector<std::string>& arguments) {
   }
 }
 
-/// A standard file that was closed would be whatever is opened next, a pipe to a worker say, and what is printed would go
-/// there. /dev/null takes its place, and of standard output one that cannot be written.
+/// A standard file that was closed would be whatever is opened next, a pipe to a worker say, and what is printed would
+/// go there. /dev/null takes its place, and of standard output one that cannot be written.
 void hold_standard_files() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(file, F_GETFD) != -1) continue;

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
-/// The shares of the time for properties, half of it for relations, and for fuzzing; within that for judging what was found.
+/// The shares of the time for properties, half of it for relations, and for fuzzing; within that for judging what was
+/// found.
 constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1;
 
 Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
@@ -80,12 +81,8 @@ void replay_stored(Run& run) {
 }
 
 Json outcome_json(const FuzzOutcome& o) {
-  return {{"query", o.query},
-          {"seconds", o.seconds},
-          {"executions", o.executions},
-          {"ended", o.ended},
-          {"failed", o.failed},
-          {"asked", o.asked}};
+  return {{"query", o.query}, {"seconds", o.seconds}, {"executions", o.executions},
+          {"ended", o.ended}, {"failed", o.failed},   {"asked", o.asked}};
 }
 
 /// What came of the fuzz targets.
@@ -106,7 +103,8 @@ struct Fuzzing {
     for (const FuzzOutcome& o : ran) {
       for (const std::string& name : added_subjects()) {
         const bool offered = find_subject(name)->offering(o.query).offer != Offer::not_offered;
-        if (offered && !o.asked.empty() && std::find(o.asked.begin(), o.asked.end(), name) == o.asked.end()) names.insert(name);
+        if (offered && !o.asked.empty() && std::find(o.asked.begin(), o.asked.end(), name) == o.asked.end())
+          names.insert(name);
       }
     }
     return {names.begin(), names.end()};
@@ -214,8 +212,9 @@ bool ask_properties(Run& run, Clock::time_point until) {
     return false;
   }
   run.doing("properties");
-  const PropertyOutcome o = run_property_tests(*program, {run.settings().folder, foreign_subjects(), run.settings().seed, left,
-                                                          [&] { run.tick(); }, [&] { return run.should_stop(); }});
+  const PropertyOutcome o =
+      run_property_tests(*program, {run.settings().folder, foreign_subjects(), run.settings().seed, left,
+                                    [&] { run.tick(); }, [&] { return run.should_stop(); }});
   note = {{"state", "ran"}, {"seeds", o.seeds}, {"passed", o.passed}, {"failed", o.failed}, {"ended", o.ended}};
   run.note("properties", note);
   fmt::print("properties: {} with fresh seeds passed, {} failed{}{}\n", plural_text(o.passed, "test"), o.failed.size(),
@@ -232,13 +231,17 @@ class NightlyCommand : public Command {
         {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
          "stored about it. Then new cases are generated for all queries and subjects. A sixth of the time goes to "
          "properties: half of it to relations between answers, as 'nearmiss relations' asks for them, and half to the "
-         "property tests of this build, which ask the tiers of collide about new cases of fresh seeds. In the last third of the "
+         "property tests of this build, which ask the tiers of collide about new cases of fresh seeds. In the last "
+         "third of the "
          "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
-         "everything else. They ask the tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were "
+         "everything else. They ask the tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that "
+         "they were "
          "built with. Where the fuzz targets are not built, the summary and the index say so, and the "
-         "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1, and "
+         "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1, "
+         "and "
          "so does a property that fails.",
-         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss relations', properties/ "
+         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss relations', "
+         "properties/ "
          "with the messages and reports of properties, corpus/QUERY/ for what the fuzz targets learned and "
          "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
         judging_exit_status(),
@@ -286,7 +289,8 @@ class NightlyCommand : public Command {
     bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     run.finish();
-    fmt::print("\n{}\n{}{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(), run.kept().worst_text(), run.summary(), fuzzing);
+    fmt::print("\n{}\n{}{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
+               run.kept().worst_text(), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     const int code = std::max(related, run.exit_code());
     return code == InternalError::exit_code || !failed ? code : 1;

@@ -93,8 +93,8 @@ void Selection::declare_queries(CLI::App& app) {
 namespace {
 
 /// An option of which each value is loaded as it is met.
-void add_loading(CLI::App& app, const std::string& name, void (*load)(const std::string&), const std::string& description,
-                 const std::string& type) {
+void add_loading(CLI::App& app, const std::string& name, void (*load)(const std::string&),
+                 const std::string& description, const std::string& type) {
   app.add_option_function<std::vector<std::string>>(
          name,
          [load](const std::vector<std::string>& all) {
@@ -119,12 +119,14 @@ void declare_foreign_subjects(CLI::App& app) {
            limits.patience = *parsed<double>(text);
            set_worker_limits(limits);
          },
-         fmt::format("How long a subject may take for one case: S seconds of processor time, and {:g} times as many in all. Default: {:g}",
+         fmt::format("How long a subject may take for one case: S seconds of processor time, and {:g} times as many in "
+                     "all. Default: {:g}",
                      usual.wall() / usual.patience, usual.patience))
       ->type_name("S")
       ->check(number_from(least, most));
   add_loading(app, "--plugin", load_plugin,
-              "Ask this shared library, which is a subject (see docs/bring-your-own.md); may be given several times", "FILE");
+              "Ask this shared library, which is a subject (see docs/bring-your-own.md); may be given several times",
+              "FILE");
   add_loading(app, "--command", load_command,
               "Ask this program, which is a subject (see docs/protocol.md); may be given several times", "COMMAND");
 }
@@ -210,7 +212,8 @@ void add_measure(CLI::App& app, std::optional<double>& measure) {
 void add_output_folder(CLI::App& app, std::string& folder, const std::string& description) {
   app.add_option("-o,--out", folder, description)
       ->type_name("DIR")
-      ->check(CLI::Validator([](const std::string& t) { return t.empty() ? "the name of the folder is empty" : ""; }, ""));
+      ->check(
+          CLI::Validator([](const std::string& t) { return t.empty() ? "the name of the folder is empty" : ""; }, ""));
 }
 
 std::uint64_t seed_or_random(std::optional<std::uint64_t> given) { return given ? *given : std::random_device{}(); }

@@ -9,15 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "impl/subject/subject.hpp"
 #include "impl/catalogue/query.hpp"
+#include "impl/subject/subject.hpp"
 
 namespace nearmiss {
 
 std::vector<std::string> query_names();
 std::vector<std::string> subject_names();
 
-/// --patience, --plugin and --command, the latter repeatable; what they name is loaded before later options are checked.
+/// --patience, --plugin and --command, the latter repeatable; what they name is loaded before later options are
+/// checked.
 void declare_foreign_subjects(CLI::App& app);
 
 /// Takes only the name of a query.

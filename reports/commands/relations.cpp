@@ -26,14 +26,20 @@ class RelationsCommand : public Command {
     return {
         "relations",
         "ask subjects related cases, and report answers that do not go together",
-        {"Every generated case is changed in ways that are exactly representable and have a known effect: turned, mirrored, "
-         "moved, scaled by powers of two, started later, asked in another query about the same sets. Each chosen subject "
-         "answers the case and what it is related to, in a process of its own. docs/properties.md has the table of relations.",
-         "Answers that differ are no fault by themselves, for rounding may make them differ. A promise is broken where the "
-         "judge proves one of the answers to be beyond its contract, where no answer came, or where bits differ although "
+        {"Every generated case is changed in ways that are exactly representable and have a known effect: turned, "
+         "mirrored, "
+         "moved, scaled by powers of two, started later, asked in another query about the same sets. Each chosen "
+         "subject "
+         "answers the case and what it is related to, in a process of its own. docs/properties.md has the table of "
+         "relations.",
+         "Answers that differ are no fault by themselves, for rounding may make them differ. A promise is broken where "
+         "the "
+         "judge proves one of the answers to be beyond its contract, where no answer came, or where bits differ "
+         "although "
          "the subject claims that they do not. Decisions that contradict each other, so that one of them is wrong for "
          "certain, are reported too; each report says which one it is, and that no contract is broken.",
-         "The folder receives relations.json with all counts, and relations/QUERY/SUBJECT-RELATION-BREACH-ID.json with the "
+         "The folder receives relations.json with all counts, and relations/QUERY/SUBJECT-RELATION-BREACH-ID.json with "
+         "the "
          "related cases, their answers and truths: of each query, subject and relation the first 3 broken promises and "
          "the first contradiction, then those that are at least twice as bad as any before.",
          "The table has a row for each subject and relation. PAIRS: cases that were compared with their follow-ups. "
@@ -46,7 +52,8 @@ class RelationsCommand : public Command {
          internal_error_status()},
         {{"nearmiss relations --subject bullet", "Every query and relation of one subject."},
          {"nearmiss relations --subject ode --query box_box_overlap --relation swapped --cases 100000", "One of them."},
-         {"nearmiss relations --subject skim --plugin ./libskim.so --bit-for-bit", "A plugin without any epsilon, so it says."}}};
+         {"nearmiss relations --subject skim --plugin ./libskim.so --bit-for-bit",
+          "A plugin without any epsilon, so it says."}}};
   }
   void declare(CLI::App& app) override {
     selection_.declare_subjects(app);
@@ -73,7 +80,8 @@ class RelationsCommand : public Command {
       if (chosen_.empty() || std::find(chosen_.begin(), chosen_.end(), r.name) != chosen_.end()) wanted.push_back(&r);
     }
     const std::filesystem::path folder = amount_.folder(seed);
-    RelationsRun run({typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed, bit_for_bit_});
+    RelationsRun run(
+        {typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed, bit_for_bit_});
     const FolderLock lock(folder);
     fmt::print("seed {}\n", seed);
     std::fflush(stdout);
@@ -87,7 +95,8 @@ class RelationsCommand : public Command {
       if (const auto given_up = run.given_up(); !given_up.empty()) {
         throw BadInput(fmt::format("nothing was compared: {}", fmt::join(given_up, "; ")));
       }
-      throw BadInput("nothing was compared: no chosen subject offers a chosen query and its follow-ups by a chosen relation");
+      throw BadInput(
+          "nothing was compared: no chosen subject offers a chosen query and its follow-ups by a chosen relation");
     }
     fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
     if (interrupted() || run.contradicted() > 0) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));

@@ -10,10 +10,10 @@
 #include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/findings/pretty_json.hpp"
 #include "reports/engine/progress.hpp"
 #include "reports/engine/related.hpp"
 #include "reports/engine/run_folder.hpp"
+#include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -34,7 +34,8 @@ class ReplayCommand : public Command {
          "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
         judging_exit_status(),
         {{"nearmiss replay reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings again."},
-         {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/hit-corner.json", "One subject, a stored case."},
+         {"nearmiss replay --subject fcl corpus/seeds/moving_sphere_box/hit-corner.json",
+          "One subject, a stored case."},
          {"nearmiss replay --json case.json", "As a JSON array of reports."}}};
   }
   void declare(CLI::App& app) override {
@@ -76,8 +77,9 @@ class ReplayCommand : public Command {
     const std::string name = subject["name"];
     if (find_subject(name) != nullptr) return;
     const bool has_command = report.contains("replay") && report["replay"].is_string();
-    say_on_stderr(fmt::format("nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300), one_line(name, 60),
-                              has_command ? "; this asks it again: " + one_line(report["replay"].get<std::string>(), 600) : ""));
+    say_on_stderr(fmt::format(
+        "nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300), one_line(name, 60),
+        has_command ? "; this asks it again: " + one_line(report["replay"].get<std::string>(), 600) : ""));
   }
   void again(const Case& question, const std::string& file) {
     const Replay r = replay(question, file, selection_.subjects(), workers_);

@@ -36,9 +36,11 @@ class RunCommand : public Command {
          "fitted to that.",
          "The run folder receives index.json with all counts (written from the start, and also when the run is "
          "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
-         "fault (of a breakage, its reason) the first 8, then those that are at least twice as bad as any before. All others are counted. "
+         "fault (of a breakage, its reason) the first 8, then those that are at least twice as bad as any before. All "
+         "others are counted. "
          "A folder that exists is added to; its index.json then describes the newest run. One run at a time can have "
-         "it. Where a file cannot be written, say because the disk is full, the run ends and its index says \"failed\".",
+         "it. Where a file cannot be written, say because the disk is full, the run ends and its index says "
+         "\"failed\".",
          "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
          "against them. NOT PROVED: they differ, and are not proved to differ by more than was promised. FALSE HIT, "
          "FALSE MISS, WRONG: proved to differ by more than was promised, by a wrong yes, a wrong no, or wrong numbers; "
@@ -73,8 +75,13 @@ class RunCommand : public Command {
     selection_.check_offered();
     const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
-    RunSettings settings{typed_command_line(), amount_.folder(seed), selection_.queries(), selection_.subjects(),
-                         seed, amount_.until(), by_class_};
+    RunSettings settings{typed_command_line(),
+                         amount_.folder(seed),
+                         selection_.queries(),
+                         selection_.subjects(),
+                         seed,
+                         amount_.until(),
+                         by_class_};
     Run run(std::move(settings));
     fmt::print("seed {}, {}, into {}\n{}", seed,
                amount_.seconds ? fmt::format("for {} s", *amount_.seconds)

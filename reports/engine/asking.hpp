@@ -25,11 +25,14 @@ class Asking {
   enum class GiveUp { when_often_late, never };
 
   /// `pulse` is called while a host is awaited; false ends the waiting.
-  explicit Asking(Worker::Pulse pulse, GiveUp rule = GiveUp::when_often_late) : workers_(std::move(pulse)), rule_(rule) {}
+  explicit Asking(Worker::Pulse pulse, GiveUp rule = GiveUp::when_often_late)
+      : workers_(std::move(pulse)), rule_(rule) {}
 
-  /// Sends the cases, which are of one query and exact in the subjects' scalars, to all subjects, does `meanwhile`, and hands
-  /// on what each answers: fewer answers than cases where the waiting was ended. A subject that is given up is passed over.
-  void ask(std::span<const Subject* const> subjects, std::span<const Case> cases, const std::function<void()>& meanwhile,
+  /// Sends the cases, which are of one query and exact in the subjects' scalars, to all subjects, does `meanwhile`, and
+  /// hands on what each answers: fewer answers than cases where the waiting was ended. A subject that is given up is
+  /// passed over.
+  void ask(std::span<const Subject* const> subjects, std::span<const Case> cases,
+           const std::function<void()>& meanwhile,
            const std::function<void(const Subject&, std::span<const Answer>)>& take);
 
   const Lateness& lateness(const Subject& subject, const Query& query) { return lateness_[{&subject, &query}]; }

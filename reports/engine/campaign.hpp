@@ -1,5 +1,5 @@
-/// The engine: schedules cases, asks subjects, has every answer judged, and hands what comes of it to its sinks. Runs, stored
-/// cases, maps of extremes and imports differ in where their cases come from and in what listens.
+/// The engine: schedules cases, asks subjects, has every answer judged, and hands what comes of it to its sinks. Runs,
+/// stored cases, maps of extremes and imports differ in where their cases come from and in what listens.
 #pragma once
 
 #include <chrono>
@@ -53,14 +53,14 @@ class Campaign {
 
   Campaign(Settings settings, std::vector<Sink*> sinks);
 
-  /// All cases are of one query and exact in the subjects' scalar. Stops early when it should. `meanwhile` is done while
-  /// the subjects answer. A case outside of what a subject requires counts as not asked.
+  /// All cases are of one query and exact in the subjects' scalar. Stops early when it should. `meanwhile` is done
+  /// while the subjects answer. A case outside of what a subject requires counts as not asked.
   void examine(std::span<const Subject* const> subjects, std::span<const Case> cases,
                const std::function<void()>& meanwhile = {});
   /// One case, whatever the scalar of the subjects: one that cannot hold it exactly has it out of its domain.
   void examine_in_any_scalar(std::span<const Subject* const> subjects, const Case& question);
-  /// Cases of the generator, until the schedule or the time is over. The next batch is made while the subjects answer the
-  /// one before; batches are as large as lets a person stop the campaign.
+  /// Cases of the generator, until the schedule or the time is over. The next batch is made while the subjects answer
+  /// the one before; batches are as large as lets a person stop the campaign.
   void generate(Schedule& schedule, std::uint64_t seed);
 
   /// True when it was interrupted or its time is over.

@@ -48,7 +48,8 @@ std::string percent_text(std::uint64_t part, std::uint64_t whole) {
 
 /// Violations by kind of disagreement: a false hit is never added to a false miss.
 std::vector<std::string> table_row(const Tally& t) {
-  const std::uint64_t hits = t.violations_by(Disagreement::false_hit), misses = t.violations_by(Disagreement::false_miss);
+  const std::uint64_t hits = t.violations_by(Disagreement::false_hit),
+                      misses = t.violations_by(Disagreement::false_miss);
   return {"  " + t.subject->name,
           count_text(t.cases),
           count_text(t.of(Verdict::agrees)),
@@ -106,7 +107,8 @@ void Counts::add_to(Json& index) const {
   index["tallies"] = Json::array();
   for (const Query* q : queries_) {
     for (const Subject* s : subjects_) {
-      if (const auto t = tallies_.find({q, s}); t != tallies_.end()) index["tallies"].push_back(tally_to_json(t->second));
+      if (const auto t = tallies_.find({q, s}); t != tallies_.end())
+        index["tallies"].push_back(tally_to_json(t->second));
     }
   }
   index["stages"] = Json::array();
@@ -127,17 +129,18 @@ void Counts::add_to(Json& index) const {
     const std::uint64_t hits = t.violations_by(Disagreement::false_hit);
     const std::uint64_t misses = t.violations_by(Disagreement::false_miss);
     index["by_class"].push_back({{"subject", key.first->name},
-                             {"class", key.second},
-                             {"cases", t.cases},
-                             {"false_hits", hits},
-                             {"false_misses", misses},
-                             {"wrong", t.wrong},
-                             {"broke", t.of(Verdict::broke)}});
+                                 {"class", key.second},
+                                 {"cases", t.cases},
+                                 {"false_hits", hits},
+                                 {"false_misses", misses},
+                                 {"wrong", t.wrong},
+                                 {"broke", t.of(Verdict::broke)}});
   }
   index["touches"] = touches_.to_json();
   index["inconsistent_conventions"] = Json::array();
   for (const Touches::Inconsistent& i : touches_.inconsistent()) {
-    index["inconsistent_conventions"].push_back({{"subject", i.subject->name}, {"closed", i.closed}, {"strict", i.strict}});
+    index["inconsistent_conventions"].push_back(
+        {{"subject", i.subject->name}, {"closed", i.closed}, {"strict", i.strict}});
   }
 }
 
@@ -160,9 +163,11 @@ std::string Counts::violated_text() const {
   std::map<const Query*, std::uint64_t> asked;
   std::uint64_t not_asked = 0;
   for (const auto& [key, t] : tallies_) asked[key.first] += t.cases, not_asked += t.of(Verdict::not_asked);
-  const auto unasked = std::uint64_t(std::count_if(asked.begin(), asked.end(), [](const auto& a) { return a.second == 0; }));
+  const auto unasked =
+      std::uint64_t(std::count_if(asked.begin(), asked.end(), [](const auto& a) { return a.second == 0; }));
   return (counted.empty() ? "nothing violated" : "violations: " + list_text(counted)) +
-         (not_asked == 0 ? "" : fmt::format(", {} not asked for what subjects require", plural_text(not_asked, "case"))) +
+         (not_asked == 0 ? ""
+                         : fmt::format(", {} not asked for what subjects require", plural_text(not_asked, "case"))) +
          (unasked == 0 ? "" : fmt::format(", {} of {} queries not asked", unasked, asked.size()));
 }
 
@@ -266,8 +271,8 @@ std::string Counts::table_by_class() const {
       if (std::exchange(first, false)) rows.push_back({s->name});
       const std::uint64_t hits = t.violations_by(Disagreement::false_hit);
       const std::uint64_t misses = t.violations_by(Disagreement::false_miss);
-      rows.push_back({"  " + key.second, count_text(t.cases), count_text(hits), count_text(misses),
-                      count_text(t.wrong), count_text(t.of(Verdict::broke))});
+      rows.push_back({"  " + key.second, count_text(t.cases), count_text(hits), count_text(misses), count_text(t.wrong),
+                      count_text(t.of(Verdict::broke))});
     }
   }
   return table_text(rows, "", 1);

@@ -78,8 +78,9 @@ Json map_to_json(const ExtremesMap& m) {
 }
 
 bool begun(const ExtremesMap& m) {
-  return std::any_of(m.cells.begin(), m.cells.end(),
-                     [](const ExtremesCell& c) { return c.cases + c.broke + c.no_answer + c.not_asked + c.gave_up > 0; });
+  return std::any_of(m.cells.begin(), m.cells.end(), [](const ExtremesCell& c) {
+    return c.cases + c.broke + c.no_answer + c.not_asked + c.gave_up > 0;
+  });
 }
 
 /// Puts `text` where the template has `mark`, once.
@@ -105,7 +106,8 @@ class Extremes::Place : public Sink {
  public:
   void at(const std::vector<ExtremesMap*>& maps, std::size_t cell) { maps_ = maps, cell_ = cell; }
   void take(const Examined& e) override {
-    ExtremesMap& m = **std::find_if(maps_.begin(), maps_.end(), [&](const ExtremesMap* o) { return o->subject == &e.subject; });
+    ExtremesMap& m =
+        **std::find_if(maps_.begin(), maps_.end(), [&](const ExtremesMap* o) { return o->subject == &e.subject; });
     m.time_outs += e.answer.late;
     m.time_outs_in_row += e.answer.late;
     count(m.cells[cell_], e.finding);
@@ -234,8 +236,8 @@ void Extremes::write() const {
 }
 
 std::string Extremes::table() const {
-  std::vector<std::vector<std::string>> rows{
-      {"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "GAVE UP", "NO ANSWER", "NOT ASKED", "BACKWARD", "FORWARD"}};
+  std::vector<std::vector<std::string>> rows{{"", "CASES", "FALSE HIT", "FALSE MISS", "NOT FINITE", "BROKE", "GAVE UP",
+                                              "NO ANSWER", "NOT ASKED", "BACKWARD", "FORWARD"}};
   for (const Query* q : settings_.queries) {
     bool first = true;
     for (const Subject* s : settings_.subjects) {
@@ -272,8 +274,10 @@ std::string Extremes::summary() const {
     for (const ExtremesCell& c : m.cells) gave_up += c.gave_up;
   }
   return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
-                     plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"), count_text(gave_up), (settings_.folder / "extremes.json").string(),
-                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3", campaign_.internal_errors().text());
+                     plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"),
+                     count_text(gave_up), (settings_.folder / "extremes.json").string(),
+                     drawn ? " and extremes.html" : "; no page, for this build found no node-d3",
+                     campaign_.internal_errors().text());
 }
 
 int Extremes::exit_code() const {

@@ -29,16 +29,16 @@ struct ExtremesSettings {
 /// What was proved against the answers to the cases at one place of a plane. Contracts play no part: a place where
 /// nothing is promised is measured all the same.
 struct ExtremesCell {
-  std::uint64_t cases = 0;         ///< answered; fewer where numbers do not fit the scalar
-  std::uint64_t false_hits = 0;    ///< never added to the false misses
+  std::uint64_t cases = 0;       ///< answered; fewer where numbers do not fit the scalar
+  std::uint64_t false_hits = 0;  ///< never added to the false misses
   std::uint64_t false_misses = 0;
-  std::uint64_t not_finite = 0;    ///< NaN or infinity in a number of the answer
-  std::uint64_t broke = 0;         ///< exception, abort, crash, limit
-  std::uint64_t no_answer = 0;     ///< the subject says so
-  std::uint64_t not_asked = 0;     ///< the case is outside of what the subject requires
-  std::uint64_t gave_up = 0;       ///< not asked any more, after time-outs in this row or all over this map
-  double forward_ulps = 0;         ///< of the worst number of an answer with the right decision: at least
-  double backward_epsilon = -1;    ///< largest proved bound; negative where nothing is proved
+  std::uint64_t not_finite = 0;  ///< NaN or infinity in a number of the answer
+  std::uint64_t broke = 0;       ///< exception, abort, crash, limit
+  std::uint64_t no_answer = 0;   ///< the subject says so
+  std::uint64_t not_asked = 0;   ///< the case is outside of what the subject requires
+  std::uint64_t gave_up = 0;     ///< not asked any more, after time-outs in this row or all over this map
+  double forward_ulps = 0;       ///< of the worst number of an answer with the right decision: at least
+  double backward_epsilon = -1;  ///< largest proved bound; negative where nothing is proved
 };
 
 struct ExtremesMap {

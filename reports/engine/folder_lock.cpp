@@ -15,8 +15,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
     : file_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(file_);
-  throw BadInput(fmt::format("{}: another run writes there now; wait for its end or give another --out",
-                             folder.string()));
+  throw BadInput(
+      fmt::format("{}: another run writes there now; wait for its end or give another --out", folder.string()));
 }
 
 FolderLock::~FolderLock() {

@@ -13,8 +13,8 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
-#include "impl/host/keeper.hpp"
 #include "impl/host/hosts.hpp"
+#include "impl/host/keeper.hpp"
 #include "reports/engine/interrupt.hpp"
 
 namespace nearmiss {
@@ -129,10 +129,12 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
   fs::create_directories(artifacts);
   put_seeds(*target.query, corpus);
   const auto begin = Clock::now();
-  const std::vector<std::string> arguments{target.file.string(), corpus.string(),
+  const std::vector<std::string> arguments{target.file.string(),
+                                           corpus.string(),
                                            fmt::format("-max_total_time={}", budget.seconds),
                                            fmt::format("-artifact_prefix={}/", artifacts.string()),
-                                           "-print_final_stats=1", fmt::format("-timeout={}", seconds_for_one_case)};
+                                           "-print_final_stats=1",
+                                           fmt::format("-timeout={}", seconds_for_one_case)};
   std::vector<std::string> environment = telling_of_added(budget.foreign);
   environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
   Program program;
@@ -152,9 +154,12 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
     child.end();
     is_forced = true;
   }
-  FuzzOutcome o{query, std::chrono::duration<double>(Clock::now() - begin).count(), executions_in(log),
+  FuzzOutcome o{query,
+                std::chrono::duration<double>(Clock::now() - begin).count(),
+                executions_in(log),
                 is_forced ? "ended by force: it did not end when it was told to" : child.how_it_ended(),
-                child.failed_to_start() != 0 || (child.exit_code() != 0 && !told), asked_in(log)};
+                child.failed_to_start() != 0 || (child.exit_code() != 0 && !told),
+                asked_in(log)};
   return o;
 }
 

@@ -33,9 +33,9 @@ FuzzTargets find_fuzz_targets(const std::optional<std::filesystem::path>& folder
 struct FuzzOutcome {
   std::string query;
   double seconds = 0;
-  std::uint64_t executions = 0;  ///< 0 where the target did not say
-  std::string ended;             ///< "left with exit code 0"
-  bool failed = false;           ///< ended by itself with another code than 0
+  std::uint64_t executions = 0;    ///< 0 where the target did not say
+  std::string ended;               ///< "left with exit code 0"
+  bool failed = false;             ///< ended by itself with another code than 0
   std::vector<std::string> asked;  ///< subjects; empty where the target did not say
 };
 
@@ -44,7 +44,8 @@ struct ForeignSubjects {
   std::vector<std::string> plugins, commands;
 };
 
-/// What tells a fuzz target, or the properties, to ask them and the subjects of NEARMISS_ADD as well: for its environment.
+/// What tells a fuzz target, or the properties, to ask them and the subjects of NEARMISS_ADD as well: for its
+/// environment.
 std::vector<std::string> telling_of_added(const ForeignSubjects& foreign);
 
 struct FuzzBudget {

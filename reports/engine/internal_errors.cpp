@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "reports/engine/progress.hpp"
 #include "reports/findings/hash.hpp"
 #include "reports/findings/pretty_json.hpp"
-#include "reports/engine/progress.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {

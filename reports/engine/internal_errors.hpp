@@ -21,8 +21,8 @@ class InternalErrors {
   /// confirmed(). Empty where the judge contradicts itself: that is added.
   std::optional<Finding> judged(const Case& question, const Subject& subject, const Answer& answer,
                                 const Standard& standard, Detail detail);
-  /// Counts it. Of the first few one line on standard error has both words, and the case is a file that 'nearmiss replay'
-  /// takes. Throws BadInput where it cannot be written.
+  /// Counts it. Of the first few one line on standard error has both words, and the case is a file that 'nearmiss
+  /// replay' takes. Throws BadInput where it cannot be written.
   void add(const Subject& subject, const InternalError& error);
 
   std::uint64_t count() const { return count_; }

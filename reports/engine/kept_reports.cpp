@@ -42,13 +42,14 @@ void KeptReports::write_report(const Pending& p) {
   std::erase_if(written_, [&](const WrittenReport& w) { return w.earlier && w.file == below.generic_string(); });
   const bool broke = r.finding.verdict == Verdict::broke;
   written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
-                      std::string(name_of(r.finding.verdict)), std::string(name_of(r.finding.disagreement)), headline(r),
-                      broke ? counts_.of(*r.question.query, *p.subject)->breakage_of(r.finding) : "",
+                      std::string(name_of(r.finding.verdict)), std::string(name_of(r.finding.disagreement)),
+                      headline(r), broke ? counts_.of(*r.question.query, *p.subject)->breakage_of(r.finding) : "",
                       r.finding.backward ? std::optional(r.finding.backward->above) : std::nullopt});
 }
 
 std::size_t KeptReports::count() const {
-  return std::size_t(std::count_if(written_.begin(), written_.end(), [](const WrittenReport& w) { return !w.earlier; }));
+  return std::size_t(
+      std::count_if(written_.begin(), written_.end(), [](const WrittenReport& w) { return !w.earlier; }));
 }
 
 std::string KeptReports::worst_text() const {

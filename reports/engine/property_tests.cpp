@@ -60,8 +60,8 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
     environment.push_back(fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed));
     // GoogleTest takes seeds of its order up to 99999.
     Program tests;
-    tests.arguments = {program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle", "--gtest_color=no",
-                       fmt::format("--gtest_random_seed={}", 1 + seed % 99999)};
+    tests.arguments = {program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle",
+                       "--gtest_color=no", fmt::format("--gtest_random_seed={}", 1 + seed % 99999)};
     tests.environment = std::move(environment);
     tests.log = log.string();
     Kept child(tests, Confinement::none());

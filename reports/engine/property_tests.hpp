@@ -33,9 +33,9 @@ struct PropertyOutcome {
   std::string ended;  ///< how it ended where that was no result; empty otherwise
 };
 
-/// Holds the tiers of collide, the subjects of NEARMISS_ADD and foreign ones to the properties of generated cases, and the
-/// judge to its watch, with fresh seeds, in an order that the seed says, until the time is over. What a test says goes to
-/// properties/SEED.log, the report of a failing one to properties/QUERY/.
+/// Holds the tiers of collide, the subjects of NEARMISS_ADD and foreign ones to the properties of generated cases, and
+/// the judge to its watch, with fresh seeds, in an order that the seed says, until the time is over. What a test says
+/// goes to properties/SEED.log, the report of a failing one to properties/QUERY/.
 PropertyOutcome run_property_tests(const std::filesystem::path& program, const PropertyBudget& budget);
 
 }  // namespace nearmiss

@@ -16,7 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool decides_wrongly(const Report& r) { return r.answer.status == Answer::Status::answered && r.answer.yes != r.truth.yes; }
+bool decides_wrongly(const Report& r) {
+  return r.answer.status == Answer::Status::answered && r.answer.yes != r.truth.yes;
+}
 
 /// "answer 2 (hit at time 4) is a false hit".
 std::vector<std::string> wrong_decisions(const RelationReport& r) {
@@ -39,13 +41,16 @@ std::string none_of(std::size_t answers) {
 std::string what_is_wrong(const RelationReport& r) {
   const std::vector<std::string> wrong = wrong_decisions(r);
   if (r.breach == Breach::contradiction) {
-    return fmt::format("The decisions contradict each other, and {}. {} is proved to break its contract", list_text(wrong),
-                       none_of(r.answers.size()));
+    return fmt::format("The decisions contradict each other, and {}. {} is proved to break its contract",
+                       list_text(wrong), none_of(r.answers.size()));
   }
   if (r.breach == Breach::none) return "Nothing is proved against these answers";
   const std::string contract =
-      some_contract_is_broken(r) ? "" : fmt::format(". {} is proved to break its contract for that case alone", none_of(r.answers.size()));
-  return fmt::format("Broken is: {}{}{}", r.broken, wrong.empty() ? "" : fmt::format("; {}", list_text(wrong)), contract);
+      some_contract_is_broken(r)
+          ? ""
+          : fmt::format(". {} is proved to break its contract for that case alone", none_of(r.answers.size()));
+  return fmt::format("Broken is: {}{}{}", r.broken, wrong.empty() ? "" : fmt::format("; {}", list_text(wrong)),
+                     contract);
 }
 
 Json follow_up_to_json(const Report& r) {
@@ -70,8 +75,9 @@ RelationReport report_of(const RelationChoice& choice, const RelationFinding& fo
 
 std::optional<RelationReport> examine_relation(const RelationChoice& choice, const Case& question,
                                                const Subject& subject, Workers& workers) {
-  const auto found = examine(*choice.relation, question, choice.seed, subject,
-                             [&](const Case& c) { return workers.ask(subject, c); }, choice.bit_for_bit);
+  const auto found = examine(
+      *choice.relation, question, choice.seed, subject, [&](const Case& c) { return workers.ask(subject, c); },
+      choice.bit_for_bit);
   if (!found) return std::nullopt;
   return report_of(choice, *found, subject, workers);
 }
@@ -98,7 +104,9 @@ std::string headline(const RelationReport& r) {
                        first.question.query->name, r.oracle);
   }
   switch (r.breach) {
-    case Breach::none: return fmt::format("{} does not break the relation {} in {}", first.subject, r.choice.relation->name, first.question.query->name);
+    case Breach::none:
+      return fmt::format("{} does not break the relation {} in {}", first.subject, r.choice.relation->name,
+                         first.question.query->name);
     case Breach::contradiction: return line + list_text(wrong_decisions(r)) + ", not proved to break its contract";
     case Breach::bits: return line + "its answers differ in some bits";
     case Breach::contract:
@@ -186,14 +194,16 @@ RelatedReplay replay(const RelatedCase& related, const std::string& file, std::s
       r.reports.push_back(std::move(*report));
     } else {
       const bool offered = !(s->offering(related.question.query->name).answer == nullptr);
-      r.unasked.push_back({s->name, offered ? "a follow-up is not offered, or a case is outside of what it requires" : "not offered"});
+      r.unasked.push_back(
+          {s->name, offered ? "a follow-up is not offered, or a case is outside of what it requires" : "not offered"});
     }
   }
   return r;
 }
 
 std::string replay_text(const RelatedCase& related, const RelatedReplay& r) {
-  std::string text = fmt::format("{}\nRelation {}: {}\n", r.file, related.choice.relation->name, related.choice.relation->what);
+  std::string text =
+      fmt::format("{}\nRelation {}: {}\n", r.file, related.choice.relation->name, related.choice.relation->what);
   std::vector<Case> cases{related.question};
   const auto follow_ups = related.choice.relation->of(related.question, related.choice.seed);
   cases.insert(cases.end(), follow_ups->cases.begin(), follow_ups->cases.end());
@@ -216,7 +226,8 @@ std::string replay_text(const RelatedCase& related, const RelatedReplay& r) {
   for (const Replay::Unasked& u : r.unasked) rows.push_back({u.subject, "not asked: " + u.why});
   text += fmt::format("\n{}", table_text(rows));
   for (const RelationReport& report : r.reports) {
-    if (report.breach != Breach::none || !report.oracle.empty()) text += fmt::format("\n{}", wrapped_text(explanation(report), ""));
+    if (report.breach != Breach::none || !report.oracle.empty())
+      text += fmt::format("\n{}", wrapped_text(explanation(report), ""));
   }
   return text;
 }

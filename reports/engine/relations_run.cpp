@@ -9,10 +9,10 @@
 #include "corpus/bad_input.hpp"
 #include "corpus/codec.hpp"
 #include "reports/engine/interrupt.hpp"
-#include "reports/findings/pretty_json.hpp"
 #include "reports/engine/schedule.hpp"
 #include "reports/engine/tally.hpp"
 #include "reports/engine/worst.hpp"
+#include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -100,8 +100,9 @@ std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<
   const Subject* const asked[] = {&subject};
   const std::uint64_t passed_over = asking_.lateness(subject, query).gave_up;
   for (std::size_t at = 0; at < cases.size() && answers.size() == at; at += most) {
-    asking_.ask(asked, std::span(cases).subspan(at, std::min(most, cases.size() - at)), {},
-                [&](const Subject&, std::span<const Answer> some) { answers.insert(answers.end(), some.begin(), some.end()); });
+    asking_.ask(
+        asked, std::span(cases).subspan(at, std::min(most, cases.size() - at)), {},
+        [&](const Subject&, std::span<const Answer> some) { answers.insert(answers.end(), some.begin(), some.end()); });
   }
   const std::uint64_t missing = cases.size() - answers.size();
   const std::uint64_t counted = asking_.lateness(subject, query).gave_up - passed_over;
@@ -125,7 +126,8 @@ void RelationsRun::batch(Stream& stream, std::size_t count) {
 void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>& cases,
                               const std::map<const Subject*, std::vector<Answer>>& own) {
   std::vector<std::optional<FollowUps>> follow_ups;
-  std::map<const Query*, std::pair<std::vector<Case>, std::vector<Slot>>> asked;  // a worker is asked one query at a time
+  std::map<const Query*, std::pair<std::vector<Case>, std::vector<Slot>>>
+      asked;  // a worker is asked one query at a time
   for (std::size_t i = 0; i < cases.size(); ++i) {
     follow_ups.push_back(relation.of(cases[i], cases[i].index));
     if (!follow_ups[i]) continue;
@@ -146,7 +148,8 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
     for (const auto& [query, questions] : asked) {
       if (subject->offering(query->name).answer == nullptr) continue;
       const std::vector<Answer> theirs = ask(*subject, questions.first);
-      for (std::size_t n = 0; n < theirs.size(); ++n) answers[questions.second[n].of][questions.second[n].at] = theirs[n];
+      for (std::size_t n = 0; n < theirs.size(); ++n)
+        answers[questions.second[n].of][questions.second[n].at] = theirs[n];
     }
     if (should_stop()) return;  // some of them may be missing
     const bool bits = settings_.bit_for_bit || claims_same_bits(*subject);
@@ -172,7 +175,8 @@ bool RelationsRun::worth_a_report(const Key& key, const RelationFinding& found, 
   if (found.breach == Breach::none && found.oracle.empty()) return false;
   const std::uint64_t few = found.breach == Breach::contradiction ? first_contradictions : first_broken;
   const std::string_view what = found.oracle.empty() ? name_of(found.breach) : "oracle";
-  return retention_.keep(fmt::format("{}/{}/{}/{}", key.subject->name, key.relation->name, key.query->name, what), above, few);
+  return retention_.keep(fmt::format("{}/{}/{}/{}", key.subject->name, key.relation->name, key.query->name, what),
+                         above, few);
 }
 
 void RelationsRun::take(const Key& key, const RelationChoice& choice, const RelationFinding& found) {
@@ -180,7 +184,8 @@ void RelationsRun::take(const Key& key, const RelationChoice& choice, const Rela
   const double above = worst_backward(found);
   if (!worth_a_report(key, found, above)) return;
   RelationReport r = report_of(choice, found, *key.subject, asking_.workers());
-  const std::string name = fmt::format("{}-{}-{}-{}.json", key.subject->name, choice.relation->name, breach_of(r), id_of(r));
+  const std::string name =
+      fmt::format("{}-{}-{}-{}.json", key.subject->name, choice.relation->name, breach_of(r), id_of(r));
   const std::filesystem::path below = std::filesystem::path("relations") / key.query->name / name;
   const std::filesystem::path file = settings_.folder / below;
   r.replay = replay_command(*key.subject, file.string());
@@ -211,23 +216,25 @@ Json RelationsRun::to_json() const {
         const auto found = tallies_.find({s, r, q});
         if (found == tallies_.end()) continue;
         const RelationTally& t = found->second;
-        j["tallies"].push_back({{"query", q->name},
-                                {"subject", s->name},
-                                {"relation", r->name},
-                                {"cases", t.cases},
-                                {"numbers_differ", t.numbers_differ},
-                                {"contradictions", t.contradictions},
-                                {"bits", t.bits},
-                                {"contract", t.contract},
-                                {"broke", t.broke},
-                                {"oracle", t.oracle},
-                                {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)}});
+        j["tallies"].push_back(
+            {{"query", q->name},
+             {"subject", s->name},
+             {"relation", r->name},
+             {"cases", t.cases},
+             {"numbers_differ", t.numbers_differ},
+             {"contradictions", t.contradictions},
+             {"bits", t.bits},
+             {"contract", t.contract},
+             {"broke", t.broke},
+             {"oracle", t.oracle},
+             {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)}});
       }
     }
   }
   for (const auto& [key, l] : asking_.all_lateness()) {
     if (l.gave_up == 0) continue;
-    j["gave_up"].push_back({{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
+    j["gave_up"].push_back(
+        {{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
   }
   for (const Written& w : written_) {
     j["reports"].push_back({{"file", w.file},
@@ -248,9 +255,10 @@ std::string RelationsRun::table() const {
   std::vector<std::vector<std::string>> rows{
       {"", "PAIRS", "NUMBERS DIFFER", "CONTRADICT", "BITS", "CONTRACT", "BROKE", "BACKWARD"}};
   const auto row = [](const std::string& name, const RelationTally& t) -> std::vector<std::string> {
-    return {fmt::format("  {}", name), count_text(t.cases), count_text(t.numbers_differ), count_text(t.contradictions),
-            count_text(t.bits),    count_text(t.contract), count_text(t.broke),
-            t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward)};
+    return {fmt::format("  {}", name),    count_text(t.cases),
+            count_text(t.numbers_differ), count_text(t.contradictions),
+            count_text(t.bits),           count_text(t.contract),
+            count_text(t.broke),          t.worst_backward < 0 ? "-" : "> " + epsilons_text(t.worst_backward)};
   };
   for (const Subject* s : settings_.subjects) {
     RelationTally all;

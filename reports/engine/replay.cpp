@@ -98,11 +98,12 @@ std::string origin_text(const Case& c) {
   return text;
 }
 
-/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for a query that this
-/// build does not know: with the names that are near.
+/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for a query that
+/// this build does not know: with the names that are near.
 void check_kind(const nlohmann::json& j, const std::string& where) {
   if (!j.is_object()) return;
-  for (const auto& [member, what] : {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes")}) {
+  for (const auto& [member, what] :
+       {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes")}) {
     if (j.contains("schema") && j.contains(member)) {
       throw BadInput(fmt::format("{}: it is {}; what can be replayed is a case or a report", where, what));
     }
@@ -145,14 +146,17 @@ Measure measure_of(const nlohmann::json& j, const std::string& file) {
   const nlohmann::json& m = j["measure"];
   const bool whole = m.is_object() && m.contains("error") && m["error"].is_number() && m["error"] > 0 &&
                      m.contains("for_all") && m["for_all"].is_boolean();
-  if (!whole) throw BadInput(fmt::format("{}: measure is {}; it must have an error above 0 and for_all", file, one_line(m.dump(), 60)));
+  if (!whole)
+    throw BadInput(
+        fmt::format("{}: measure is {}; it must have an error above 0 and for_all", file, one_line(m.dump(), 60)));
   return {m["error"], m["for_all"]};
 }
 
 std::string replay_command(const Subject& subject, const std::string& file) {
   const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
   const std::string command = subject.command.empty() ? "" : "--command " + shell_quoted(subject.command) + " ";
-  return "nearmiss replay " + plugin + command + shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
+  return "nearmiss replay " + plugin + command +
+         shell_quoted(std::filesystem::absolute(file).lexically_normal().string());
 }
 
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
@@ -177,8 +181,8 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
 
 std::string case_page(const Case& question, const Truth& truth) {
   const Query& query = *question.query;
-  std::string text =
-      fmt::format("{} ({}), numbers exactly {}", query.name, nearmiss::name_of(query.kind), nearmiss::name_of(question.scalar));
+  std::string text = fmt::format("{} ({}), numbers exactly {}", query.name, nearmiss::name_of(query.kind),
+                                 nearmiss::name_of(question.scalar));
   if (const std::string origin = origin_text(question); !origin.empty()) text += fmt::format("; from {}", origin);
   return text + fmt::format("\n\nInputs\n{}\n{}", inputs_text(question), truth_page(query, truth, question.scalar));
 }

@@ -1,5 +1,5 @@
-/// Which of many findings are kept as reports: of each kind the first few, and then those that are at least twice as bad as
-/// any that was kept before.
+/// Which of many findings are kept as reports: of each kind the first few, and then those that are at least twice as
+/// bad as any that was kept before.
 #pragma once
 
 #include <cstdint>

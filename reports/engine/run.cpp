@@ -1,7 +1,7 @@
 #include "reports/engine/run.hpp"
 
-#include <fmt/chrono.h>
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -16,10 +16,10 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/engine/interrupt.hpp"
-#include "reports/findings/pretty_json.hpp"
 #include "reports/engine/replay.hpp"
+#include "reports/findings/explain.hpp"
+#include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -48,7 +48,8 @@ void mark_as_failed(const std::filesystem::path& index) noexcept {
   const ssize_t got = pread(file, head.data(), head.size(), 0);
   const std::size_t at = std::string_view(head.data(), std::size_t(std::max<ssize_t>(0, got))).find(running);
   // Whether it succeeds is no matter: nothing else can be done, and the error that led here is told by others.
-  if (at != std::string_view::npos) [[maybe_unused]] const auto put = pwrite(file, failed.data(), failed.size(), off_t(at));
+  if (at != std::string_view::npos) [[maybe_unused]]
+    const auto put = pwrite(file, failed.data(), failed.size(), off_t(at));
   close(file);
 }
 
@@ -173,7 +174,8 @@ void Run::write(const std::filesystem::path& below, const std::string& text) con
     write_file(settings_.folder / below, text);
   } catch (const BadInput& e) {
     if (counts_.cases() == 0) throw;
-    throw BadInput(fmt::format("{}; the run ends after {}, {}", e.what(), plural_text(counts_.cases(), "answer"), counts_.violated_text()));
+    throw BadInput(fmt::format("{}; the run ends after {}, {}", e.what(), plural_text(counts_.cases(), "answer"),
+                               counts_.violated_text()));
   }
 }
 
@@ -185,7 +187,8 @@ void Run::finish() {
 std::optional<std::string> Run::shortfall() const {
   const std::string index = (settings_.folder / "index.json").string();
   if (interrupted()) {
-    return fmt::format("interrupted after {}, {}; {}", plural_text(counts_.cases(), "answer"), counts_.violated_text(), index);
+    return fmt::format("interrupted after {}, {}; {}", plural_text(counts_.cases(), "answer"), counts_.violated_text(),
+                       index);
   }
   if (counts_.cases() > 0) return std::nullopt;
   return fmt::format("nothing was asked: the time was over before the first case; {}", index);
@@ -195,8 +198,9 @@ std::string Run::summary() const {
   const double seconds = seconds_since(begin_);
   return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}", interrupted() ? "interrupted: " : "",
                      plural_text(counts_.cases(), "answer"), duration_text(seconds),
-                     count_text(std::uint64_t(double(counts_.cases()) / std::max(seconds, 1e-3))), counts_.violated_text(),
-                     plural_text(kept_.count(), "report"), settings_.folder.string(), internal_errors().text());
+                     count_text(std::uint64_t(double(counts_.cases()) / std::max(seconds, 1e-3))),
+                     counts_.violated_text(), plural_text(kept_.count(), "report"), settings_.folder.string(),
+                     internal_errors().text());
 }
 
 int Run::exit_code() const {

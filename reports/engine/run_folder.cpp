@@ -12,11 +12,11 @@
 
 #include "corpus/bad_input.hpp"
 #include "corpus/codec.hpp"
-#include "reports/findings/breakage.hpp"
 #include "reports/engine/folder_lock.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/breakage.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
-#include "reports/engine/run.hpp"
 
 namespace nearmiss {
 
@@ -38,15 +38,15 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Looks at the beginning of an index, in which its state stands, for there may be many that are large. Those of somebody
-/// else are none of ours to change.
+/// Looks at the beginning of an index, in which its state stands, for there may be many that are large. Those of
+/// somebody else are none of ours to change.
 bool may_be_running(const fs::path& index) {
   struct stat file {};
   if (::stat(index.c_str(), &file) != 0 || !S_ISREG(file.st_mode) || file.st_uid != ::geteuid()) return false;
   std::array<char, 256> head{};
   std::ifstream(index, std::ios::binary).read(head.data(), head.size());
-  return std::string_view(head.data(), head.size()).find(fmt::format("\"state\": \"{}\"", name_of(RunState::running))) !=
-         std::string_view::npos;
+  return std::string_view(head.data(), head.size())
+             .find(fmt::format("\"state\": \"{}\"", name_of(RunState::running))) != std::string_view::npos;
 }
 
 std::optional<WrittenReport> report_in(const fs::path& folder, const fs::path& file) {
@@ -63,7 +63,8 @@ std::optional<WrittenReport> report_in(const fs::path& folder, const fs::path& f
     const Json& answer = j.at("answer");
     w.breakage = kind_of_breakage(answer.at("reason").get<std::string>(), answer.value("late", false));
   }
-  if (const Json& backward = j.at("finding").at("backward"); backward.is_object()) w.above = backward.at("above_epsilon");
+  if (const Json& backward = j.at("finding").at("backward"); backward.is_object())
+    w.above = backward.at("above_epsilon");
   return w;
 }
 
@@ -101,7 +102,7 @@ std::vector<WrittenReport> reports_on_disk(const fs::path& folder) {
     if (file.extension() != ".json") continue;
     try {
       if (auto w = report_in(folder, file)) all.push_back(std::move(*w));
-    } catch (const BadInput&) {        // it cannot be read
+    } catch (const BadInput&) {         // it cannot be read
     } catch (const Json::exception&) {  // it is no report
     }
   }

@@ -32,7 +32,7 @@ struct Tally {
   std::map<std::string, std::uint64_t> breakages{};
   static constexpr std::size_t most_kinds = 32;
   static constexpr const char* other_kind = "any other reason";
-  std::uint64_t wrong = 0;  ///< answers with a violation other than a wrong decision
+  std::uint64_t wrong = 0;    ///< answers with a violation other than a wrong decision
   std::uint64_t late = 0;     ///< of the breakages, those at a time limit
   std::uint64_t gave_up = 0;  ///< cases that were not asked any more, since too many were late; none of `cases`
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
@@ -55,10 +55,9 @@ struct Tally {
 
 nlohmann::ordered_json tally_to_json(const Tally& t);
 
-/// Says which findings are kept as reports: of each query, subject and fault of a member, or kind of breakage that the tally
-/// knows, the first `first_few`, then
-/// only those whose proved backward bound is at least twice that of the worst kept so far. A finding with several faults
-/// is kept where one of them is.
+/// Says which findings are kept as reports: of each query, subject and fault of a member, or kind of breakage that the
+/// tally knows, the first `first_few`, then only those whose proved backward bound is at least twice that of the worst
+/// kept so far. A finding with several faults is kept where one of them is.
 class Keeper {
  public:
   bool keep(const Tally& of, const Finding& f);

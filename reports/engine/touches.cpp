@@ -19,9 +19,7 @@ Touched sum(const std::map<std::string, Touched>& features) {
 }
 
 /// Parallel axes and distances of centers are decisions, but nothing touches there.
-bool is_about_contact(const Query& query) {
-  return decides(query.kind) && query.traits.touching_is_yes;
-}
+bool is_about_contact(const Query& query) { return decides(query.kind) && query.traits.touching_is_yes; }
 
 }  // namespace
 
@@ -63,9 +61,9 @@ std::string Touches::text() const {
     for (const auto& [feature, t] : features) {
       parts.push_back(fmt::format("{} {} of {}", feature, count_text(t.yes), count_text(t.touches)));
     }
-    lines.emplace_back(all.share(), fmt::format("  {} {}: of {}, yes in {} ({})\n", key.subject->name, key.query->name,
-                                                plural_text(all.touches, "exact touch"), count_text(all.yes),
-                                                fmt::join(parts, ", ")));
+    lines.emplace_back(
+        all.share(), fmt::format("  {} {}: of {}, yes in {} ({})\n", key.subject->name, key.query->name,
+                                 plural_text(all.touches, "exact touch"), count_text(all.yes), fmt::join(parts, ", ")));
   }
   if (lines.empty()) return "";
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -12,7 +12,8 @@ namespace {
 std::vector<const WorstFinding*> worst_of_each_group(const std::vector<WorstFinding>& findings) {
   std::vector<const WorstFinding*> worst;
   for (const WorstFinding& f : findings) {
-    const auto same = std::find_if(worst.begin(), worst.end(), [&](const WorstFinding* o) { return o->group == f.group; });
+    const auto same =
+        std::find_if(worst.begin(), worst.end(), [&](const WorstFinding* o) { return o->group == f.group; });
     if (same == worst.end()) {
       worst.push_back(&f);
     } else if (f.above > (*same)->above) {
@@ -27,7 +28,8 @@ std::vector<const WorstFinding*> worst_of_each_group(const std::vector<WorstFind
 
 }  // namespace
 
-std::string worst_text(const std::vector<WorstFinding>& findings, const std::filesystem::path& folder, const char* index) {
+std::string worst_text(const std::vector<WorstFinding>& findings, const std::filesystem::path& folder,
+                       const char* index) {
   constexpr std::size_t shown = 12;
   const std::vector<const WorstFinding*> worst = worst_of_each_group(findings);
   std::string text;

@@ -15,6 +15,7 @@ struct WorstFinding {
 };
 
 /// Headline and file of the worst, a dozen at most; `index` says where the others are. Empty without any.
-std::string worst_text(const std::vector<WorstFinding>& findings, const std::filesystem::path& folder, const char* index);
+std::string worst_text(const std::vector<WorstFinding>& findings, const std::filesystem::path& folder,
+                       const char* index);
 
 }  // namespace nearmiss

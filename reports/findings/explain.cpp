@@ -34,8 +34,12 @@ struct Phrases {
 Phrases phrases(const Query& query) {
   const auto& [yes, no] = query.traits.decision;
   if (!yes.empty()) {
-    return {std::string(yes),    std::string(no),                 "the answer is yes",
-            "the answer is no",  "the answer would still be yes", "the answer would still be no"};
+    return {std::string(yes),
+            std::string(no),
+            "the answer is yes",
+            "the answer is no",
+            "the answer would still be yes",
+            "the answer would still be no"};
   }
   const auto& [one, other] = query.traits.operands;
   if (query.kind == Kind::impact || has_role(query.inputs, Role::velocity)) {
@@ -47,8 +51,12 @@ Phrases phrases(const Query& query) {
             "it would still be a miss"};
   }
   if (one.empty()) {
-    return {"the answer is yes",           "the answer is no", "the answer is yes", "the answer is no",
-            "the answer would still be yes", "the answer would still be no"};
+    return {"the answer is yes",
+            "the answer is no",
+            "the answer is yes",
+            "the answer is no",
+            "the answer would still be yes",
+            "the answer would still be no"};
   }
   const std::string both = fmt::format("{} and {}", one, other);
   return {both + " touch or overlap",          both + " are apart",        "they touch or overlap", "they are apart",
@@ -86,9 +94,7 @@ Off off_by(const Layout::Part& part, const Alternative& right, const Answer& giv
   return off;
 }
 
-std::string group_name(Role role) {
-  return role == Role::velocity ? "velocities" : fmt::format("{}s", name_of(role));
-}
+std::string group_name(Role role) { return role == Role::velocity ? "velocities" : fmt::format("{}s", name_of(role)); }
 
 /// "positions by 1.5e-08 and sizes by 2e-09": what so many epsilon are in the case's own units.
 std::string absolute_text(const Case& question, double k) {
@@ -191,7 +197,8 @@ class Explanation {
       case Disagreement::not_finite: return {fmt::format("{} answers, but {}", r_.subject, not_finite()), exactly};
       case Disagreement::not_unit: return {not_unit(), exactly};
       case Disagreement::wrong_combination:
-        return {fmt::format("{} gives members each of which may be right, but no right answer has them together", r_.subject),
+        return {fmt::format("{} gives members each of which may be right, but no right answer has them together",
+                            r_.subject),
                 exactly};
       default: return wrong_member();
     }
@@ -226,15 +233,17 @@ class Explanation {
     std::string said = fmt::format("{} gives {} {}", r_.subject, name_of_member(member()), given_member(member()));
     if (head.disagreement == Disagreement::off_surface) said += ", which is off the surface that it is to lie on";
     if (r_.answer.yes != r_.truth.yes) {
-      return {said, "Exactly, " + truth_text(query_, r_.truth),
-              fmt::format("But for that decision the {} is wrong wherever it would be right", name_of_member(member()))};
+      return {
+          said, "Exactly, " + truth_text(query_, r_.truth),
+          fmt::format("But for that decision the {} is wrong wherever it would be right", name_of_member(member()))};
     }
     const Alternative* right = nearest(member());
     if (right == nullptr) return {said};
     if (right->many_normals && part.role == Role::normal) {
       return {said, "Many normals are right there, and this is none of them"};
     }
-    const std::string exact = member_text(query_, member(), [&](std::size_t i) { return bounds_text(right->values[i]); });
+    const std::string exact =
+        member_text(query_, member(), [&](std::size_t i) { return bounds_text(right->values[i]); });
     const std::string one_of = r_.truth.alternatives.size() > 1 ? "The nearest exact answer is " : "Exactly, it is ";
     const Off off = off_by(part, *right, r_.answer);
     return {said, fmt::format("{}{}: {} is off by {:.3g}{}, {:.3g} units in the last place", one_of, exact,
@@ -249,7 +258,8 @@ class Explanation {
       const Role role = query_.inputs[i].role;
       if (role == Role::position || role == Role::size) extent = std::max(extent, std::abs(r_.question.values[i]));
     }
-    const std::string share = extent > 0 ? fmt::format(", {:.2g} of the largest position or size", by * speed / extent) : "";
+    const std::string share =
+        extent > 0 ? fmt::format(", {:.2g} of the largest position or size", by * speed / extent) : "";
     return fmt::format(" (in which the motion covers {:.2g}{})", by * speed, share);
   }
 
@@ -288,9 +298,10 @@ class Explanation {
     for (std::size_t i = 0; i < r_.finding.members.size(); ++i) {
       const MemberFinding& m = r_.finding.members[i];
       if (int(i) == r_.finding.headline) continue;
-      const std::string how = !m.backward                ? ""
-                              : m.backward->above == 0 ? ", on a knife's edge"
-                                                       : fmt::format(", by more than {} epsilon", epsilons_text(m.backward->above));
+      const std::string how = !m.backward ? ""
+                              : m.backward->above == 0
+                                  ? ", on a knife's edge"
+                                  : fmt::format(", by more than {} epsilon", epsilons_text(m.backward->above));
       faults.push_back(fault_of(m.disagreement, m.member < 0 ? 0 : std::size_t(m.member)) + how);
     }
     return faults.empty() ? "" : "It also " + list_text(faults);
@@ -309,7 +320,8 @@ class Explanation {
     const bool says_it_itself = head != nullptr && !head->backward && head->disagreement != Disagreement::not_unit;
     if (!is_bad(f) || f.verdict == Verdict::broke || says_it_itself) return "";
     if (f.broken == Clause::backward && !r_.standard.promised) {
-      return fmt::format("{} a backward error of at most {:g} times the largest number in each group", it, measure().error);
+      return fmt::format("{} a backward error of at most {:g} times the largest number in each group", it,
+                         measure().error);
     }
     if (f.broken == Clause::backward) {
       return fmt::format("{} a backward error of at most {} epsilon", it, epsilons_text(contract.backward));

@@ -28,8 +28,7 @@ std::optional<Case> scaled(const Case& question, double factor) {
   Case c = question;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const Role role = c.query->inputs[i].role;
-    const bool scales =
-        role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset;
+    const bool scales = role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset;
     if (!scales) continue;
     c.values[i] *= factor;
     if (c.values[i] / factor != question.values[i] || !representable(c.values[i], c.scalar)) return std::nullopt;
@@ -63,7 +62,8 @@ std::vector<Opinion> second_opinions(const Case& question, const Subject& subjec
     const std::optional<Case> unit = factor ? scaled(*same, *factor) : std::nullopt;
     if (!unit) continue;
     const Answer again = scaled_back(*same->query, workers.ask(referee, *unit), *factor);
-    opinions.push_back({referee.name + " at unit scale", referee.version, again, judge(*same, again, asked, Detail::full)});
+    opinions.push_back(
+        {referee.name + " at unit scale", referee.version, again, judge(*same, again, asked, Detail::full)});
   }
   return opinions;
 }
@@ -88,9 +88,7 @@ Report examine(const Case& question, const Subject& subject, const Answer& answe
   return r;
 }
 
-bool is_bad(const Finding& f) {
-  return f.is_proved() || f.verdict == Verdict::broke;
-}
+bool is_bad(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
 
 std::string fault_of(const Finding& f) {
   std::string fault(f.verdict == Verdict::broke ? name_of(f.verdict) : name_of(f.disagreement));

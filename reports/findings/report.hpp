@@ -31,7 +31,7 @@ struct Report {
   Truth truth;
   std::vector<Opinion> referees;
   std::vector<StaticCheck> static_checks;  ///< of times of contact
-  std::string replay;  ///< the command that replays it; set by whoever writes the report to a file
+  std::string replay;                      ///< the command that replays it; set by whoever writes the report to a file
 };
 
 /// Asks, judges and collects. The subject offers the query and the case is in its scalar.

@@ -23,7 +23,8 @@ Case placed_at(const Case& question, const Link& link, double time) {
     return std::size_t(std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; }) -
                        fields.begin());
   };
-  const std::size_t place = first(Role::position), velocity = first(Role::velocity);  // of what moves: it is named first
+  const std::size_t place = first(Role::position),
+                    velocity = first(Role::velocity);  // of what moves: it is named first
   for (std::size_t k = 0; k < 3; ++k) there.values[place + k] += question.values[velocity + k] * time;
   return metamorphic::recast(there, link);
 }
@@ -75,8 +76,8 @@ std::vector<StaticCheck> static_checks(const Case& question, const Answer& answe
     std::array<Case, 3> scenes;
     StaticCheck check{"", "", query_of(by->to).name, of, {std::max(0.0, time - step), time, time + step}, {}};
     for (std::size_t i = 0; i < 3; ++i) scenes[i] = placed_at(question, *by, check.times[i]);
-    const bool valid = std::none_of(scenes.begin(), scenes.end(),
-                                    [](const Case& c) { return c.query->broken(c.values).has_value(); });
+    const bool valid =
+        std::none_of(scenes.begin(), scenes.end(), [](const Case& c) { return c.query->broken(c.values).has_value(); });
     if (!valid) continue;  // the place is beyond the largest number
     for (const Subject& referee : subjects()) {
       if (!referee.referee || referee.offering(query_of(by->to).name).answer == nullptr) continue;

@@ -23,8 +23,9 @@ struct StaticCheck {
 };
 
 /// Checks the time of the answer and, where it is another one, that of the truth, by every referee that offers the
-/// static query; none where the catalogue has no static query for the two. Before and after are so far off that the body moves by 2^-10 of the scene's largest size or, where
-/// everything is a point, position.
-std::vector<StaticCheck> static_checks(const Case& question, const Answer& answer, const Truth& truth, Workers& workers);
+/// static query; none where the catalogue has no static query for the two. Before and after are so far off that the
+/// body moves by 2^-10 of the scene's largest size or, where everything is a point, position.
+std::vector<StaticCheck> static_checks(const Case& question, const Answer& answer, const Truth& truth,
+                                       Workers& workers);
 
 }  // namespace nearmiss

@@ -94,7 +94,9 @@ std::string count_text(std::uint64_t n) {
 }
 
 std::string plural_text(std::uint64_t n, std::string_view noun) {
-  const std::string_view ending = n == 1 ? "" : noun.ends_with('s') || noun.ends_with('x') || noun.ends_with("ch") ? "es" : "s";
+  const std::string_view ending = n == 1                                                               ? ""
+                                  : noun.ends_with('s') || noun.ends_with('x') || noun.ends_with("ch") ? "es"
+                                                                                                       : "s";
   return fmt::format("{} {}{}", count_text(n), noun, ending);
 }
 
@@ -143,14 +145,12 @@ std::vector<std::string> close_matches(std::string_view word, std::span<const st
 std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
                          std::string_view lists_them) {
   const std::vector<std::string> close = close_matches(word, words);
-  return fmt::format(
-      "unknown {} '{}'; {}", what, one_line(word, most_of_a_word),
-      close.empty() ? fmt::format("'{}' lists all", lists_them) : fmt::format("did you mean {}?", fmt::join(close, " or ")));
+  return fmt::format("unknown {} '{}'; {}", what, one_line(word, most_of_a_word),
+                     close.empty() ? fmt::format("'{}' lists all", lists_them)
+                                   : fmt::format("did you mean {}?", fmt::join(close, " or ")));
 }
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 std::string one_line(std::string_view text, std::size_t most) {
   const std::size_t kept_at_end = most / 3;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "impl/host/worker.hpp"
 #include "impl/catalogue/case.hpp"
+#include "impl/host/worker.hpp"
 
 namespace nearmiss {
 
@@ -37,9 +37,9 @@ class Workers {
  private:
   struct Asked {
     std::unique_ptr<Worker> worker;
-    bool all = true;                   ///< the last batch was asked as it is
-    std::vector<std::size_t> inside;   ///< or these cases of it
-    std::vector<Answer> answers;       ///< and this is what is received of it
+    bool all = true;                  ///< the last batch was asked as it is
+    std::vector<std::size_t> inside;  ///< or these cases of it
+    std::vector<Answer> answers;      ///< and this is what is received of it
   };
   Asked& of(const Subject& subject);
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "impl/subject/subject.hpp"
 #include "impl/catalogue/query.hpp"
+#include "impl/subject/subject.hpp"
 #include "reports/tests/program.hpp"
 
 namespace nearmiss {
@@ -119,7 +119,10 @@ const Bad bad_command_lines[] = {
      {"FILE", ":2: ", "more than 65,536 bytes"},
      "1,1,1,1,2,1,1\n" + std::string(100'000, '1')},
     {"benchmark_in_utf_16", {"import", "nyu-ccd", "FILE"}, {"FILE", ":1: ", "UTF-16"}, "\xFF\xFE\x31\x2C"},
-    {"benchmark_with_nul", {"import", "nyu-ccd", "FILE"}, {"FILE", ":1: ", "a byte is 0"}, std::string("1,1,") + '\0' + "1\n"},
+    {"benchmark_with_nul",
+     {"import", "nyu-ccd", "FILE"},
+     {"FILE", ":1: ", "a byte is 0"},
+     std::string("1,1,") + '\0' + "1\n"},
     {"control_characters_and_directions",
      {"run", "--query", "box\x1b[31m\xc2\x9b\xe2\x80\xae", "--out", "OUT"},
      {"box\\x1b[31m\\xc2\\x9b\\u{202e}"}},
@@ -128,8 +131,12 @@ const Bad bad_command_lines[] = {
     {"fraction_of_a_power", {"run", "--cases", "15e-1", "--out", "OUT"}, {"--cases", "15e-1"}},
     {"no_patience", {"run", "--patience", "0", "--out", "OUT"}, {"--patience", "0"}},
     {"empty_command", {"run", "--command", " ", "--out", "OUT"}, {"--command", "empty"}},
-    {"command_that_is_not_there", {"run", "--command", "/none/of/these --at all", "--out", "OUT"}, {"/none/of/these --at all", "No such file"}},
-    {"plugin_that_is_not_there", {"run", "--plugin", "/none/of/these", "--out", "OUT"}, {"/none/of/these", "no such file"}},
+    {"command_that_is_not_there",
+     {"run", "--command", "/none/of/these --at all", "--out", "OUT"},
+     {"/none/of/these --at all", "No such file"}},
+    {"plugin_that_is_not_there",
+     {"run", "--plugin", "/none/of/these", "--out", "OUT"},
+     {"/none/of/these", "no such file"}},
     {"unknown_shell", {"completion", "zsh"}, {"zsh", "bash"}},
     {"unknown_names", {"list", "--names", "cats"}, {"--names", "cats"}},
     {"unknown_help", {"help", "rum"}, {"rum", "run"}},
@@ -169,8 +176,8 @@ INSTANTIATE_TEST_SUITE_P(Cli, BadCommandLine, testing::ValuesIn(bad_command_line
 TEST(Cli, TakesCountsAsPeopleWriteThem) {
   for (const char* count : {"1000", "1,000", "1e3"}) {
     const TemporaryFolder folder;
-    const Ran ran = nearmiss({"run", "--query", "sphere_sphere_overlap", "--subject", "collide-fast-double", "--cases", count,
-                              "--out", (folder / "r").string()});
+    const Ran ran = nearmiss({"run", "--query", "sphere_sphere_overlap", "--subject", "collide-fast-double", "--cases",
+                              count, "--out", (folder / "r").string()});
     EXPECT_EQ(ran.exit_code, 0) << count << ran.err;
     EXPECT_TRUE(last_line(ran.out).starts_with("1,000 answers ")) << ran.out;
   }
@@ -181,9 +188,11 @@ TEST(Cli, RefusesLinksThatLeadNowhere) {
   const std::string one = (folder / "one").string(), other = (folder / "other").string();
   fs::create_symlink(one, other);
   fs::create_symlink(other, one);
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"replay", one}, {"run", "--cases", "1", "--out", one}, {"run", "--plugin", one},
-        {"import", "nyu-ccd", one}, {"nightly", "--minutes", "0.01", "--out", one + "/r"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"replay", one},
+                                                    {"run", "--cases", "1", "--out", one},
+                                                    {"run", "--plugin", one},
+                                                    {"import", "nyu-ccd", one},
+                                                    {"nightly", "--minutes", "0.01", "--out", one + "/r"}}) {
     const Ran ran = nearmiss(arguments);
     EXPECT_EQ(ran.exit_code, 2) << arguments[0];
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
@@ -196,7 +205,8 @@ TEST(Cli, SaysWhyASubjectCannotBeRunOnAQuery) {
     for (const Query& q : catalogue()) {
       if (s.offering(q.name).answer != nullptr) continue;
       for (const char* command : {"run", "extremes"}) {
-        const Ran ran = nearmiss({command, "--subject", s.name, "--query", std::string(q.name), "--out", "/dev/null/x"});
+        const Ran ran =
+            nearmiss({command, "--subject", s.name, "--query", std::string(q.name), "--out", "/dev/null/x"});
         EXPECT_EQ(ran.exit_code, 2);
         EXPECT_NE(ran.err.find(s.offering(q.name).how), std::string::npos) << ran.err;
       }
@@ -220,7 +230,8 @@ TEST(Cli, SaysWhenItsOutputIsClosed) {
   const Ran ran = run_program("sh", {"-c", command + " <&- >&-"});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");
-  EXPECT_EQ(run_program("sh", {"-c", command + " 2>&-"}).out, nearmiss({"replay", "-s", "collide-fast-double", file}).out);
+  EXPECT_EQ(run_program("sh", {"-c", command + " 2>&-"}).out,
+            nearmiss({"replay", "-s", "collide-fast-double", file}).out);
 }
 
 }  // namespace

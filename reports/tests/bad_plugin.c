@@ -17,8 +17,9 @@ __attribute__((constructor)) static void set_modes(void) {
 }
 #endif
 
-/* The first input decides: an abort, an endless loop (for what is far away, too), an unknown return value, an answer. */
-static int misbehave(const double *inputs, nearmiss_answer *answer) {
+/* The first input decides: an abort, an endless loop (for what is far away, too), an unknown return value, an answer.
+ */
+static int misbehave(const double* inputs, nearmiss_answer* answer) {
   const double x = inputs[0];
   if (x == 1) abort();
   for (volatile int forever = x == 2 || x > 1e9; forever;) {
@@ -74,9 +75,9 @@ static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, CONTRACT, misbe
 static const nearmiss_plugin plugin = {VERSION, NAME, "1", NEARMISS_DOUBLE, 1, offers};
 
 #ifdef NO_ENTRY
-const nearmiss_plugin *another_entry(void) { return &plugin; }
+const nearmiss_plugin* another_entry(void) { return &plugin; }
 #else
-const nearmiss_plugin *nearmiss_plugin_entry(void) {
+const nearmiss_plugin* nearmiss_plugin_entry(void) {
 #ifdef CRASHES
   abort();
 #endif

@@ -81,7 +81,9 @@ std::map<std::string, std::set<std::string>> tests_by_query() {
 }
 
 /// The independent derivations are written for some queries; nothing makes them run for a new one.
-bool written_by_query(const std::string& test) { return test.starts_with("OracleOnLattice.") || test.starts_with("Watch."); }
+bool written_by_query(const std::string& test) {
+  return test.starts_with("OracleOnLattice.") || test.starts_with("Watch.");
+}
 
 TEST(List, NamesThePropertiesThatRunForEveryQuery) {
   const auto tests = tests_by_query();
@@ -144,15 +146,16 @@ TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
 
 TEST(Run, TakesOnlyWhatWasChosen) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-q", "bounce_direction", "--seed", "1", "-n",
-                            "100", "--out", (folder / "r").string()});
+  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-q", "bounce_direction",
+                            "--seed", "1", "-n", "100", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
   EXPECT_EQ(index_of(folder / "r")["tallies"].size(), 2u);
 }
 
 TEST(Run, StopsWhenTheTimeIsOver) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "--seconds", "0.5", "--seed", "1", "--out", (folder / "r").string()});
+  const Ran ran = nearmiss(
+      {"run", "-s", "collide-fast-double", "--seconds", "0.5", "--seed", "1", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
   const json index = index_of(folder / "r");
   for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0) << t["query"] << ": every query gets its turn";
@@ -216,7 +219,8 @@ TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
   const Ran one = run_with_small_files(folder / "one", "4", "-q moving_sphere_box");
   EXPECT_EQ(one.exit_code, 2);
   EXPECT_EQ(std::count(one.err.begin(), one.err.end(), '\n'), 1) << one.err;
-  for (const char* part : {"/findings/moving_sphere_box/fcl-", "File too large; the run ends after ", " answers, violations: ", " wrong time"}) {
+  for (const char* part : {"/findings/moving_sphere_box/fcl-", "File too large; the run ends after ",
+                           " answers, violations: ", " wrong time"}) {
     EXPECT_NE(one.err.find(part), std::string::npos) << one.err;
   }
   json index = index_of(folder / "one");
@@ -252,7 +256,8 @@ TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
   bool refused = false;
   for (const char* files : {"4", "5", "6", "7", "8", "9", "10", "11"}) {
     const fs::path out = folder / files;
-    const std::string run = std::string("ulimit -n ") + files + "; exec '" NEARMISS_PROGRAM "' run -n 20 -q box_box_overlap " +
+    const std::string run = std::string("ulimit -n ") + files +
+                            "; exec '" NEARMISS_PROGRAM "' run -n 20 -q box_box_overlap " +
                             "-s collide-fast-double -s collide-fast-float --out '" + out.string() + "'";
     arguments = apart;
     arguments.insert(arguments.end(), {"bash", "-c",
@@ -284,7 +289,8 @@ TEST(Run, SaysThatNothingWasAsked) {
 TEST(Run, TakesAFolderWhoseNameIsNoUtf8) {
   const TemporaryFolder folder;
   const fs::path out = folder / "r\xff\x1b";
-  const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-n", "10", "--out", out.string()});
+  const Ran ran =
+      nearmiss({"run", "-s", "collide-fast-double", "-q", "box_box_overlap", "-n", "10", "--out", out.string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_EQ(complaints(index_of(out), "run.schema.json"), "");
 }
@@ -293,8 +299,8 @@ TEST(Run, TakesAFolderWhoseNameIsNoUtf8) {
 TEST(Run, CountsAndKeepsBreakagesByReason) {
   if (!has_fcl()) GTEST_SKIP() << "FCL is not part of this build";
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "-s", "fcl-distance-indep", "-q", "box_box_penetration", "-n", "4000", "--seed", "1", "--out",
-                            (folder / "r").string()});
+  const Ran ran = nearmiss({"run", "-s", "fcl-distance-indep", "-q", "box_box_penetration", "-n", "4000", "--seed", "1",
+                            "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r"), tally = index["tallies"][0];
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
@@ -309,7 +315,8 @@ TEST(Run, CountsAndKeepsBreakagesByReason) {
     EXPECT_NE(reason.find(" at distance-inl.h:"), std::string::npos);
   }
   EXPECT_EQ(tally["verdicts"]["broke"], broke);
-  EXPECT_NE(last_line(ran.out).find(std::to_string(tally["breakages"].size()) + " kinds"), std::string::npos) << ran.out;
+  EXPECT_NE(last_line(ran.out).find(std::to_string(tally["breakages"].size()) + " kinds"), std::string::npos)
+      << ran.out;
 }
 
 TEST(Run, ReportsTheTunnellingOfFcl) {
@@ -343,8 +350,9 @@ TEST(Run, ReportsTheTunnellingOfFcl) {
 TEST(Run, MeasuresThoseThatPromiseNothing) {
   if (find_subject("bullet") == nullptr) GTEST_SKIP() << "Bullet is not part of this build";
   const TemporaryFolder folder;
-  std::vector<std::string> arguments{"run", "-s", "bullet", "-q", "moving_point_capsule", "-q", "moving_point_box", "-n",
-                                     "300", "--seed", "1", "--out", (folder / "r").string()};
+  std::vector<std::string> arguments{
+      "run", "-s",     "bullet", "-q",    "moving_point_capsule", "-q", "moving_point_box", "-n",
+      "300", "--seed", "1",      "--out", (folder / "r").string()};
   const Ran own = nearmiss(arguments);
   EXPECT_EQ(own.exit_code, 1) << own.out << own.err;
   EXPECT_NE(own.out.find("\nmeasure 0.0001: subjects that promise nothing are counted"), std::string::npos) << own.out;
@@ -434,7 +442,8 @@ TEST(Replay, AsksBothBuildsOfBullet) {
     GTEST_SKIP() << "one of the two is not part of this build";
   }
   const TemporaryFolder folder;
-  const std::string file = folder.file("case.json", R"({"query": "sphere_sphere_penetration", "scalar": "float", "inputs":
+  const std::string file =
+      folder.file("case.json", R"({"query": "sphere_sphere_penetration", "scalar": "float", "inputs":
     {"sphere1": {"center": [0, 0, 0], "radius": 1}, "sphere2": {"center": [1, 0.5, 0.25], "radius": 1}}})");
   const Ran ran = nearmiss({"replay", "--json", "-s", "bullet", "-s", "bullet-float", file});
   ASSERT_LE(ran.exit_code, 1) << ran.err;
@@ -540,7 +549,8 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   EXPECT_EQ(index["state"], "finished");
   EXPECT_GT(index["stored"]["cases"], 0);
   EXPECT_EQ(index["stored"]["unexpected"], json::array());
-  EXPECT_NE(index["properties"]["state"], "not built") << index["properties"];  // there may be no time on a slow machine
+  EXPECT_NE(index["properties"]["state"], "not built")
+      << index["properties"];                               // there may be no time on a slow machine
   for (const json& name : index["properties"]["failed"]) {  // the plugin has mistakes
     EXPECT_NE(name.get<std::string>().find("__skim"), std::string::npos) << name;
   }
@@ -576,7 +586,8 @@ echo '[  FAILED  ] Agreement/EveryTier.Answers/two, where GetParam() = two'
 sleep 0.6
 exit 1
 )");
-  const PropertyOutcome o = run_property_tests(program, {folder / "r", {{"/a.so", "/b.so"}, {"python3 c.py"}}, 41, 2.5, [] {}, [] { return false; }});
+  const PropertyOutcome o = run_property_tests(
+      program, {folder / "r", {{"/a.so", "/b.so"}, {"python3 c.py"}}, 41, 2.5, [] {}, [] { return false; }});
   ASSERT_GE(o.seeds.size(), 2u);
   EXPECT_EQ(o.seeds[0], 41u);
   EXPECT_EQ(o.seeds[1], 42u);
@@ -584,12 +595,14 @@ exit 1
   EXPECT_EQ(o.failed, std::vector<std::string>(o.seeds.size(), "Agreement/EveryTier.Answers/two"));
   EXPECT_EQ(o.ended, "");
   EXPECT_EQ(read_file(folder / "r/properties/42.log").find("42 " + (folder / "r").string() + " seed=42 "), 0u);
-  EXPECT_NE(read_file(folder / "r/properties/42.log").find("\nasks added /a.so:/b.so python3 c.py\n"), std::string::npos);
+  EXPECT_NE(read_file(folder / "r/properties/42.log").find("\nasks added /a.so:/b.so python3 c.py\n"),
+            std::string::npos);
 }
 
 TEST(Nightly, SaysHowPropertiesEndWithoutAResult) {
   const TemporaryFolder folder;
-  const fs::path none = property_program(folder, "none", "exit 0\n"), killed = property_program(folder, "killed", "kill -SEGV $$\n");
+  const fs::path none = property_program(folder, "none", "exit 0\n"),
+                 killed = property_program(folder, "killed", "kill -SEGV $$\n");
   const auto ended = [&](const fs::path& program) {
     return run_property_tests(program, {folder / "r", {}, 1, 30, [] {}, [] { return false; }}).ended;
   };

@@ -1,5 +1,6 @@
-/// A judge that contradicts itself, about sphere_sphere_overlap. Where the first center's x is positive, intervals say the
-/// opposite of whatever was answered, and exact numbers the same. Elsewhere both stages say "no": a yes is a false hit.
+/// A judge that contradicts itself, about sphere_sphere_overlap. Where the first center's x is positive, intervals say
+/// the opposite of whatever was answered, and exact numbers the same. Elsewhere both stages say "no": a yes is a false
+/// hit.
 #include "oracles/exact/oracle.hpp"
 
 namespace nearmiss::oracle {

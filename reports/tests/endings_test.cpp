@@ -40,12 +40,14 @@ TEST_P(EveryCommand, EndsWhenItIsToldTo) {
     for (std::string& a : arguments) {
       if (a == "OUT") a = (folder / std::to_string(signal)).string();
     }
-    for (const char* more : {"--patience", "3000", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"}) arguments.emplace_back(more);
+    for (const char* more : {"--patience", "3000", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"})
+      arguments.emplace_back(more);
     Started command(NEARMISS_PROGRAM, arguments, {mark, "NEARMISS_ZOO=always-sleeps"});
-    const auto awaits_its_subject = [&] {  // the command, a keeper, the subject; a host that only says hello is soon gone
-      for (int i = 0; i < 1000 && processes_with(mark).size() < 3; ++i) usleep(20'000);
-      return processes_with(mark).size() >= 3;
-    };
+    const auto awaits_its_subject =
+        [&] {  // the command, a keeper, the subject; a host that only says hello is soon gone
+          for (int i = 0; i < 1000 && processes_with(mark).size() < 3; ++i) usleep(20'000);
+          return processes_with(mark).size() >= 3;
+        };
     EXPECT_TRUE(awaits_its_subject());
     EXPECT_FALSE(command.wait(0.5).has_value());
     EXPECT_TRUE(awaits_its_subject());
@@ -66,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Command{"relations", {"relations", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
                     Command{"extremes", {"extremes", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
                     Command{"import", {"import", "nyu-ccd", NEARMISS_SOURCE_FOLDER "/corpus/nyu-ccd/sample.csv"}},
-                    Command{"replay", {"replay", NEARMISS_SOURCE_FOLDER "/corpus/seeds/sphere_sphere_overlap/apart.json"}}),
+                    Command{"replay",
+                            {"replay", NEARMISS_SOURCE_FOLDER "/corpus/seeds/sphere_sphere_overlap/apart.json"}}),
     [](const auto& of) { return std::string(of.param.name); });
 
 TEST(Nightly, EndsWhenItIsToldTo) {
@@ -88,8 +91,8 @@ TEST(Nightly, EndsWhenItIsToldTo) {
 TEST(Run, EndsWhenItsTimeIsOver) {
   const TemporaryFolder folder;
   Started run(NEARMISS_PROGRAM,
-              {"run", "-q", "sphere_sphere_overlap", "--seconds", "1", "--patience", "3000", "--command", NEARMISS_ZOO_PROGRAM,
-               "-s", "zoo", "-s", "collide-fast-double", "--out", (folder / "r").string()},
+              {"run", "-q", "sphere_sphere_overlap", "--seconds", "1", "--patience", "3000", "--command",
+               NEARMISS_ZOO_PROGRAM, "-s", "zoo", "-s", "collide-fast-double", "--out", (folder / "r").string()},
               {"NEARMISS_ZOO=always-sleeps"});
   const std::optional<Ran> ran = run.wait(1 + soon);
   ASSERT_TRUE(ran.has_value()) << "it goes on";
@@ -101,10 +104,12 @@ TEST(Run, EndsWhenItsTimeIsOver) {
 TEST(EverySubject, IsGivenUpWhereItIsAlwaysLate) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"relations", "-q", "sphere_sphere_overlap", "--cases", "500", "--out", (folder / "r").string()},
+       {std::vector<std::string>{"relations", "-q", "sphere_sphere_overlap", "--cases", "500", "--out",
+                                 (folder / "r").string()},
         std::vector<std::string>{"import", "nyu-ccd", NEARMISS_SOURCE_FOLDER "/corpus/nyu-ccd/sample.csv"}}) {
     std::vector<std::string> all = arguments;
-    for (const char* more : {"--patience", "0.02", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"}) all.emplace_back(more);
+    for (const char* more : {"--patience", "0.02", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"})
+      all.emplace_back(more);
     Started command(NEARMISS_PROGRAM, all, {"NEARMISS_ZOO=always-sleeps"});
     const std::optional<Ran> ran = command.wait(long_enough);
     ASSERT_TRUE(ran.has_value());
@@ -117,8 +122,10 @@ TEST(EverySubject, IsGivenUpWhereItIsAlwaysLate) {
 
 /// What whoever starts a command has set, it has as well.
 TEST(Cli, EndsWhereTheEndOfChildrenIsIgnored) {
-  Started command("/usr/bin/env", {"--ignore-signal=CHLD", NEARMISS_PROGRAM, "run", "-q", "sphere_sphere_overlap", "-s",
-                                   "collide-fast-double", "--cases", "50", "--out", "/dev/null/none"}, {});
+  Started command("/usr/bin/env",
+                  {"--ignore-signal=CHLD", NEARMISS_PROGRAM, "run", "-q", "sphere_sphere_overlap", "-s",
+                   "collide-fast-double", "--cases", "50", "--out", "/dev/null/none"},
+                  {});
   const std::optional<Ran> ran = command.wait(soon);
   ASSERT_TRUE(ran.has_value());
   EXPECT_EQ(ran->exit_code, 2) << ran->err;
@@ -128,10 +135,12 @@ TEST(Cli, EndsWhereTheEndOfChildrenIsIgnored) {
 TEST(Cli, StartsNoHostThatHasNotItsOwnFiles) {
   for (const int files : {10, 20, 40, 64, 90, 101, 104, 110, 128}) {
     const TemporaryFolder folder;
-    const Ran ran = run_program("bash", {"-c", "ulimit -n " + std::to_string(files) + "; exec '" NEARMISS_PROGRAM "' run --command '" +
-                                                   NEARMISS_ZOO_PROGRAM + "' -s zoo -q sphere_sphere_overlap --cases 100 --out '" +
-                                                   (folder / "r").string() + "'"},
-                                {"NEARMISS_ZOO=ask-json-to-output"});
+    const Ran ran =
+        run_program("bash",
+                    {"-c", "ulimit -n " + std::to_string(files) + "; exec '" NEARMISS_PROGRAM "' run --command '" +
+                               NEARMISS_ZOO_PROGRAM + "' -s zoo -q sphere_sphere_overlap --cases 100 --out '" +
+                               (folder / "r").string() + "'"},
+                    {"NEARMISS_ZOO=ask-json-to-output"});
     for (const std::string& text : {"\n" + ran.out, "\n" + ran.err}) {
       EXPECT_EQ(text.find("\n[{\"finding\""), std::string::npos) << files << text;
     }
@@ -149,14 +158,15 @@ TEST(Run, TakesNoHarmFromWhatIsBesideItsFolder) {
   const TemporaryFolder folder;
   constexpr std::size_t deep = 300'000;
   for (const std::string& text :
-       {"{\n  \"schema\": 2,\n  \"state\": \"running\",\n  \"summary\": \"x\", \"reports\": [], \"x\": " + std::string(deep, '[') +
-            std::string(deep, ']') + "}",
-        std::string("{\n  \"state\": \"running\"}"), std::string("{\n  \"state\": \"running\", \"reports\": 7, \"summary\": []}"),
+       {"{\n  \"schema\": 2,\n  \"state\": \"running\",\n  \"summary\": \"x\", \"reports\": [], \"x\": " +
+            std::string(deep, '[') + std::string(deep, ']') + "}",
+        std::string("{\n  \"state\": \"running\"}"),
+        std::string("{\n  \"state\": \"running\", \"reports\": 7, \"summary\": []}"),
         std::string("{\n  \"state\": \"running\"")}) {
     fs::create_directories(folder / "beside");
     write_file(folder / "beside" / "index.json", text);
-    const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "sphere_sphere_overlap", "--cases", "5", "--out",
-                              (folder / "r").string()});
+    const Ran ran = nearmiss({"run", "-s", "collide-fast-double", "-q", "sphere_sphere_overlap", "--cases", "5",
+                              "--out", (folder / "r").string()});
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     EXPECT_EQ(read_file(folder / "beside" / "index.json"), text);
   }
@@ -201,7 +211,8 @@ void expect_to_survive_kills(const std::vector<std::string>& command, double sec
     const std::string mark = new_mark();
     const fs::path out = folder / ("killed-" + std::to_string(i));
     std::vector<std::string> arguments = command;
-    arguments.insert(arguments.end(), {"--seed", std::to_string(i), "--plugin", NEARMISS_PLUGINS "/libzoo.so", "--out", out.string()});
+    arguments.insert(arguments.end(),
+                     {"--seed", std::to_string(i), "--plugin", NEARMISS_PLUGINS "/libzoo.so", "--out", out.string()});
     Started killed(NEARMISS_PROGRAM, arguments, {mark, "NEARMISS_ZOO=ask-leaves-an-orphan"});
     const double moment = std::fmod(0.618 * (i + 1), 1) * seconds;
     EXPECT_FALSE(killed.wait(moment).has_value());
@@ -210,8 +221,8 @@ void expect_to_survive_kills(const std::vector<std::string>& command, double sec
     ASSERT_TRUE(ran.has_value());
     EXPECT_EQ(ran->exit_code, -SIGKILL);
     EXPECT_TRUE(nothing_is_left(mark)) << "killed after " << moment << " s";
-    const Ran next = nearmiss({"run", "-s", "collide-fast-double", "-q", "sphere_sphere_overlap", "--cases", "5", "--out",
-                               (folder / "next").string()});
+    const Ran next = nearmiss({"run", "-s", "collide-fast-double", "-q", "sphere_sphere_overlap", "--cases", "5",
+                               "--out", (folder / "next").string()});
     EXPECT_EQ(next.exit_code, 0) << next.err;
     expect_whole(out);
     if (testing::Test::HasFailure()) return;
@@ -223,8 +234,9 @@ TEST(Killed, RunsLeaveNothingButWhatTheyFound) { expect_to_survive_kills({"run",
 
 TEST(Killed, NightsLeaveNothingButWhatTheyFound) {
   const TemporaryFolder targets;
-  const fs::path target = targets.file("fuzz_sphere_sphere_overlap",
-                                       "#!/bin/sh\ntrap '' INT TERM\nsleep 600 & sleep 600\n" + std::string("\0max_total_time\0", 16));
+  const fs::path target =
+      targets.file("fuzz_sphere_sphere_overlap",
+                   "#!/bin/sh\ntrap '' INT TERM\nsleep 600 & sleep 600\n" + std::string("\0max_total_time\0", 16));
   fs::permissions(target, fs::perms::owner_all);
   expect_to_survive_kills({"nightly", "--minutes", "0.15", "--fuzz-targets", targets.path().string()}, 8.5);
 }

@@ -27,8 +27,9 @@ TEST_P(ExampleProgram, IsExamined) {
   const Example& e = GetParam();
   if (*e.command == '\0') GTEST_SKIP() << "this system has nothing to run it";
   const TemporaryFolder folder;
-  const Ran ran = run_program("bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", NEARMISS_SOURCE_FOLDER, NEARMISS_PROGRAM, "run", "--command", e.command, "--subject", e.name, "--cases", "3000", "--seed", "3", "--out",
-                            (folder / "r").string()});
+  const Ran ran = run_program("bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", NEARMISS_SOURCE_FOLDER,
+                                       NEARMISS_PROGRAM, "run", "--command", e.command, "--subject", e.name, "--cases",
+                                       "3000", "--seed", "3", "--out", (folder / "r").string()});
   ASSERT_LE(ran.exit_code, 1) << ran.err;
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
@@ -51,8 +52,9 @@ TEST_P(ExampleProgram, IsExamined) {
     EXPECT_EQ(complaints(report, "report.schema.json"), "");
     const Ran without = nearmiss({"replay", (folder / "r" / listed.at("file").get<std::string>()).string()});
     EXPECT_NE(without.err.find(std::string("it is about '") + e.name), std::string::npos) << without.err;
-    const Ran again = run_program("bash", {"-c", "cd /; " + report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) +
-                                                     " --json --subject " + e.name});
+    const Ran again =
+        run_program("bash", {"-c", "cd /; " + report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) +
+                                       " --json --subject " + e.name});
     EXPECT_EQ(again.exit_code, 1) << again.err;
     EXPECT_EQ(json::parse(again.out).at(0).at("id"), listed.at("id"));
     break;
@@ -60,7 +62,8 @@ TEST_P(ExampleProgram, IsExamined) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ExampleProgram,
-                         testing::Values(Example{"balls-py", NEARMISS_EXAMPLE_PY, true}, Example{"balls-js", NEARMISS_EXAMPLE_JS, true},
+                         testing::Values(Example{"balls-py", NEARMISS_EXAMPLE_PY, true},
+                                         Example{"balls-js", NEARMISS_EXAMPLE_JS, true},
                                          Example{"balls-c", NEARMISS_EXAMPLE_C, false}),
                          [](const auto& of) {
                            std::string name = of.param.name;

@@ -31,7 +31,8 @@ const json& map_of(const json& report, const std::string& subject, const std::st
 
 TEST(Extremes, WriteJsonThatTheSchemaTakesAndAPageWithTheData) {
   const TemporaryFolder folder;
-  const json report = swept(folder, {"--query", "sphere_sphere_overlap", "--query", "moving_point_plane", "--cases", "2"});
+  const json report =
+      swept(folder, {"--query", "sphere_sphere_overlap", "--query", "moving_point_plane", "--cases", "2"});
   EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
   EXPECT_EQ(report.at("state"), "finished");
   for (const json& m : report.at("maps")) {
@@ -95,8 +96,8 @@ TEST(Extremes, WriteWhatTheyHaveWhenInterrupted) {
 /// The plugin loops for ever about half of all cases beyond 1e9.
 TEST(Extremes, GiveUpASubjectThatDoesNotComeBackAndSaySo) {
   const TemporaryFolder folder;
-  const json report = swept(folder, {"--plugin", NEARMISS_PLUGINS "/libmisbehaves.so", "--subject", "misbehaves", "--query",
-                                     "sphere_sphere_overlap", "--cases", "12", "--patience", "0.05"});
+  const json report = swept(folder, {"--plugin", NEARMISS_PLUGINS "/libmisbehaves.so", "--subject", "misbehaves",
+                                     "--query", "sphere_sphere_overlap", "--cases", "12", "--patience", "0.05"});
   EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
   const json& m = map_of(report, "misbehaves", "scale");
   const std::size_t rows = m.at("y").at("values").size(), columns = m.at("x").at("values").size();
@@ -122,7 +123,8 @@ TEST(Extremes, GiveUpASubjectThatDoesNotComeBackAndSaySo) {
 
 TEST(Extremes, GiveTheSameMapsForTheSameSeed) {
   const TemporaryFolder one, two;
-  const std::vector<std::string> words{"--query", "moving_point_plane", "--subject", "collide-fast-float", "--cases", "5"};
+  const std::vector<std::string> words{"--query", "moving_point_plane", "--subject", "collide-fast-float", "--cases",
+                                       "5"};
   EXPECT_EQ(swept(one, words).at("maps"), swept(two, words).at("maps"));
 }
 

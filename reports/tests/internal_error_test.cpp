@@ -19,7 +19,8 @@ constexpr const char* words =
 
 /// The command line with tests/contradicting_oracle.cpp in it.
 Ran contradicting(std::vector<std::string> arguments, const TemporaryFolder& folder) {
-  for (const char* more : {"--query", "sphere_sphere_overlap", "--subject", "collide-fast-double", "--seed", "1", "--out"}) {
+  for (const char* more :
+       {"--query", "sphere_sphere_overlap", "--subject", "collide-fast-double", "--seed", "1", "--out"}) {
     arguments.emplace_back(more);
   }
   arguments.push_back((folder / "r").string());
@@ -76,7 +77,8 @@ TEST(InternalErrors, EndRelationsAndExtremes) {
 /// Stored cases come first in a night, and take a second.
 TEST(InternalErrors, EndANight) {
   const TemporaryFolder folder;
-  const Ran ran = run_program(NEARMISS_CONTRADICTING, {"nightly", "--minutes", "0.2", "--out", (folder / "r").string()});
+  const Ran ran =
+      run_program(NEARMISS_CONTRADICTING, {"nightly", "--minutes", "0.2", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
   EXPECT_NE(ran.err.find("the judge contradicts itself about sphere_sphere_overlap"), std::string::npos) << ran.err;
 }
@@ -95,7 +97,8 @@ TEST(InternalErrors, ReplayAgain) {
 
 TEST(InternalErrors, AreToldInTheManuals) {
   for (const char* command : {"run", "nightly", "relations", "extremes", "replay", "import"}) {
-    EXPECT_NE(nearmiss({"help", command}).out.find("An internal error: the judge contradicts itself."), std::string::npos)
+    EXPECT_NE(nearmiss({"help", command}).out.find("An internal error: the judge contradicts itself."),
+              std::string::npos)
         << command;
   }
 }

@@ -50,8 +50,9 @@ TEST(Plugin, ThreeMistakesOfTheExampleAreFound) {
   for (const json& listed : index.at("reports")) {
     const json report = json::parse(read_file(folder / "r" / listed.at("file").get<std::string>()));
     EXPECT_EQ(complaints(report, "report.schema.json"), "");
-    const Ran again = run_program("bash", {"-c", report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) +
-                                                     " --subject skim --json"});
+    const Ran again = run_program(
+        "bash",
+        {"-c", report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) + " --subject skim --json"});
     EXPECT_EQ(again.exit_code, 1) << report.at("replay") << again.err;
     EXPECT_EQ(json::parse(again.out).at(0).at("id"), listed.at("id"));
   }
@@ -83,8 +84,8 @@ TEST(Plugin, CostsOneCaseWhateverItDoes) {
 json tallies_beside(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "run");
   const TemporaryFolder folder;
-  for (const char* more : {"-s", "collide-certified-float", "-s", "collide-certified-double", "-s", "collide-fast-float",
-                           "--cases", "400", "--seed", "3", "--out"}) {
+  for (const char* more : {"-s", "collide-certified-float", "-s", "collide-certified-double", "-s",
+                           "collide-fast-float", "--cases", "400", "--seed", "3", "--out"}) {
     arguments.emplace_back(more);
   }
   arguments.push_back((folder / "r").string());

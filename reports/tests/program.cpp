@@ -76,7 +76,8 @@ std::optional<Ran> Started::wait(double seconds) {
     usleep(2'000);
   }
   process_ = -1;
-  return Ran{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(*folder_ / "out"), read_file(*folder_ / "err")};
+  return Ran{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(*folder_ / "out"),
+             read_file(*folder_ / "err")};
 }
 
 std::string new_mark() {

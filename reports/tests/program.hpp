@@ -23,7 +23,8 @@ Ran nearmiss(const std::vector<std::string>& arguments, const std::vector<std::s
 /// A program that runs beside the test. It has ended when this ends.
 class Started {
  public:
-  Started(const std::string& program, const std::vector<std::string>& arguments, const std::vector<std::string>& environment);
+  Started(const std::string& program, const std::vector<std::string>& arguments,
+          const std::vector<std::string>& environment);
   ~Started();
   Started(const Started&) = delete;
   Started& operator=(const Started&) = delete;

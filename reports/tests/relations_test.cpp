@@ -64,7 +64,8 @@ TEST(RelationsCommand, BreaksNothingOfOurOwnTiers) {
   for (const json& t : index["tallies"]) {
     seen.insert(t["relation"].get<std::string>());
     EXPECT_EQ(t["bits"].get<int>() + t["contract"].get<int>() + t["broke"].get<int>() + t["oracle"].get<int>(), 0) << t;
-    if (t["subject"].get<std::string>().starts_with("collide-certified")) contradictions_of_the_certified += t["contradictions"].get<std::uint64_t>();
+    if (t["subject"].get<std::string>().starts_with("collide-certified"))
+      contradictions_of_the_certified += t["contradictions"].get<std::uint64_t>();
   }
   EXPECT_EQ(contradictions_of_the_certified, 0u);
   EXPECT_EQ(seen.size(), relations().size());
@@ -74,7 +75,8 @@ TEST(RelationsCommand, IsTheSameForTheSameSeed) {
   const TemporaryFolder folder;
   std::vector<json> tallies;
   for (const char* name : {"a", "b"}) {
-    const Ran ran = nearmiss({"relations", "-s", "collide-fast-float", "-n", "40", "--seed", "7", "--out", (folder / name).string()});
+    const Ran ran = nearmiss(
+        {"relations", "-s", "collide-fast-float", "-n", "40", "--seed", "7", "--out", (folder / name).string()});
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
     tallies.push_back(relations_of(folder / name)["tallies"]);
   }
@@ -83,9 +85,12 @@ TEST(RelationsCommand, IsTheSameForTheSameSeed) {
 
 TEST(RelationsCommand, RefusesAReportWhoseFollowUpsAreOthers) {
   const TemporaryFolder folder;
-  ASSERT_EQ(nearmiss({"relations", "--plugin", skim, "-s", "skim", "-q", "sphere_sphere_overlap", "-r", "scaled-lengths",
-                      "-n", "3000", "--seed", "1", "--out", (folder / "r").string()}).exit_code, 1);
-  json report = json::parse(read_file(folder / "r" / relations_of(folder / "r")["reports"][0]["file"].get<std::string>()));
+  ASSERT_EQ(nearmiss({"relations", "--plugin", skim, "-s", "skim", "-q", "sphere_sphere_overlap", "-r",
+                      "scaled-lengths", "-n", "3000", "--seed", "1", "--out", (folder / "r").string()})
+                .exit_code,
+            1);
+  json report =
+      json::parse(read_file(folder / "r" / relations_of(folder / "r")["reports"][0]["file"].get<std::string>()));
   report["relation"]["partners"][0]["inputs"]["sphere1"]["center"][0] = 0.375;
   const Ran ran = nearmiss({"replay", "--plugin", skim, folder.file("changed.json", report.dump())});
   EXPECT_EQ(ran.exit_code, 2);
@@ -118,8 +123,11 @@ TEST(RelationReport, SaysThatAContradictionBreaksNoPromise) {
   const RelationReport r = swapped(biased(lenient));
   EXPECT_EQ(r.breach, Breach::contradiction);
   EXPECT_FALSE(is_bad(r.breach));
-  EXPECT_EQ(headline(r), "biased breaks the relation swapped in sphere_sphere_overlap: answer 1 is a false hit, not proved to break its contract");
-  EXPECT_NE(explanation(r).find("Neither answer is proved to break its contract."), std::string::npos) << explanation(r);
+  EXPECT_EQ(headline(r),
+            "biased breaks the relation swapped in sphere_sphere_overlap: answer 1 is a false hit, not proved to break "
+            "its contract");
+  EXPECT_NE(explanation(r).find("Neither answer is proved to break its contract."), std::string::npos)
+      << explanation(r);
   const json j = json::parse(report_to_json(r).dump());
   EXPECT_EQ(complaints(j, "report.schema.json"), "");
   EXPECT_EQ(j["relation"]["breaks_contract"], false);
@@ -133,17 +141,27 @@ Answer says(bool yes) {
 
 /// Sees the point in no rectangle and in every triangle.
 TEST(RelationReport, CountsItsAnswers) {
-  const Subject s{"triangular", "1", Scalar::float64, false,
-                  {{"point_in_rectangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(false); }},
-                   {"point_in_triangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(true); }}}};
-  const Case inside{find_query("point_in_rectangle"), Scalar::float64, {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, 0, 0, 1, 3, 1, 0}, "test", 0, 0, {}};
-  const RelationFinding f = *examine(*find_relation("two-triangles"), inside, 0, s, [&](const Case& c) {
-    return s.offering(c.query->name).answer(c.values);
-  });
+  const Subject s{
+      "triangular",
+      "1",
+      Scalar::float64,
+      false,
+      {{"point_in_rectangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(false); }},
+       {"point_in_triangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(true); }}}};
+  const Case inside{find_query("point_in_rectangle"),
+                    Scalar::float64,
+                    {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, 0, 0, 1, 3, 1, 0},
+                    "test",
+                    0,
+                    0,
+                    {}};
+  const RelationFinding f = *examine(*find_relation("two-triangles"), inside, 0, s,
+                                     [&](const Case& c) { return s.offering(c.query->name).answer(c.values); });
   Workers workers;
   const RelationReport r = report_of({find_relation("two-triangles"), 0, false}, f, s, workers);
   EXPECT_EQ(r.breach, Breach::contradiction);
-  EXPECT_NE(explanation(r).find("None of the 3 answers is proved to break its contract."), std::string::npos) << explanation(r);
+  EXPECT_NE(explanation(r).find("None of the 3 answers is proved to break its contract."), std::string::npos)
+      << explanation(r);
 }
 
 TEST(RelationReport, SaysWhichAnswerBreaksItsContract) {
@@ -162,8 +180,8 @@ TEST(RelationReport, NumbersAloneProveNothing) {
     a.values[0] = v[0] + 0.25;
     return a;
   };
-  const Subject vague{"vague", "1", Scalar::float64, false,
-                      {{"closest_point_segment", Offer::answers, "", lenient, answer}}};
+  const Subject vague{
+      "vague", "1", Scalar::float64, false, {{"closest_point_segment", Offer::answers, "", lenient, answer}}};
   const Case c{find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 4, 0, 0, 1, 2, 0}, "test", 0, 0, {}};
   const RelationFinding f = *examine(*find_relation("turned-corners"), c, 0, vague,
                                      [&](const Case& asked) { return vague.offerings.front().answer(asked.values); });

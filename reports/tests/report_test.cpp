@@ -219,13 +219,8 @@ const Expectation expectations[] = {
      "stooge gives weights (0.25, 0.5, 0.25). Exactly, it is (0.5, 0.25, 0.25)"},
     {"wrong_flag",
      [] {
-       const Case c{find_query("ray_aabox"),
-                    Scalar::float64,
-                    {-3, 0, 0, 1, 0, 0, -1, -1, -1, 1, 1, 1},
-                    "test",
-                    0,
-                    0,
-                    {}};
+       const Case c{
+           find_query("ray_aabox"), Scalar::float64, {-3, 0, 0, 1, 0, 0, -1, -1, -1, 1, 1, 1}, "test", 0, 0, {}};
        return report(c, answer(true, {1, -1, 0, 0}));
      },
      Verdict::violates_contract, Disagreement::wrong_flag, "stooge gives inside 1. Exactly, it is 0"},
@@ -256,7 +251,8 @@ const Expectation expectations[] = {
      Verdict::violates_contract, Disagreement::wrong_combination,
      "stooge gives members each of which may be right, but no right answer has them together"},
     {"exceeds_the_measure", [] { return report(flight(0), hit(4.5), {}); }, Verdict::exceeds_measure,
-     Disagreement::wrong_time, "It promises nothing; the measure is a backward error of at most 0.0001 times the largest number in each group."},
+     Disagreement::wrong_time,
+     "It promises nothing; the measure is a backward error of at most 0.0001 times the largest number in each group."},
     {"below_the_measure", [] { return report(flight(0), hit(4.00001), {}); }, Verdict::not_proved,
      Disagreement::wrong_time, "It promises nothing, and is not proved to differ by more than the measure."},
     {"all_wrong_members", [] { return report(flight(0), hit(4.5, 0.25, 0, 1)); }, Verdict::violates_contract,
@@ -300,12 +296,13 @@ const Expectation expectations[] = {
      },
      Verdict::violates_contract, Disagreement::off_surface,
      "The nearest exact answer is (0, 1, 0): contact.y is off by 0.5"},
-    {"out_of_domain", [] { return report(flight(0), miss(), {.backward = 4, .lowest = 10, .highest = 20}); }, Verdict::out_of_domain,
-     Disagreement::none, "stooge promises nothing for numbers of this size."},
+    {"out_of_domain", [] { return report(flight(0), miss(), {.backward = 4, .lowest = 10, .highest = 20}); },
+     Verdict::out_of_domain, Disagreement::none, "stooge promises nothing for numbers of this size."},
     {"cannot_answer", [] { return report(flight(0), Answer::without(Answer::Status::cannot_answer, "too fast")); },
      Verdict::cannot_answer, Disagreement::none, "stooge says that it cannot answer this case: too fast."},
     {"broke", [] { return report(flight(0), Answer::without(Answer::Status::broke, "no answer within 2 s")); },
-     Verdict::broke, Disagreement::none, "stooge gave no answer: no answer within 2 s. Exactly, it is a hit at time 4."},
+     Verdict::broke, Disagreement::none,
+     "stooge gave no answer: no answer within 2 s. Exactly, it is a hit at time 4."},
     {"not_asked", unasked_report, Verdict::not_asked, Disagreement::none,
      "stooge is not asked: it requires a velocity that is not zero. Exactly, "},
 };

@@ -44,7 +44,8 @@ Answer breaks_outside(std::span<const double> values) {
 
 Subject stooge(const char* name, Answer (*answer)(std::span<const double>), Preconditions required) {
   Subject s{name, "1", Scalar::float64, false, {}};
-  s.offerings.push_back({std::string(query), Offer::answers, "", {.backward = 0, .exact_decisions = true}, answer, required});
+  s.offerings.push_back(
+      {std::string(query), Offer::answers, "", {.backward = 0, .exact_decisions = true}, answer, required});
   return s;
 }
 
@@ -56,7 +57,8 @@ Case case_with(std::array<double, 12> corners) {
 Case true_one() { return case_with({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}); }
 Case folded_one() { return case_with({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1}); }
 
-json index_of(const TemporaryFolder& folder, const std::vector<const Subject*>& subjects, std::span<const Case> given = {}) {
+json index_of(const TemporaryFolder& folder, const std::vector<const Subject*>& subjects,
+              std::span<const Case> given = {}) {
   Run run({"test", folder / "r", {find_query(query)}, subjects, 1, {}, false});
   if (given.empty()) {
     run.generate(2000);
@@ -66,7 +68,9 @@ json index_of(const TemporaryFolder& folder, const std::vector<const Subject*>& 
   run.finish();
   return json::parse(read_file(folder / "r" / "index.json"));
 }
-std::uint64_t verdicts(const json& tally, const char* verdict) { return tally.at("verdicts").at(verdict).get<std::uint64_t>(); }
+std::uint64_t verdicts(const json& tally, const char* verdict) {
+  return tally.at("verdicts").at(verdict).get<std::uint64_t>();
+}
 
 TEST(Requires, NothingOutsideIsAFinding) {
   const TemporaryFolder folder;
@@ -115,11 +119,13 @@ TEST(Requires, AReplayDoesNotAskAndSaysWhy) {
   Workers workers;
   const Replay outside = replay(folded_one(), "file", asked, workers);
   EXPECT_TRUE(outside.reports.empty());
-  EXPECT_NE(replay_text(outside).find("not asked: it requires a true rectangle\n"), std::string::npos) << replay_text(outside);
+  EXPECT_NE(replay_text(outside).find("not asked: it requires a true rectangle\n"), std::string::npos)
+      << replay_text(outside);
   EXPECT_EQ(replay(true_one(), "file", asked, workers).reports.size(), 1u);
   Case both = folded_one();
   both.values[5] = 0;
-  EXPECT_NE(replay_text(replay(both, "file", asked, workers)).find("it requires a true rectangle and a velocity that is not zero"),
+  EXPECT_NE(replay_text(replay(both, "file", asked, workers))
+                .find("it requires a true rectangle and a velocity that is not zero"),
             std::string::npos);
 }
 

@@ -1,8 +1,8 @@
 /// What is counted, what is kept, and how numbers are told.
 #include <gtest/gtest.h>
 
-#include "reports/findings/breakage.hpp"
 #include "reports/engine/tally.hpp"
+#include "reports/findings/breakage.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -109,7 +109,8 @@ Finding breakage(const std::string& reason) {
 }
 
 std::string assertion(int line) {
-  return "killed by signal 6 (Aborted): nearmiss: ./include/gjk-inl.h:" + std::to_string(line) + ": int f(): Assertion `";
+  return "killed by signal 6 (Aborted): nearmiss: ./include/gjk-inl.h:" + std::to_string(line) +
+         ": int f(): Assertion `";
 }
 
 TEST(Keeper, KeepsTheFirstFewOfEachReasonToBreak) {

@@ -1,5 +1,5 @@
-/// Subjects that misbehave in every way that we know: each costs what it breaks and nothing else. What must be said, whom it
-/// blames, and that the subject beside it has exactly its usual counts.
+/// Subjects that misbehave in every way that we know: each costs what it breaks and nothing else. What must be said,
+/// whom it blames, and that the subject beside it has exactly its usual counts.
 #include <gtest/gtest.h>
 #include <sys/shm.h>
 
@@ -21,11 +21,12 @@ constexpr const char* patience = "0.04";  // seconds, and five times as much in 
 
 /// What comes of a misdeed.
 enum class End {
-  refused,  ///< exit code 2 and one line, before anything is asked
-  broke,    ///< cases that broke, with the reason
-  given_up, ///< cases that broke, until the others are not asked
-  either,   ///< one or the other: by the time it is looked at, all may be answered, and what is done after that is no matter
-  judged,   ///< nothing breaks: its answers are judged like any other's
+  refused,   ///< exit code 2 and one line, before anything is asked
+  broke,     ///< cases that broke, with the reason
+  given_up,  ///< cases that broke, until the others are not asked
+  either,    ///< one or the other: by the time it is looked at, all may be answered, and what is done after that is no
+             ///< matter
+  judged,    ///< nothing breaks: its answers are judged like any other's
 };
 
 struct Misdeed {
@@ -45,7 +46,8 @@ std::vector<std::string> zoo(bool plugin) {
 std::vector<std::string> a_run(const std::vector<std::string>& of, const fs::path& out) {
   std::vector<std::string> arguments{"run", "--patience", patience};
   arguments.insert(arguments.end(), of.begin(), of.end());
-  for (const char* more : {"-q", "sphere_sphere_overlap", "-s", "collide-fast-double", "--cases", "150", "--seed", "11", "--out"}) {
+  for (const char* more :
+       {"-q", "sphere_sphere_overlap", "-s", "collide-fast-double", "--cases", "150", "--seed", "11", "--out"}) {
     arguments.emplace_back(more);
   }
   arguments.push_back(out.string());
@@ -64,8 +66,8 @@ void expect_to_cost_only_itself(const Misdeed& m, bool plugin) {
   const std::string mark = new_mark();
   std::vector<std::string> of = zoo(plugin);
   of.insert(of.end(), {"-s", "zoo"});
-  const Ran ran = nearmiss(a_run(of, folder / "r"),
-                           {std::string("NEARMISS_ZOO=") + m.name, mark, "NEARMISS_ZOO_MARK=" + (folder / "mark").string()});
+  const Ran ran = nearmiss(a_run(of, folder / "r"), {std::string("NEARMISS_ZOO=") + m.name, mark,
+                                                     "NEARMISS_ZOO_MARK=" + (folder / "mark").string()});
   EXPECT_TRUE(nothing_is_left(mark)) << "something that it started lives";
   EXPECT_LT(shmget(0x4e4d, 0, 0), 0) << "its shared memory is left";
   for (const std::string* text : {&ran.out, &ran.err}) {
@@ -110,7 +112,8 @@ void expect_to_cost_only_itself(const Misdeed& m, bool plugin) {
     EXPECT_EQ(complaints(report, "report.schema.json"), "");
     if (report.at("finding").at("verdict") != "broke") continue;
     ++reports;
-    EXPECT_NE(report.at("answer").at("reason").get<std::string>().find(m.says), std::string::npos) << report.at("answer");
+    EXPECT_NE(report.at("answer").at("reason").get<std::string>().find(m.says), std::string::npos)
+        << report.at("answer");
   }
   EXPECT_GE(reports, 1);
 }

@@ -1,4 +1,5 @@
-/* What a subject may do, by name: the environment variable NEARMISS_ZOO says which. Shared by the plugin and the program. */
+/* What a subject may do, by name: the environment variable NEARMISS_ZOO says which. Shared by the plugin and the
+ * program. */
 #ifndef NEARMISS_TESTS_MISDEEDS_H
 #define NEARMISS_TESTS_MISDEEDS_H
 
@@ -23,8 +24,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static int is_chosen(const char *what) {
-  const char *chosen = getenv("NEARMISS_ZOO");
+static int is_chosen(const char* what) {
+  const char* chosen = getenv("NEARMISS_ZOO");
   return chosen != NULL && strcmp(chosen, what) == 0;
 }
 
@@ -38,7 +39,7 @@ static void sleep_for_ever(void) {
 
 /* Marks that this was done before, in the file that NEARMISS_ZOO_MARK names. */
 static int is_first_time(void) {
-  const char *mark = getenv("NEARMISS_ZOO_MARK");
+  const char* mark = getenv("NEARMISS_ZOO_MARK");
   const int file = mark == NULL ? -1 : open(mark, O_WRONLY | O_CREAT | O_EXCL, 0600);
   if (file >= 0) close(file);
   return file >= 0;
@@ -65,7 +66,7 @@ static int overflow_the_stack(volatile int depth) {
 
 static void eat_memory(void) {
   for (size_t size = (size_t)1 << 24;;) {
-    char *volatile more = malloc(size); /* a compiler may leave out memory that nobody looks at */
+    char* volatile more = malloc(size); /* a compiler may leave out memory that nobody looks at */
     if (more == NULL) abort();
     more[0] = 1;
   }
@@ -85,18 +86,18 @@ static void write_all_to(int file, size_t bytes) {
 
 /* Writes noise over every shared mapping that can be written: the answers, where a host has them there. */
 static void scribble_over_shared_memory(unsigned char with) {
-  FILE *maps = fopen("/proc/self/maps", "r");
+  FILE* maps = fopen("/proc/self/maps", "r");
   char line[512];
   while (maps != NULL && fgets(line, sizeof line, maps) != NULL) {
     unsigned long begin, end;
     char rights[5];
     if (sscanf(line, "%lx-%lx %4s", &begin, &end, rights) != 3 || strncmp(rights, "rw-s", 4) != 0) continue;
-    memset((void *)begin, with, end - begin);
+    memset((void*)begin, with, end - begin);
   }
   if (maps != NULL) fclose(maps);
 }
 
-static void *answer_for_ever(void *unused) {
+static void* answer_for_ever(void* unused) {
   (void)unused;
   for (;;) scribble_over_shared_memory(0xff);
   return NULL;
@@ -111,9 +112,9 @@ static void trap_floating_point(void) {
 }
 
 /* Returns where the misdeed lets it. The same names as of a load begin with "load-". */
-static void do_misdeed(const char *when) {
+static void do_misdeed(const char* when) {
   char name[64];
-  const char *chosen = getenv("NEARMISS_ZOO");
+  const char* chosen = getenv("NEARMISS_ZOO");
   if (chosen == NULL || strncmp(chosen, when, strlen(when)) != 0) return;
   snprintf(name, sizeof name, "%s", chosen + strlen(when));
 #define IF(what) if (strcmp(name, what) == 0)
@@ -125,7 +126,7 @@ static void do_misdeed(const char *when) {
     fputs("balls.c:42: balls_meet: Assertion `radius > 0' failed.\n", stderr);
     abort();
   }
-  IF("segfault") *(volatile int *)8 = 1;
+  IF("segfault") * (volatile int*)8 = 1;
   IF("bus-error") raise(SIGBUS);
   IF("illegal") raise(SIGILL);
   IF("floating-trap") trap_floating_point();
@@ -159,8 +160,8 @@ static void do_misdeed(const char *when) {
     close_all(3);
     spin();
   }
-  IF("execs-sleep") execl("/bin/sleep", "sleep", "60", (char *)NULL);
-  IF("execs-true") execl("/bin/true", "true", (char *)NULL);
+  IF("execs-sleep") execl("/bin/sleep", "sleep", "60", (char*)NULL);
+  IF("execs-true") execl("/bin/true", "true", (char*)NULL);
   IF("leaves-a-child") leave_behind(0), abort();
   IF("leaves-a-session") leave_behind(1), abort();
   IF("leaves-an-orphan") leave_behind(2), abort();
@@ -223,7 +224,11 @@ static void do_misdeed(const char *when) {
     abort();
   }
   IF("escapes-to-output") {
-    fputs("\033[2J\033]0;owned\007\xc2\x9b" "31m\xe2\x80\xae" "drawkcab\n", stderr);
+    fputs(
+        "\033[2J\033]0;owned\007\xc2\x9b"
+        "31m\xe2\x80\xae"
+        "drawkcab\n",
+        stderr);
     abort();
   }
   IF("json-to-output") {
@@ -262,7 +267,7 @@ static void do_misdeed(const char *when) {
     abort();
   }
   IF("writes-cases") {
-    void *cases = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, 5, 0);
+    void* cases = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, 5, 0);
     fputs(cases == MAP_FAILED ? "the cases cannot be written\n" : "the cases can be written\n", stderr);
     abort();
   }
@@ -273,7 +278,7 @@ static void do_misdeed(const char *when) {
   }
   IF("thread-that-crashes") {
     pthread_t thread;
-    pthread_create(&thread, NULL, (void *(*)(void *))(uintptr_t)16, NULL);
+    pthread_create(&thread, NULL, (void* (*)(void*))(uintptr_t)16, NULL);
     usleep(200000);
   }
 #undef IF

@@ -11,7 +11,7 @@ __attribute__((constructor)) static void load(void) {
 }
 
 /* Every 40th case of a process does the deed: the others are answered as balls meet. */
-static int ball_ball(const double *q, nearmiss_answer *answer) {
+static int ball_ball(const double* q, nearmiss_answer* answer) {
   static unsigned asked;
   const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
   answer->yes = x * x + y * y + z * z <= reach * reach;
@@ -37,31 +37,32 @@ static nearmiss_offer offers[] = {{"sphere_sphere_overlap", 8, 0, NULL, NULL, ba
 static nearmiss_plugin plugin = {NEARMISS_PLUGIN_VERSION, "zoo", "1", NEARMISS_DOUBLE, 1, offers};
 
 /* Text that ends at a page that cannot be read. */
-static const char *text_without_end(void) {
-  char *pages = mmap(NULL, 1 << 16, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+static const char* text_without_end(void) {
+  char* pages = mmap(NULL, 1 << 16, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   memset(pages, 'a', 1 << 16);
   mprotect(pages + (1 << 15), 1 << 15, PROT_NONE);
   return pages + (1 << 15) - 100;
 }
 
-const nearmiss_plugin *nearmiss_plugin_entry(void) {
+const nearmiss_plugin* nearmiss_plugin_entry(void) {
   do_misdeed("entry-");
   if (is_chosen("told-nothing")) return NULL;
-  if (is_chosen("told-wild")) return (const nearmiss_plugin *)(uintptr_t)0xdeadbeef00;
+  if (is_chosen("told-wild")) return (const nearmiss_plugin*)(uintptr_t)0xdeadbeef00;
   if (is_chosen("told-version")) plugin.version = 99;
   if (is_chosen("told-scalar")) plugin.scalar = 9;
   if (is_chosen("told-no-name")) plugin.name = NULL;
   if (is_chosen("told-bad-name")) plugin.name = "Zoo \033[31m";
-  if (is_chosen("told-long-name")) plugin.name = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
+  if (is_chosen("told-long-name"))
+    plugin.name = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
   if (is_chosen("told-name-without-end")) plugin.name = text_without_end();
   if (is_chosen("told-taken-name")) plugin.name = "collide-fast-double";
   if (is_chosen("told-count")) plugin.offer_count = (size_t)-1;
   if (is_chosen("told-count-beyond")) plugin.offer_count = 4000;
   if (is_chosen("told-no-offers")) plugin.offers = NULL;
-  if (is_chosen("told-wild-offers")) plugin.offers = (const nearmiss_offer *)(uintptr_t)0xdeadbeef00;
+  if (is_chosen("told-wild-offers")) plugin.offers = (const nearmiss_offer*)(uintptr_t)0xdeadbeef00;
   if (is_chosen("told-twice")) plugin.offer_count = 2;
   if (is_chosen("told-no-query")) offers[0].query = NULL;
-  if (is_chosen("told-wild-query")) offers[0].query = (const char *)(uintptr_t)16;
+  if (is_chosen("told-wild-query")) offers[0].query = (const char*)(uintptr_t)16;
   if (is_chosen("told-unknown-query")) offers[0].query = "sphere_sphere_overlaps";
   if (is_chosen("told-no-function")) offers[0].answer = NULL;
   if (is_chosen("told-wild-function")) offers[0].answer = (nearmiss_answer_function)(uintptr_t)16;
@@ -69,7 +70,7 @@ const nearmiss_plugin *nearmiss_plugin_entry(void) {
   if (is_chosen("told-outputs")) offers[0].outputs = 1 << 30;
   if (is_chosen("told-needs")) offers[0].needs = 1u << 30;
   if (is_chosen("told-contract")) contract.backward = NAN, offers[0].contract = &contract;
-  if (is_chosen("told-wild-contract")) offers[0].contract = (const nearmiss_contract *)(uintptr_t)16;
+  if (is_chosen("told-wild-contract")) offers[0].contract = (const nearmiss_contract*)(uintptr_t)16;
   if (is_chosen("told-otherwise") && !is_first_time()) plugin.library_version = "2";
   if (is_chosen("told-crash-later") && !is_first_time()) abort();
   if (is_chosen("told-hang-later") && !is_first_time()) sleep_for_ever();

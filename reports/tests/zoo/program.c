@@ -22,13 +22,17 @@ static const struct {
     {"hello-name", "{\"nearmiss\": 1, \"name\": \"../zoo\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
     {"hello-scalar", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"half\", \"batches\": \"json\"}\n"},
     {"hello-shared", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"shared\"}\n"},
-    {"hello-offers", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", \"offers\": 3}\n"},
-    {"hello-inputs", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
-                     "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"inputs\": 1e300}]}\n"},
-    {"hello-contract", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
-                       "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"contract\": {\"backward\": -1}}]}\n"},
-    {"hello-requires", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
-                       "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": [\"luck\"]}]}\n"},
+    {"hello-offers",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", \"offers\": 3}\n"},
+    {"hello-inputs",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+     "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"inputs\": 1e300}]}\n"},
+    {"hello-contract",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+     "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"contract\": {\"backward\": -1}}]}\n"},
+    {"hello-requires",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+     "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": [\"luck\"]}]}\n"},
 };
 
 /* What is said in place of an answer, by name. */
@@ -50,12 +54,12 @@ static const struct {
     {"reply-twice", "{\"case\": %u, \"yes\": true}\n{\"case\": %u, \"yes\": true}\n"},
 };
 
-static void say(FILE *judge, const char *text) {
+static void say(FILE* judge, const char* text) {
   fputs(text, judge);
   fflush(judge);
 }
 
-static void say_hello(FILE *judge) {
+static void say_hello(FILE* judge) {
   if (is_chosen("hello-deep")) {
     for (int i = 0; i < 500000; ++i) fputc('[', judge);
     say(judge, "\n");
@@ -67,8 +71,10 @@ static void say_hello(FILE *judge) {
     }
   }
   if (is_chosen("hello-deep-requirement")) {
-    fputs("{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
-          "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": ", judge);
+    fputs(
+        "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+        "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": ",
+        judge);
     for (int i = 0; i < 200000; ++i) fputc('[', judge);
     for (int i = 0; i < 200000; ++i) fputc(']', judge);
     say(judge, "}]}\n");
@@ -81,8 +87,9 @@ static void say_hello(FILE *judge) {
     }
   }
   if (is_chosen("hello-binary")) {
-    say(judge, "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"binary\", "
-               "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}]}\n");
+    say(judge,
+        "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"binary\", "
+        "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}]}\n");
     write_all_to(4, 4096);
     sleep_for_ever();
   }
@@ -98,13 +105,13 @@ int main(void) {
   say_hello(judge);
   while (fgets(line, sizeof line, cases) != NULL) {
     if (is_chosen("always-sleeps")) sleep_for_ever();
-    for (const char *at = strchr(strchr(line, '[') + 1, '['); at != NULL; at = strchr(at + 1, '[')) {
+    for (const char* at = strchr(strchr(line, '[') + 1, '['); at != NULL; at = strchr(at + 1, '[')) {
       double q[8];
-      char *end = (char *)at + 1;
+      char* end = (char*)at + 1;
       for (int i = 0; i < 8; ++i, ++end) q[i] = strtod(end, &end);
       const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
-      const char *reply = x * x + y * y + z * z <= reach * reach ? "{\"case\": %u, \"yes\": true}\n"
-                                                                          : "{\"case\": %u, \"yes\": false}\n";
+      const char* reply = x * x + y * y + z * z <= reach * reach ? "{\"case\": %u, \"yes\": true}\n"
+                                                                 : "{\"case\": %u, \"yes\": false}\n";
       const unsigned number = asked;
       if (++asked % 40 == 0) {
         do_misdeed("ask-");

@@ -19,8 +19,8 @@ namespace detail {
 /// Whether they meet; nothing where doubles may be wrong.
 ///
 /// The coordinate axes are compared without rounding. Let G be the largest coordinate, u = 2^-53. Seen from the box's
-/// center a corner is known to 3 u G, half extents to u G, an edge to 2 u G. Along a cross product, a corner is then known
-/// to 36 u G^2 and the box's reach to 16 u G^2, their difference to 64 u G^2; along the normal, to 700 u G^3.
+/// center a corner is known to 3 u G, half extents to u G, an edge to 2 u G. Along a cross product, a corner is then
+/// known to 36 u G^2 and the box's reach to 16 u G^2, their difference to 64 u G^2; along the normal, to 700 u G^3.
 template <class T>
 std::optional<bool> surely_overlap(const AABox<T>& box, const Triangle<T>& triangle) noexcept {
   using L = Lanes<double>;
@@ -34,9 +34,8 @@ std::optional<bool> surely_overlap(const AABox<T>& box, const Triangle<T>& trian
   const L a = v0 - center, b = v1 - center, c = v2 - center;
   const L bound2 = L::all(0x1p-46 * size * size);
   // How far the interval between two numbers is from the box, which reaches that far to both sides of zero.
-  const auto gap = [&](const L& p, const L& q, const L& reach) COLLIDE_INLINE {
-    return larger(smaller(p, q), zero - larger(p, q)) - reach;
-  };
+  const auto gap = [&](const L& p, const L& q, const L& reach)
+                       COLLIDE_INLINE { return larger(smaller(p, q), zero - larger(p, q)) - reach; };
   // Across the coordinate axes and an edge: both ends of the edge are at one place.
   const auto gaps = [&](const L& edge, const L& start, const L& apex) COLLIDE_INLINE {
     const L size_of = absolute(edge);
@@ -74,7 +73,8 @@ Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& trian
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return aabox_triangle_overlap<decltype(by)>(a...); }, box, triangle);
+    return Tier::lift([](auto by, const auto&... a) { return aabox_triangle_overlap<decltype(by)>(a...); }, box,
+                      triangle);
   }
   if constexpr (MachineNumber<T>) {
     if (!detail::is_finite(box.min + box.max + triangle.v0 + triangle.v1 + triangle.v2)) return {false};

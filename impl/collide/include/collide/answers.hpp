@@ -19,8 +19,8 @@ struct Decision {
   static constexpr auto members() { return std::tuple<>(); }
 };
 
-// Of a decision with a place the place is first: in float such an answer comes back in two registers, and a place behind
-// the flags would lie in both.
+// Of a decision with a place the place is first: in float such an answer comes back in two registers, and a place
+// behind the flags would lie in both.
 
 /// Whether a point lies in a triangle, seen along an axis.
 template <class T>
@@ -30,17 +30,15 @@ struct Containment {
 
   bool yes() const noexcept { return inside; }
   static constexpr auto decision() { return &Containment::inside; }
-  static constexpr auto members() {
-    return std::tuple(member("weights", &Containment::weights, Role::weight));
-  }
+  static constexpr auto members() { return std::tuple(member("weights", &Containment::weights, Role::weight)); }
 };
 
 /// Whether a ray meets a solid, and where.
 template <class T>
 struct RayHit {
-  Vec3<T> location{};    ///< where the ray enters, its origin for a start inside; zero for a miss
+  Vec3<T> location{};  ///< where the ray enters, its origin for a start inside; zero for a miss
   bool hit = false;
-  bool inside = false;   ///< the ray starts in the solid
+  bool inside = false;  ///< the ray starts in the solid
 
   bool yes() const noexcept { return hit; }
   static constexpr auto decision() { return &RayHit::hit; }
@@ -85,8 +83,7 @@ struct Impact {
   static constexpr Impact miss() noexcept { return {}; }
   bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
   static constexpr auto members() {
-    return std::tuple(member("time", &Impact::time, Role::time),
-                      member("location", &Impact::location, Role::position),
+    return std::tuple(member("time", &Impact::time, Role::time), member("location", &Impact::location, Role::position),
                       member("normal", &Impact::normal, Role::normal));
   }
 };
@@ -121,8 +118,7 @@ struct Entry {
   bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
   static constexpr auto members() {
     return std::tuple(member("inside", &Entry::inside, Role::flag),
-                      member("location", &Entry::location, Role::position),
-                      member("time", &Entry::time, Role::time),
+                      member("location", &Entry::location, Role::position), member("time", &Entry::time, Role::time),
                       member("normal", &Entry::normal, Role::normal));
   }
 };
@@ -133,9 +129,7 @@ struct ClosestPoint {
   Vec3<T> point{};
 
   static bool yes() noexcept { return true; }
-  static constexpr auto members() {
-    return std::tuple(member("point", &ClosestPoint::point, Role::position));
-  }
+  static constexpr auto members() { return std::tuple(member("point", &ClosestPoint::point, Role::position)); }
 };
 
 /// The point of a triangle's perimeter nearest to the given one, and the edge that it lies on.
@@ -203,8 +197,7 @@ struct Corner {
   Vec3<T> point{};  ///< zero in front
 
   static constexpr auto members() {
-    return std::tuple(member("behind", &Corner::behind, Role::flag),
-                      member("point", &Corner::point, Role::position));
+    return std::tuple(member("behind", &Corner::behind, Role::flag), member("point", &Corner::point, Role::position));
   }
 };
 
@@ -236,21 +229,20 @@ struct Measure {
 /// What the tools for pairs of boxes share: computed once for a pair.
 template <class T>
 struct BoxBoxInfo {
-  Vec3<T> half1{}, half2{};               ///< half extents: from each center to a corner, in its own frame
-  Vec3<T> between{};                      ///< center 2 - center 1
-  std::array<Vec3<T>, 3> cosine{};        ///< cosine[i].x, .y, .z: axis i of box 1 . axis 0, 1, 2 of box 2
-  std::array<Vec3<T>, 3> abs_cosine{};    ///< their absolute values
-  Vec3<T> between1{}, between2{};         ///< `between` along the axes of box 1, of box 2
+  Vec3<T> half1{}, half2{};             ///< half extents: from each center to a corner, in its own frame
+  Vec3<T> between{};                    ///< center 2 - center 1
+  std::array<Vec3<T>, 3> cosine{};      ///< cosine[i].x, .y, .z: axis i of box 1 . axis 0, 1, 2 of box 2
+  std::array<Vec3<T>, 3> abs_cosine{};  ///< their absolute values
+  Vec3<T> between1{}, between2{};       ///< `between` along the axes of box 1, of box 2
 
   static bool yes() noexcept { return true; }
   static constexpr auto members() {
-    return std::tuple(member("half1", &BoxBoxInfo::half1, Role::position),
-                      member("half2", &BoxBoxInfo::half2, Role::position),
-                      member("between", &BoxBoxInfo::between, Role::position),
-                      member("cosine", &BoxBoxInfo::cosine, Role::weight),
-                      member("abs_cosine", &BoxBoxInfo::abs_cosine, Role::weight),
-                      member("between1", &BoxBoxInfo::between1, Role::position),
-                      member("between2", &BoxBoxInfo::between2, Role::position));
+    return std::tuple(
+        member("half1", &BoxBoxInfo::half1, Role::position), member("half2", &BoxBoxInfo::half2, Role::position),
+        member("between", &BoxBoxInfo::between, Role::position), member("cosine", &BoxBoxInfo::cosine, Role::weight),
+        member("abs_cosine", &BoxBoxInfo::abs_cosine, Role::weight),
+        member("between1", &BoxBoxInfo::between1, Role::position),
+        member("between2", &BoxBoxInfo::between2, Role::position));
   }
 };
 
@@ -260,9 +252,7 @@ struct Direction {
   Vec3<T> direction{};
 
   static bool yes() noexcept { return true; }
-  static constexpr auto members() {
-    return std::tuple(member("direction", &Direction::direction, Role::weight));
-  }
+  static constexpr auto members() { return std::tuple(member("direction", &Direction::direction, Role::weight)); }
 };
 
 }  // namespace collide

@@ -18,10 +18,11 @@ namespace collide {
 ///
 /// The sphere's radius and the lengths of u, normal and velocity play no part.
 template <class Tier = Fast, class T>
-Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
-                              const Vec3<T>& location, const Vec3<T>& normal) noexcept {
+Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
+                              const Vec3<T>& normal) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return bounce_direction<decltype(by)>(a...); }, sphere, velocity, time, location, normal);
+    return Tier::lift([](auto by, const auto&... a) { return bounce_direction<decltype(by)>(a...); }, sphere, velocity,
+                      time, location, normal);
   }
   const Vec3<T> to_center = (sphere.center - location) + velocity * time;
   const bool apart = !(to_center == Vec3<T>{});

@@ -70,7 +70,8 @@ struct Bounded {
     const double least = magnitude(b.value) - 2 * b.error;
     if (!(least > 0)) Doubt::any = true;
     const double inverse = 1 / least;  // beside the quotient, not after it
-    return {quotient, (a.error + magnitude(quotient) * b.error) * inverse * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
+    return {quotient,
+            (a.error + magnitude(quotient) * b.error) * inverse * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
   }
   Bounded& operator+=(const Bounded& b) noexcept { return *this = *this + b; }
   Bounded& operator-=(const Bounded& b) noexcept { return *this = *this - b; }
@@ -232,6 +233,8 @@ struct std::numeric_limits<collide::Bounded<Scalar>> : std::numeric_limits<doubl
 template <class Scalar>
 struct std::numeric_limits<collide::WideBounded<Scalar>> : std::numeric_limits<double> {
   static constexpr collide::WideBounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
-  static constexpr collide::WideBounded<Scalar> quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
+  static constexpr collide::WideBounded<Scalar> quiet_NaN() noexcept {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   static constexpr collide::WideBounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
 };

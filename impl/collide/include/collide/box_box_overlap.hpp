@@ -29,7 +29,8 @@ std::optional<BoxOverlap<T>> sure_overlap(const Box<T>& box1, const Box<T>& box2
                                     wide_lanes(box2.half));
   const double lengths = sum_of_three(absolute(way) + absolute(pair.half1) + absolute(pair.half2)).first();
   if (!(pair.is_usual() && lengths >= 0x1p-400 && lengths <= 0x1p400)) return std::nullopt;
-  const L bound = L::all(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1, zero = L::all(0.0);
+  const L bound = L::all(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1,
+          zero = L::all(0.0);
   unsigned apart = 0, overlap = 0;
   pair.for_each_axis([&](int n, const auto& s) {  // small cross products are within the bound as well
     const L& least = n == 0 ? bound : of_others;

@@ -20,16 +20,17 @@ namespace collide {
 template <class Tier = Fast, class T>
 ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, box1, box2, epsilon);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, box1, box2,
+                      epsilon);
   }
   if (epsilon < T(0)) return {};  // no two axes are that near
-  const std::array<T, 4> r =
-      detail::seen_from(detail::moderate(box1.orientation), detail::moderate(box2.orientation));
+  const std::array<T, 4> r = detail::seen_from(detail::moderate(box1.orientation), detail::moderate(box2.orientation));
   const T most = epsilon * detail::norm2(r);
   if constexpr (MachineNumber<T>) {
     if (!(detail::norm2(r) > T(0))) return {};  // no rotation, or NaN
   }
-  if (epsilon >= T(1)) return epsilon <= std::numeric_limits<T>::max() ? ParallelAxes<T>{true, 0, 0} : ParallelAxes<T>{};
+  if (epsilon >= T(1))
+    return epsilon <= std::numeric_limits<T>::max() ? ParallelAxes<T>{true, 0, 0} : ParallelAxes<T>{};
   const auto sum = [](const T& a, const T& b) { return a * a + b * b; };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -52,7 +53,8 @@ ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T 
 template <class Tier = Fast, class T>
 ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, info, epsilon);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, info,
+                      epsilon);
   }
   for (int i = 0; i < 3; ++i) {
     const std::array<T, 3> row = components(info.abs_cosine[i]);

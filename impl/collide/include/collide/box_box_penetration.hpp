@@ -22,7 +22,7 @@ struct BoxContact {
 /// Both boxes in the frame of box 1, its center the origin, lengths in the boxes' unit.
 template <class T>
 struct BoxesInFrame {
-  Axes<T> axes2;         ///< of box 2, in the frame of box 1
+  Axes<T> axes2;  ///< of box 2, in the frame of box 1
   std::array<T, 3> center2;
 
   explicit BoxesInFrame(const BoxPair<T>& pair) noexcept {
@@ -35,12 +35,15 @@ struct BoxesInFrame {
 };
 
 template <class T>
-T sign_of(const T& x) noexcept { return x < T(0) ? T(-1) : T(1); }
+T sign_of(const T& x) noexcept {
+  return x < T(0) ? T(-1) : T(1);
+}
 
 /// The middle of the shortest segment between an edge of box 1 and one of box 2, those that reach furthest
 /// along the cross product of axes i and j; `unit` is that as a unit vector.
 template <class Tier, class T>
-std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const CrossAxis<T>& unit, const T& side) noexcept {
+std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const CrossAxis<T>& unit,
+                                  const T& side) noexcept {
   const BoxesInFrame<T> frame(pair);
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   const std::array<T, 2>&u1 = unit.in1, &u2 = unit.in2;
@@ -52,7 +55,8 @@ std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const Cr
   middle1[i1] = pair.half1[i1] * sign_of(side * u1[0]);
   middle1[i2] = pair.half1[i2] * sign_of(side * u1[1]);
   const T out1 = pair.half2[j1] * sign_of(side * u2[0]), out2 = pair.half2[j2] * sign_of(side * u2[1]);
-  const std::array<T, 3> b = components(frame.axes2[j]), b1 = components(frame.axes2[j1]), b2 = components(frame.axes2[j2]);
+  const std::array<T, 3> b = components(frame.axes2[j]), b1 = components(frame.axes2[j1]),
+                         b2 = components(frame.axes2[j2]);
   for (int k = 0; k < 3; ++k) middle2[k] = middle2[k] - (b1[k] * out1 + b2[k] * out2);
   const Vec3<T> d{middle2[0] - middle1[0], middle2[1] - middle1[1], middle2[2] - middle1[2]};
   const std::array<T, 3> d1 = components(d), d2 = into_frame<Tier>(frame.axes2, d);
@@ -200,10 +204,12 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
         const auto& s = all[std::size_t(n)];
         return s.gap * s.gap * every(detail::Pair<T>::all(T(1)) / first_pair(s.length2));
       };
-      const L face1 = face_square(0), face2 = face_square(1), family0 = square(2), family1 = square(3), family2 = square(4);
+      const L face1 = face_square(0), face2 = face_square(1), family0 = square(2), family1 = square(3),
+              family2 = square(4);
       const L least = smallest_of_three(smaller(smaller(smaller(face1, face2), smaller(family0, family1)), family2));
       const auto bits = [&](int n, const L& squares) { return unsigned((squares == least).bits() & 7) << 3 * n; };
-      const unsigned is_least = bits(0, face1) | bits(1, face2) | bits(2, family0) | bits(3, family1) | bits(4, family2);
+      const unsigned is_least =
+          bits(0, face1) | bits(1, face2) | bits(2, family0) | bits(3, family1) | bits(4, family2);
       const int bit = detail::first_bit(is_least);
       using limits = std::numeric_limits<T>;
       // Squares that leave the range compare nothing.
@@ -218,7 +224,8 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_penetration<decltype(by)>(a...); }, box1, box2, hint);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_penetration<decltype(by)>(a...); }, box1, box2,
+                      hint);
   }
   using std::abs;
   const detail::BoxPair<T> pair(box1, box2);
@@ -256,7 +263,8 @@ namespace contracts {
 /// back to the world: less than 128 eps of either. Unit: the axes are combined by a unit vector.
 template <class Tier = Fast, class T = double>
 constexpr Contract box_box_penetration() {
-  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -20,7 +20,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, int axis) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_projected_distance<decltype(by)>(a...); }, box1, box2, axis);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_projected_distance<decltype(by)>(a...); }, box1,
+                      box2, axis);
   }
   if (axis < 0 || axis >= box_box_axes) return {std::numeric_limits<T>::quiet_NaN()};
   const detail::BoxPair<T> pair(box1, box2);
@@ -33,7 +34,8 @@ Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, in
 template <class Tier = Fast, class T>
 Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_projected_distance<decltype(by)>(a...); }, info, axis);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_projected_distance<decltype(by)>(a...); }, info,
+                      axis);
   }
   using std::abs;
   if (axis < 0 || axis >= box_box_axes) return {std::numeric_limits<T>::quiet_NaN()};

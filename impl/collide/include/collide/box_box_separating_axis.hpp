@@ -20,7 +20,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_separating_axis<decltype(by)>(a...); }, box1, box2, axis);
+    return Tier::lift([](auto by, const auto&... a) { return box_box_separating_axis<decltype(by)>(a...); }, box1, box2,
+                      axis);
   }
   if (axis < 0 || axis >= box_box_axes) {
     const T none = std::numeric_limits<T>::quiet_NaN();

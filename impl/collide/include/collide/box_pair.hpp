@@ -75,7 +75,7 @@ struct BoxPair {
   std::array<std::array<T, 3>, 3> cosine;  ///< axis i of box 1 . axis j of box 2, times |q1|^2 |q2|^2
   std::array<T, 3> between;                ///< center 2 - center 1 along the axes of box 1, times |q1|^2
   std::array<T, 3> half1, half2;
-  T norm1, norm2;                          ///< |q1|^2, |q2|^2
+  T norm1, norm2;  ///< |q1|^2, |q2|^2
 
   BoxPair(const Box<T>& box1, const Box<T>& box2) noexcept
       : half1(components(box1.half)), half2(components(box2.half)) {
@@ -136,7 +136,9 @@ T at_most_one(const T& x) noexcept {
   return x;
 }
 template <class T>
-Vec3<T> at_most_one(const Vec3<T>& v) noexcept { return {at_most_one(v.x), at_most_one(v.y), at_most_one(v.z)}; }
+Vec3<T> at_most_one(const Vec3<T>& v) noexcept {
+  return {at_most_one(v.x), at_most_one(v.y), at_most_one(v.z)};
+}
 
 /// What an axis says: how far the projections lie apart (negative: they overlap), and the part of
 /// center 2 - center 1 along it, both times the same positive number.
@@ -178,7 +180,8 @@ Separation<T> separation(const BoxPair<T>& p, int axis, bool as_direction = true
 template <class T>
 struct SeparationsInLanes {
   Lanes<T> gap, toward;
-  Lanes<T> length2;  ///< squares of what the gaps are multiplied by, over norm1: of a family those of the cross products
+  Lanes<T>
+      length2;  ///< squares of what the gaps are multiplied by, over norm1: of a family those of the cross products
 };
 
 /// Axis i of the n-th three of BoxPairInLanes is bit 3 n + i; bit 15, no axis, is -1.
@@ -200,7 +203,8 @@ struct BoxPairInLanes {
       : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
                        lanes(box2.half)) {}
   /// Of boxes with these orientations and half extents, box 2 `way` from box 1.
-  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1, const L& half_of_2) noexcept
+  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1,
+                 const L& half_of_2) noexcept
       : half1(half_of_1), half2(half_of_2) {
     L a = lanes(q1), b = lanes(q2);
     norm1 = sum_of_four(a * a);
@@ -229,14 +233,17 @@ struct BoxPairInLanes {
     const L scale = norm1 * norm2;
     const L toward1 = between * norm2, toward2 = frame.into(between);
     each(0, SeparationsInLanes<T>{absolute(toward1) - (half1 * scale + sizes.out_of(half2)), toward1, norm2 * norm2});
-    each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2, scale * scale});
+    each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2,
+                                  scale * scale});
 
     const L v = turn, v1 = yzx(turn), v2 = zxy(turn), w = turn.template broadcast<3>();
     const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
     // Far above what underflows, and the same whatever the quaternions' lengths.
-    const L least = L::all(std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(0x1p40)) * scale * scale;
+    const L least =
+        L::all(std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(0x1p40)) * scale * scale;
     std::array<L, 3> small;
-    const auto family = [&](int number, const L& in1_0, const L& in1_1, const L& in2_0, const L& in2_1, const L& far1, const L& far2) COLLIDE_INLINE {
+    const auto family = [&](int number, const L& in1_0, const L& in1_1, const L& in2_0, const L& in2_1, const L& far1,
+                            const L& far2) COLLIDE_INLINE {
       const L toward = b1 * in1_0 + b2 * in1_1;
       const L reach1 = near1 * absolute(in1_0) + near2 * absolute(in1_1);
       const L reach2 = far1 * absolute(in2_0) + far2 * absolute(in2_1);

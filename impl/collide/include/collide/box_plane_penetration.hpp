@@ -36,7 +36,8 @@ CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane
       const L odd = L::of(T(-0.0), T(0), T(-0.0), T(0)), low_half = L::of(T(-0.0), T(-0.0), T(0), T(0));
       const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0 to 3 and 4 to 7, but for z
       const L height_low = around - reach_z, height_high = around + reach_z;
-      const L lowest = smaller(height_low, height_high), by_two = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
+      const L lowest = smaller(height_low, height_high),
+              by_two = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
       const L depth = (zero - smaller(by_two, by_two.template shuffled<1, 0, 3, 2>())) / norm, overlap = zero <= depth;
       CornerContacts<T> contacts;
       contacts.depth = depth.first();
@@ -97,7 +98,8 @@ namespace contracts {
 /// explains; the norm and the quotient 4 eps.
 template <class Tier = Fast, class T = double>
 constexpr Contract box_plane_penetration() {
-  return Tier::template contract<T>({.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -82,7 +82,8 @@ inline void settle(int x) noexcept {
 #endif
 }
 
-/// Whether any operation from the construction up to the answer overflowed or underflowed: then the bounds mean nothing.
+/// Whether any operation from the construction up to the answer overflowed or underflowed: then the bounds mean
+/// nothing.
 class RangeFlags {
  public:
   template <class... Args>
@@ -184,7 +185,10 @@ auto raised(const Argument& argument) {
 /// A time beyond the largest finite scalar is a miss.
 template <class N, class A>
 void miss_beyond_range(A& answer) {
-  if constexpr (requires { A::miss(); answer.time; }) {
+  if constexpr (requires {
+                  A::miss();
+                  answer.time;
+                }) {
     if (answer.time < std::numeric_limits<N>::infinity() && answer.time > std::numeric_limits<N>::max()) {
       answer = A::miss();
     }
@@ -206,8 +210,8 @@ inline double leading(const DoubleWord<double>& value) { return value.high; }
 /// long doubles, in double-words, or not even then.
 enum class Known { not_yet, in_double_words, in_long_double, now };
 
-/// Of one quantity (a time, a point, a vector) over Bounded or WideBounded, for T. Infinities and what is exactly a T are
-/// known.
+/// Of one quantity (a time, a point, a vector) over Bounded or WideBounded, for T. Infinities and what is exactly a T
+/// are known.
 template <class T, class Quantity>
 Known known_quantity(const Quantity& quantity) {
   double largest = 0, error = 0;

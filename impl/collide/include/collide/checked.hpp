@@ -151,7 +151,8 @@ constexpr std::optional<BrokenRule> broken_within(const S& s, const FieldPath& p
 /// `name` is what the field's path begins with.
 template <Listed S>
 constexpr std::optional<BrokenRule> broken_rule(const S& s, std::string_view name = detail::name_of_shape<S>) noexcept {
-  static_assert(1 + detail::depth<S>() + 1 <= FieldPath::deepest, "name, path, and the member that a shape's rule names");
+  static_assert(1 + detail::depth<S>() + 1 <= FieldPath::deepest,
+                "name, path, and the member that a shape's rule names");
   return detail::broken_within(s, FieldPath(name), Role::inherited);
 }
 

@@ -19,7 +19,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& point) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_point_rectangle<decltype(by)>(a...); }, rectangle, point);
+    return Tier::lift([](auto by, const auto&... a) { return closest_point_rectangle<decltype(by)>(a...); }, rectangle,
+                      point);
   }
   const auto& [v0, v1, v2, v3] = rectangle;
   if constexpr (MachineNumber<T>) {

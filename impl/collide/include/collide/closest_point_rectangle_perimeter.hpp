@@ -19,8 +19,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_point_rectangle_perimeter<decltype(by)>(a...); }, rectangle,
-                      point);
+    return Tier::lift([](auto by, const auto&... a) { return closest_point_rectangle_perimeter<decltype(by)>(a...); },
+                      rectangle, point);
   }
   const std::array<Vec3<T>, 4> v{rectangle.v0, rectangle.v1, rectangle.v2, rectangle.v3};
   if constexpr (MachineNumber<T>) {

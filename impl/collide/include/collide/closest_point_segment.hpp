@@ -17,7 +17,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_point_segment<decltype(by)>(a...); }, segment, point);
+    return Tier::lift([](auto by, const auto&... a) { return closest_point_segment<decltype(by)>(a...); }, segment,
+                      point);
   }
   const Vec3<T> along = segment.v1 - segment.v0;
   const T projection = Tier::dot(point - segment.v0, along);

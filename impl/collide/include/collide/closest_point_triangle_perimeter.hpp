@@ -29,8 +29,8 @@ inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<
   // How much further the foot on the next edge is, seen from the vertex between them: see next_further_by.
   const Columns<T> next = yzx(from_start), to_point = yzx(way);
   const L further = dot(next - from_end, (from_end - to_point) + (next - to_point));
-  // Whether the second is no nearer than the first, the third than the second, and the first no nearer than the third: a
-  // table, for nobody can predict it.
+  // Whether the second is no nearer than the first, the third than the second, and the first no nearer than the third:
+  // a table, for nobody can predict it.
   constexpr signed char nearest[] = {2, 2, 1, 2, 2, 0, 1, 0};
   const int edge = nearest[((zero <= further).bits() & 3) | ((further <= zero).bits() & 4)];
   const Columns<T> foot = select(share == one, end, start + from_start);

@@ -14,8 +14,8 @@ namespace collide::detail {
 
 /// A rational, or a + b sqrt(d): a, b and d are rationals or have roots that were taken before sqrt(d).
 ///
-/// So the numbers are those of a tower of quadratic extensions of the rationals. Nothing asks whether sqrt(d) lies in the
-/// tower below already: then a number has several forms, and what follows is right of each.
+/// So the numbers are those of a tower of quadratic extensions of the rationals. Nothing asks whether sqrt(d) lies in
+/// the tower below already: then a number has several forms, and what follows is right of each.
 ///
 /// 1. a + b sqrt(d), where a and b have opposite signs, has the sign of a times that of a^2 - b^2 d
 /// 2. 1 / (a + b sqrt(d)) == (a - b sqrt(d)) / (a^2 - b^2 d), or 1 / (2 a) where that divisor is zero
@@ -117,7 +117,8 @@ class Roots {
         }
       }
     }
-    taken_.push_back(std::make_shared<const Constructible::Root>(Constructible::Root{std::uint32_t(taken_.size() + 1), square}));
+    taken_.push_back(
+        std::make_shared<const Constructible::Root>(Constructible::Root{std::uint32_t(taken_.size() + 1), square}));
     return Constructible::with(taken_.back(), {}, Constructible(1.0));
   }
   void clear() { taken_.clear(); }

@@ -40,7 +40,8 @@ inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<doub
   return answer;
 }
 
-/// A contact where `hit` has all bits in the first lane, whatever the others are where it has none. A time is not negative.
+/// A contact where `hit` has all bits in the first lane, whatever the others are where it has none. A time is not
+/// negative.
 template <class P, class L>
 auto impact(const P& hit, const P& time, const L& location, const L& normal) noexcept {
   using T = decltype(time.first());
@@ -68,7 +69,8 @@ Vec3<T> turned_against(const Vec3<T>& n, const Vec3<T>& velocity) noexcept {
   return Tier::dot(n, velocity) > T(0) ? -n : n;
 }
 
-/// A unit vector at a right angle to the unit vector `axis`, or any where that is zero, that does not lead along the motion.
+/// A unit vector at a right angle to the unit vector `axis`, or any where that is zero, that does not lead along the
+/// motion.
 template <class Tier, class T>
 Vec3<T> perpendicular_against(const Vec3<T>& axis, const Vec3<T>& velocity) noexcept {
   return turned_against<Tier>(perpendicular<Tier>(axis), velocity);
@@ -108,7 +110,8 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) no
   return not_negative(nearest - sqrt(chord2) / sqrt(speed2));
 }
 
-/// Whether a ball surely moves away from the front of a plane, or starts wholly behind it; a point is a ball of radius 0.
+/// Whether a ball surely moves away from the front of a plane, or starts wholly behind it; a point is a ball of radius
+/// 0.
 ///
 /// A sum of n products is known to n u of the sum of their magnitudes (u = 2^-53), the length of the normal to 3 u of
 /// itself, each product to 2^-1074 where it underflows; 8 u are asked for.
@@ -129,15 +132,17 @@ inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<
 /// Whether a moving point is surely outside of a ball and never comes to it. `from`, seen from the center, and `radius`
 /// are differences and sums of what is given, each number known to 1 u (u = 2^-53).
 ///
-/// Where nothing overflows or underflows a square of a length is known to 5 u of itself, `along` to 5 u of the sum of its
-/// terms' magnitudes, at most sqrt(distance2 speed2): each difference below is known to less than 2^6 u of what it is
-/// compared with, and 2^11 u are asked for.
+/// Where nothing overflows or underflows a square of a length is known to 5 u of itself, `along` to 5 u of the sum of
+/// its terms' magnitudes, at most sqrt(distance2 speed2): each difference below is known to less than 2^6 u of what it
+/// is compared with, and 2^11 u are asked for.
 inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) noexcept {
   const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
   const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;
   const double scale = (distance2 + radius2) * speed2;
   constexpr double least = 0x1p-800, most = 0x1p800, known = 0x1p-42;
-  if (!(scale >= least && scale <= most && distance2 >= least && distance2 <= most && speed2 >= least && speed2 <= most)) return false;
+  if (!(scale >= least && scale <= most && distance2 >= least && distance2 <= most && speed2 >= least &&
+        speed2 <= most))
+    return false;
   if (!(distance2 - radius2 > known * (distance2 + radius2))) return false;
   if (along > known * (std::abs(x) + std::abs(y) + std::abs(z))) return true;  // it moves away
   return (distance2 - radius2) * speed2 - along * along > known * (scale + along * along);

@@ -9,8 +9,8 @@ namespace collide {
 /// A promise; infinity promises nothing. `epsilon` is the unit roundoff of the implementation's
 /// scalar: 2^-24 for float, 2^-53 for double.
 ///
-/// The tiers of this library promise one thing more, which is about operations and not about answers: where no operation of a
-/// query's text rounds, the decision, touches included, and all numbers are the exact ones.
+/// The tiers of this library promise one thing more, which is about operations and not about answers: where no
+/// operation of a query's text rounds, the decision, touches included, and all numbers are the exact ones.
 struct Contract {
   static constexpr double none = std::numeric_limits<double>::infinity();
 

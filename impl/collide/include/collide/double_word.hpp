@@ -31,7 +31,8 @@ struct DoubleWord {
     const T b_part = s - a;
     return {s, (a - (s - b_part)) + (b - b_part)};
   }
-  /// Exact: by a fused multiply-add where the machine has one, else Dekker's product, for |a|, |b| below 2^(emax - digits/2).
+  /// Exact: by a fused multiply-add where the machine has one, else Dekker's product, for |a|, |b| below 2^(emax -
+  /// digits/2).
   static constexpr DoubleWord two_product(T a, T b) noexcept {
 #if defined(__FMA__)
     if (!std::is_constant_evaluated()) {

@@ -92,15 +92,13 @@ T largest_abs(const Vec3<T>& x) noexcept {
 /// 0, base and apex; the point w, like both, is seen from the first corner.
 template <class T>
 struct FaceFoot {
-  bool inside = false;     ///< in the triangle; false where it has no area
-  T base_share{};          ///< of the nearest point on the line of the base
-  Vec3<T> height{};        ///< from that line to the apex
+  bool inside = false;  ///< in the triangle; false where it has no area
+  T base_share{};       ///< of the nearest point on the line of the base
+  Vec3<T> height{};     ///< from that line to the apex
   T base_weight{}, apex_weight{};
 
   Vec3<T> from_start(const Vec3<T>& base) const noexcept { return base * base_share + height * apex_weight; }
-  Vec3<T> from_end(const Vec3<T>& base) const noexcept {
-    return base * (base_share - T(1)) + height * apex_weight;
-  }
+  Vec3<T> from_end(const Vec3<T>& base) const noexcept { return base * (base_share - T(1)) + height * apex_weight; }
 };
 
 /// Source: orthogonalization of base and apex (Gram and Schmidt), and of w before it is measured along the
@@ -121,9 +119,9 @@ FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>
   return foot;
 }
 
-/// Whether a triangle is so thin that sums of products of its edges do not do, from the squares of n = edge1 x edge2 and of
-/// these edges.
-/// Thin: (edge1^2 + edge2^2)^2 > thinness n^2; moving_point_triangle.hpp derives what the normal of another is good for.
+/// Whether a triangle is so thin that sums of products of its edges do not do, from the squares of n = edge1 x edge2
+/// and of these edges. Thin: (edge1^2 + edge2^2)^2 > thinness n^2; moving_point_triangle.hpp derives what the normal of
+/// another is good for.
 inline constexpr int thinness = 100;
 template <MachineNumber T>
 bool is_thin(T n2, T edge1_squared, T edge2_squared) noexcept {
@@ -150,6 +148,8 @@ Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
 }
 
 template <class T>
-std::array<Vec3<T>, 3> corners(const Triangle<T>& t) noexcept { return {t.v0, t.v1, t.v2}; }
+std::array<Vec3<T>, 3> corners(const Triangle<T>& t) noexcept {
+  return {t.v0, t.v1, t.v2};
+}
 
 }  // namespace collide::detail

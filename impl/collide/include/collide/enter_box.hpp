@@ -52,12 +52,12 @@ BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, 
 /// The same in lanes, for any start.
 template <class T>
 struct BoxEntryInLanes {
-  bool enters;      ///< or starts inside
-  bool inside;      ///< starts in the closed box
-  Lanes<T> time;    ///< in every lane; 0 for a start inside
+  bool enters;    ///< or starts inside
+  bool inside;    ///< starts in the closed box
+  Lanes<T> time;  ///< in every lane; 0 for a start inside
   Lanes<T> at;
-  Lanes<T> axis;    ///< all bits where a face is entered: several where they are reached at once
-  Lanes<T> below;   ///< all bits where the start is below the box
+  Lanes<T> axis;   ///< all bits where a face is entered: several where they are reached at once
+  Lanes<T> below;  ///< all bits where the start is below the box
 };
 
 /// Everybody is asked everything, and then selected from. Infinity and NaN do not enter.

@@ -69,9 +69,9 @@ T excess(T coordinate, T half) noexcept {
 /// The face of a box nearest to a point inside it.
 template <class T>
 struct NearestFace {
-  int axis = 0;   ///< of the face's outward normal
-  T side{1};      ///< +1 or -1
-  T distance{};   ///< from the point, not negative for a point inside
+  int axis = 0;  ///< of the face's outward normal
+  T side{1};     ///< +1 or -1
+  T distance{};  ///< from the point, not negative for a point inside
 };
 
 template <class T>
@@ -110,7 +110,9 @@ namespace detail {
 
 /// Whether `moderate` may leave a quaternion of that squared length as it is: false for NaN.
 template <class T>
-bool is_moderate(T norm2) noexcept { return norm2 >= T(0.00390625) && norm2 <= T(1024); }
+bool is_moderate(T norm2) noexcept {
+  return norm2 >= T(0.00390625) && norm2 <= T(1024);
+}
 /// `moderate`, in lanes.
 template <class T>
 Lanes<T> of_moderate_length(const Quaternion<T>& q) noexcept {
@@ -127,8 +129,8 @@ class FrameInLanes {
  public:
   explicit FrameInLanes(const Lanes<T>& q) noexcept {
     const Lanes<T> scaled = q * (Lanes<T>::all(T(2)) / sum_of_four(q * q));
-    const Lanes<T> squares = q * scaled;                             // xx, yy, zz
-    const Lanes<T> products = yzx(q) * zxy(scaled);                  // yz, zx, xy
+    const Lanes<T> squares = q * scaled;                        // xx, yy, zz
+    const Lanes<T> products = yzx(q) * zxy(scaled);             // yz, zx, xy
     const Lanes<T> turns = q.template broadcast<3>() * scaled;  // wx, wy, wz
     main_ = Lanes<T>::all(T(1)) - (yzx(squares) + zxy(squares));
     sums_ = products + turns;

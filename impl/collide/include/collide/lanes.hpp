@@ -14,7 +14,8 @@
 #define COLLIDE_LANES 1
 #if defined(__GNUC__)  // for lambdas: as functions they would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
-#define COLLIDE_OUT_OF_LINE __attribute__((noinline, cold))  // for what is rare: in line it would take registers all the time
+#define COLLIDE_OUT_OF_LINE \
+  __attribute__((noinline, cold))  // for what is rare: in line it would take registers all the time
 #else
 #define COLLIDE_INLINE
 #define COLLIDE_OUT_OF_LINE
@@ -53,7 +54,9 @@ struct Lanes<float> {
   /// All bits in the first three lanes.
   static Lanes first_three() noexcept { return {_mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0))}; }
   /// All bits in lane i.
-  static Lanes only(int i) noexcept { return {_mm_castsi128_ps(_mm_setr_epi32(-(i == 0), -(i == 1), -(i == 2), -(i == 3)))}; }
+  static Lanes only(int i) noexcept {
+    return {_mm_castsi128_ps(_mm_setr_epi32(-(i == 0), -(i == 1), -(i == 2), -(i == 3)))};
+  }
 
   friend Lanes operator+(Lanes a, Lanes b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
   friend Lanes operator-(Lanes a, Lanes b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
@@ -79,9 +82,13 @@ struct Lanes<float> {
   void store(float* four) const noexcept { _mm_storeu_ps(four, v); }
   /// Lanes x, y, z, w of this one in another order.
   template <int x, int y, int z, int w>
-  Lanes shuffled() const noexcept { return {_mm_shuffle_ps(v, v, _MM_SHUFFLE(w, z, y, x))}; }
+  Lanes shuffled() const noexcept {
+    return {_mm_shuffle_ps(v, v, _MM_SHUFFLE(w, z, y, x))};
+  }
   template <int i>
-  Lanes broadcast() const noexcept { return shuffled<i, i, i, i>(); }
+  Lanes broadcast() const noexcept {
+    return shuffled<i, i, i, i>();
+  }
   float first() const noexcept { return _mm_cvtss_f32(v); }
 };
 
@@ -111,7 +118,9 @@ struct TwoDoubles {
   friend TwoDoubles smaller(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_min_pd(b.v, a.v)}; }
 
   template <int x, int y>
-  TwoDoubles shuffled() const noexcept { return {_mm_shuffle_pd(v, v, x | y << 1)}; }
+  TwoDoubles shuffled() const noexcept {
+    return {_mm_shuffle_pd(v, v, x | y << 1)};
+  }
   double first() const noexcept { return _mm_cvtsd_f64(v); }
 };
 
@@ -120,7 +129,9 @@ struct Lanes<double> {
   TwoDoubles low, high;
 
   static Lanes all(double x) noexcept { return {TwoDoubles::all(x), TwoDoubles::all(x)}; }
-  static Lanes of(double x, double y, double z, double w = 0) noexcept { return {{_mm_setr_pd(x, y)}, {_mm_setr_pd(z, w)}}; }
+  static Lanes of(double x, double y, double z, double w = 0) noexcept {
+    return {{_mm_setr_pd(x, y)}, {_mm_setr_pd(z, w)}};
+  }
   static Lanes load(const char* there) noexcept {
     const double* const first = reinterpret_cast<const double*>(there);
     return {{_mm_loadu_pd(first)}, {_mm_loadu_pd(first + 2)}};
@@ -148,7 +159,9 @@ struct Lanes<double> {
   friend Lanes operator&(Lanes a, Lanes b) noexcept { return {a.low & b.low, a.high & b.high}; }
   friend Lanes operator|(Lanes a, Lanes b) noexcept { return {a.low | b.low, a.high | b.high}; }
   friend Lanes operator^(Lanes a, Lanes b) noexcept { return {a.low ^ b.low, a.high ^ b.high}; }
-  friend Lanes without(Lanes a, Lanes where) noexcept { return {without(a.low, where.low), without(a.high, where.high)}; }
+  friend Lanes without(Lanes a, Lanes where) noexcept {
+    return {without(a.low, where.low), without(a.high, where.high)};
+  }
   int bits() const noexcept { return low.bits() | high.bits() << 2; }
 
   friend Lanes sqrt(Lanes a) noexcept { return {sqrt(a.low), sqrt(a.high)}; }
@@ -157,7 +170,9 @@ struct Lanes<double> {
 
   void store(double* four) const noexcept { _mm_storeu_pd(four, low.v), _mm_storeu_pd(four + 2, high.v); }
   template <int x, int y, int z, int w>
-  Lanes shuffled() const noexcept { return {pair<x, y>(), pair<z, w>()}; }
+  Lanes shuffled() const noexcept {
+    return {pair<x, y>(), pair<z, w>()};
+  }
   template <int i>
   Lanes broadcast() const noexcept {
     const TwoDoubles twice = pair<i, i>();
@@ -251,9 +266,13 @@ inline CornerLanes<double> corner_lanes(const Triangle<double>& triangle) noexce
 
 /// The same in doubles.
 template <class T>
-Lanes<double> wide_lanes(const Vec3<T>& a) noexcept { return Lanes<double>::of(a.x, a.y, a.z); }
+Lanes<double> wide_lanes(const Vec3<T>& a) noexcept {
+  return Lanes<double>::of(a.x, a.y, a.z);
+}
 template <class T>
-Lanes<double> wide_lanes(const Quaternion<T>& q) noexcept { return Lanes<double>::of(q.x, q.y, q.z, q.w); }
+Lanes<double> wide_lanes(const Quaternion<T>& q) noexcept {
+  return Lanes<double>::of(q.x, q.y, q.z, q.w);
+}
 template <class T>
 std::array<T, 4> four(const Lanes<T>& a) noexcept {
   std::array<T, 4> numbers;
@@ -263,9 +282,13 @@ std::array<T, 4> four(const Lanes<T>& a) noexcept {
 
 /// a where `where` has all bits, b where it has none.
 template <class L>
-L select(const L& where, const L& a, const L& b) noexcept { return (a & where) | without(b, where); }
+L select(const L& where, const L& a, const L& b) noexcept {
+  return (a & where) | without(b, where);
+}
 template <class T>
-Lanes<T> absolute(const Lanes<T>& a) noexcept { return without(a, Lanes<T>::all(T(-0.0))); }
+Lanes<T> absolute(const Lanes<T>& a) noexcept {
+  return without(a, Lanes<T>::all(T(-0.0)));
+}
 
 /// All bits in the lanes in which every argument is finite.
 template <class T, class... More>
@@ -274,19 +297,29 @@ Lanes<T> are_finite(const Lanes<T>& a, const More&... more) noexcept {
 }
 /// Whether the first three lanes of a mask have all bits.
 template <class T>
-bool all_three(const Lanes<T>& mask) noexcept { return (mask.bits() & 7) == 7; }
+bool all_three(const Lanes<T>& mask) noexcept {
+  return (mask.bits() & 7) == 7;
+}
 
 template <class T>
-bool any_of_three(const Lanes<T>& mask) noexcept { return (mask.bits() & 7) != 0; }
+bool any_of_three(const Lanes<T>& mask) noexcept {
+  return (mask.bits() & 7) != 0;
+}
 
 /// y, z, x and z, x, y of the first three lanes.
 template <class T>
-Lanes<T> yzx(const Lanes<T>& a) noexcept { return a.template shuffled<1, 2, 0, 3>(); }
+Lanes<T> yzx(const Lanes<T>& a) noexcept {
+  return a.template shuffled<1, 2, 0, 3>();
+}
 template <class T>
-Lanes<T> zxy(const Lanes<T>& a) noexcept { return a.template shuffled<2, 0, 1, 3>(); }
+Lanes<T> zxy(const Lanes<T>& a) noexcept {
+  return a.template shuffled<2, 0, 1, 3>();
+}
 
 template <class T>
-Lanes<T> cross(const Lanes<T>& a, const Lanes<T>& b) noexcept { return yzx(a * yzx(b) - yzx(a) * b); }
+Lanes<T> cross(const Lanes<T>& a, const Lanes<T>& b) noexcept {
+  return yzx(a * yzx(b) - yzx(a) * b);
+}
 
 /// Of four vectors the first, second and third numbers: vector i is lane i of all three.
 template <class T>
@@ -312,7 +345,8 @@ struct Columns {
 };
 inline Columns<float> columns(Lanes<float> a, Lanes<float> b, Lanes<float> c, Lanes<float> d) noexcept {
   const __m128 ab = _mm_unpacklo_ps(a.v, b.v), cd = _mm_unpacklo_ps(c.v, d.v);  // a0 b0 a1 b1
-  return {{_mm_movelh_ps(ab, cd)}, {_mm_movehl_ps(cd, ab)},
+  return {{_mm_movelh_ps(ab, cd)},
+          {_mm_movehl_ps(cd, ab)},
           {_mm_movelh_ps(_mm_unpackhi_ps(a.v, b.v), _mm_unpackhi_ps(c.v, d.v))}};
 }
 inline Columns<double> columns(Lanes<double> a, Lanes<double> b, Lanes<double> c, Lanes<double> d) noexcept {
@@ -368,9 +402,13 @@ Pair<T> smallest_of(const Lanes<T>& a) noexcept {
 }
 /// And in every lane.
 template <class T>
-Lanes<T> largest_of_three(const Lanes<T>& a) noexcept { return every(largest_of(a)); }
+Lanes<T> largest_of_three(const Lanes<T>& a) noexcept {
+  return every(largest_of(a));
+}
 template <class T>
-Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept { return every(smallest_of(a)); }
+Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept {
+  return every(smallest_of(a));
+}
 /// Of a mask's first three lanes only the first that has bits.
 template <class T>
 Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {

@@ -15,7 +15,8 @@
 namespace collide {
 
 /// What a number stands for. Positions, velocities, sizes, directions, rotations, times and
-/// offsets of an input are also the groups within which a perturbation is measured (docs/semantics.md, "Backward error").
+/// offsets of an input are also the groups within which a perturbation is measured (docs/semantics.md, "Backward
+/// error").
 enum class Role {
   inherited,  ///< the role of the enclosing member
   position,   ///< length, from the origin
@@ -40,8 +41,7 @@ struct Member {
 };
 
 template <class Owner, class Value>
-constexpr Member<Owner, Value> member(std::string_view name, Value Owner::*pointer,
-                                      Role role = Role::inherited) {
+constexpr Member<Owner, Value> member(std::string_view name, Value Owner::*pointer, Role role = Role::inherited) {
   return {name, pointer, role};
 }
 
@@ -51,8 +51,7 @@ concept Listed = requires { std::remove_cvref_t<S>::members(); };
 /// Calls f(name, value, role) for each direct member of s, in order.
 template <Listed S, class F>
 constexpr void for_each_member(S& s, F&& f) {
-  std::apply([&](const auto&... m) { (f(m.name, s.*(m.pointer), m.role), ...); },
-             std::remove_const_t<S>::members());
+  std::apply([&](const auto&... m) { (f(m.name, s.*(m.pointer), m.role), ...); }, std::remove_const_t<S>::members());
 }
 
 /// Calls f(value, role) for each leaf (number, bool, int) of a listed struct, depth first, in order.

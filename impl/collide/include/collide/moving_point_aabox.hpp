@@ -40,8 +40,8 @@ Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_aabox<decltype(by)>(a...); },
-                      point, velocity, aabox);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_aabox<decltype(by)>(a...); }, point, velocity,
+                      aabox);
   }
   const std::array<T, 3> at = components(point), step = components(velocity);
   const std::array<T, 3> low = components(aabox.min), high = components(aabox.max);
@@ -69,7 +69,8 @@ namespace contracts {
 /// sum 1 eps each of a way of at most 2 G. Point and faces move by 4 * 2 eps G at most.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_aabox() {
-  return Tier::template contract<T>({.backward = 8, .unit = 0, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 8, .unit = 0, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

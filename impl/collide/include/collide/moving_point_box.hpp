@@ -22,8 +22,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); },
-                      point, velocity, box);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); }, point, velocity,
+                      box);
   }
   return detail::point_enters_box<Tier>(point, velocity, box);
 }
@@ -35,7 +35,8 @@ namespace contracts {
 /// most 4 G; the way to the face and back to the world adds 12 eps of 4 G at most.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_box() {
-  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

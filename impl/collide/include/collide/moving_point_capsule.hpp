@@ -16,11 +16,11 @@ namespace detail {
 /// Whether a moving point surely starts inside of a capsule, or moves away from every point of its axis and so never
 /// enters it, or moves along a line that passes it.
 ///
-/// Seen from an end of the axis the point is known to 1 u (u = 2^-53), from a place on the axis to 2 u of the ways to the
-/// ends; its product with the velocity to 4 u of the sum of the terms' magnitudes. With d the axis, w = velocity x d is
-/// known to 6 u |velocity| |d|, and its product with the way from p0 to the point, which is |w| times the distance of the
-/// two lines, to 12 u of the product of three lengths; what it is compared with to 12 u (radius + way) |velocity| |d|.
-/// 2^7 u are asked for.
+/// Seen from an end of the axis the point is known to 1 u (u = 2^-53), from a place on the axis to 2 u of the ways to
+/// the ends; its product with the velocity to 4 u of the sum of the terms' magnitudes. With d the axis, w = velocity x
+/// d is known to 6 u |velocity| |d|, and its product with the way from p0 to the point, which is |w| times the distance
+/// of the two lines, to 12 u of the product of three lengths; what it is compared with to 12 u (radius + way)
+/// |velocity| |d|. 2^7 u are asked for.
 inline bool surely_enters_nowhere(const Vec3<double>& point, const Vec3<double>& velocity, const Vec3<double>& p0,
                                   const Vec3<double>& p1, double radius) noexcept {
   constexpr double known = 0x1p-46, least = 0x1p-900, most = 0x1p900;
@@ -50,21 +50,23 @@ inline bool surely_enters_nowhere(const Vec3<double>& point, const Vec3<double>&
 /// a segment, all of it surface.
 ///
 /// 1. location == point + velocity * time (exactly, in real numbers), at the distance radius from the axis
-/// 2. normal points from the axis to location; for radius 0 it is at a right angle to the axis, and not along the motion
+/// 2. normal points from the axis to location; for radius 0 it is at a right angle to the axis, and not along the
+/// motion
 ///
 /// Source: in the plane across the axis the endless tube is a circle; where the point enters it beyond an
 /// end, the ball around that end counts.
 template <class Tier = Fast, class T>
 Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule) noexcept {
   if constexpr (looks_first<Tier, T>) {
-    if (detail::surely_enters_nowhere(detail::in_double(point), detail::in_double(velocity), detail::in_double(capsule.p0),
-                                      detail::in_double(capsule.p1), double(capsule.radius))) {
+    if (detail::surely_enters_nowhere(detail::in_double(point), detail::in_double(velocity),
+                                      detail::in_double(capsule.p0), detail::in_double(capsule.p1),
+                                      double(capsule.radius))) {
       return Tier::sure(Impact<T>::miss());
     }
   }
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_capsule<decltype(by)>(a...); },
-                      point, velocity, capsule);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_capsule<decltype(by)>(a...); }, point,
+                      velocity, capsule);
   }
   return detail::past_capsule<Tier>(point, T(0), velocity, capsule);
 }
@@ -76,7 +78,8 @@ namespace contracts {
 /// and the radius 4 eps more; the way back along the axis 9 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_capsule() {
-  return Tier::template contract<T>({.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -80,7 +80,8 @@ namespace contracts {
 /// moves the point, half the velocity. A unit normal carries 4 eps, which turns the plane.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_plane() {
-  return Tier::template contract<T>({.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

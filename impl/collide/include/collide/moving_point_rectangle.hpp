@@ -20,8 +20,8 @@ template <class Tier = Fast, class T>
 Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                  const Rectangle<T>& rectangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_rectangle<decltype(by)>(a...); },
-                      point, velocity, rectangle);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_rectangle<decltype(by)>(a...); }, point,
+                      velocity, rectangle);
   }
   const Vec3<T> a = rectangle.v0 - point, b = rectangle.v1 - point;
   const Vec3<T> c = rectangle.v2 - point, d = rectangle.v3 - point;
@@ -55,7 +55,8 @@ namespace contracts {
 /// plane and again for the edges; the location adds 2 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_rectangle() {
-  return Tier::template contract<T>({.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+  return Tier::template contract<T>(
+      {.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
 }
 
 }  // namespace contracts

@@ -27,11 +27,12 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
                               bool solid) noexcept {
   if constexpr (looks_first<Tier, T>) {
     const Vec3<double> from = detail::in_double(point) - detail::in_double(sphere.center);
-    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius))) return Tier::sure(Impact<T>::miss());
+    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius)))
+      return Tier::sure(Impact<T>::miss());
   }
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); },
-                      point, velocity, sphere, solid);
+    return Tier::lift([](auto by, const auto&... a) { return moving_point_sphere<decltype(by)>(a...); }, point,
+                      velocity, sphere, solid);
   }
   using std::sqrt;
   const Vec3<T> m = point - sphere.center;
@@ -61,7 +62,8 @@ namespace contracts {
 /// location 2 eps of 4 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_sphere() {
-  return Tier::template contract<T>({.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -77,8 +77,8 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
 /// The corners are `a`, seen from the moving point, a + edge1 and a + edge2: the edges are the triangle's own, of
 /// which those of a tiny triangle far from the point lose digits.
 template <class Tier, class T>
-T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a,
-                   const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
+T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& edge1,
+                   const Vec3<T>& edge2) noexcept {
   if constexpr (MachineNumber<T>) {
     using limits = std::numeric_limits<T>;
     const Vec3<T> from_a = velocity * time - a, b = a + edge1, c = a + edge2;
@@ -97,8 +97,8 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 
 /// What moving_point_triangle_in_lanes answers where the sides are known and the normal is not: of a thin triangle.
 template <class T, class Shared>
-COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
-                                                  const Shared& shared) noexcept {
+COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                        const Triangle<T>& triangle, const Shared& shared) noexcept {
   using limits = std::numeric_limits<T>;
   const Vec3<T> n = normal_of<Plain>(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
   const T n2 = Plain::dot(n, n);
@@ -111,28 +111,28 @@ COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, co
 
 /// What `Fast` answers; where it is not sure, what `shared` does.
 ///
-/// With a = v0 - point, f = v0 - v2, n = f x edge1 and q = velocity x a the motion passes the three edges on the sides that
-/// the signs of q . edge1, q . f and n . velocity - q . edge1 - q . f tell, each a volume (Moeller, Trumbore, Fast, Minimum
-/// Storage Ray/Triangle Intersection, 1997). Two cross products at a time are as much work as one.
+/// With a = v0 - point, f = v0 - v2, n = f x edge1 and q = velocity x a the motion passes the three edges on the sides
+/// that the signs of q . edge1, q . f and n . velocity - q . edge1 - q . f tell, each a volume (Moeller, Trumbore,
+/// Fast, Minimum Storage Ray/Triangle Intersection, 1997). Two cross products at a time are as much work as one.
 ///
 /// Sides. Let e^2 = |edge1|^2 + |f|^2, l^2 = e^2 + |a|^2, u the unit roundoff. The three volumes are off by at most
-/// 17 u |velocity| l^2. Those that the shared text has of an edge are off by at most 15 u of |velocity| times the squares
-/// of the ways to the edge's ends, whichever triangle it belongs to. So where the largest of the three is beyond
-/// 64 u |velocity| l^2, the sides are those of the real numbers, and neighbors agree about their edge, whichever text
-/// answers for them.
+/// 17 u |velocity| l^2. Those that the shared text has of an edge are off by at most 15 u of |velocity| times the
+/// squares of the ways to the edge's ends, whichever triangle it belongs to. So where the largest of the three is
+/// beyond 64 u |velocity| l^2, the sides are those of the real numbers, and neighbors agree about their edge, whichever
+/// text answers for them.
 ///
-/// The normal. n is off by 1.5 u |edge1| |f| <= 0.75 u e^2. Along the longest edge, whose square is at most 2 e^2, this is
-/// explained if its ends move by 30 u of the largest position, which is at least l / 6, as long as e^4 <= 100 |n|^2; across
-/// it the apex need move by no more. The normal of a thinner triangle is corrected.
+/// The normal. n is off by 1.5 u |edge1| |f| <= 0.75 u e^2. Along the longest edge, whose square is at most 2 e^2, this
+/// is explained if its ends move by 30 u of the largest position, which is at least l / 6, as long as e^4 <= 100 |n|^2;
+/// across it the apex need move by no more. The normal of a thinner triangle is corrected.
 ///
-/// The contact. Explaining it, the products with n and their quotient moves corners by less than 12 u l along the normal,
-/// which changes the volumes of a hit by less than 24 u |velocity| l^2: the place stays on the triangle.
+/// The contact. Explaining it, the products with n and their quotient moves corners by less than 12 u l along the
+/// normal, which changes the volumes of a hit by less than 24 u |velocity| l^2: the place stays on the triangle.
 ///
-/// What overflows is not sure, or is thin. `least` numbers are added to the squares so that what they bound is far above
-/// whatever underflows.
+/// What overflows is not sure, or is thin. `least` numbers are added to the squares so that what they bound is far
+/// above whatever underflows.
 template <class T, class Shared>
-inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle,
-                                                const Shared& shared) noexcept {
+inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                const Triangle<T>& triangle, const Shared& shared) noexcept {
   using L = Lanes<T>;
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
@@ -141,7 +141,7 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   const L from_point = lanes(point), along = lanes(velocity);
   const auto [v0, v1, v2] = corner_lanes(triangle);
   const auto [x, y, z] = columns(v0 - v2, along, v1 - v0, v0 - from_point);
-  const P x1 = first_pair(x), y1 = first_pair(y), z1 = first_pair(z);      // f and the velocity
+  const P x1 = first_pair(x), y1 = first_pair(y), z1 = first_pair(z);     // f and the velocity
   const P x2 = second_pair(x), y2 = second_pair(y), z2 = second_pair(z);  // edge1 and a
   const P nq_x = y1 * z2 - z1 * y2, nq_y = z1 * x2 - x1 * z2, nq_z = x1 * y2 - y1 * x2;
   const L products = swapped_twice(nq_x) * x + swapped_twice(nq_y) * y + swapped_twice(nq_z) * z;
@@ -158,7 +158,8 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   const P n2 = nq_x * nq_x + nq_y * nq_y + nq_z * nq_z;
   const L normal = firsts(nq_x, nq_y, nq_z) / every(sqrt(n2));
   if (!(bound2 < (outside * outside).first())) return shared(point, velocity, triangle);
-  if (!((hit & e4).first() < T(thinness) * n2.first())) return impact_with_thin_triangle(point, velocity, triangle, shared);
+  if (!((hit & e4).first() < T(thinness) * n2.first()))
+    return impact_with_thin_triangle(point, velocity, triangle, shared);
   return impact(hit, time, location, normal);
 }
 
@@ -195,8 +196,7 @@ bool surely_passes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle
 /// passes between them. Source: signed volumes of the tetrahedra that the line of motion forms with
 /// the edges (Pluecker coordinates; Ericson, Real-Time Collision Detection, 5.3.4).
 template <class Tier = Fast, class T>
-Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                const Triangle<T>& triangle) noexcept {
+Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
     const auto shared = [](const auto&... inputs) {
       return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); }, inputs...);
@@ -221,8 +221,7 @@ Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
   const Vec3<T> b = triangle.v1 - point;
   const Vec3<T> c = triangle.v2 - point;
   const bool inside = Tier::dot(velocity, Tier::cross(a, b)) <= T(0) &&
-                      Tier::dot(velocity, Tier::cross(b, c)) <= T(0) &&
-                      Tier::dot(velocity, Tier::cross(c, a)) <= T(0);
+                      Tier::dot(velocity, Tier::cross(b, c)) <= T(0) && Tier::dot(velocity, Tier::cross(c, a)) <= T(0);
   if (!inside) return Impact<T>::miss();
   const T time = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, edge1, edge2);
   if (!(time >= T(0))) return Impact<T>::miss();
@@ -238,7 +237,8 @@ namespace contracts {
 /// ends of an edge by 30 eps G for the normal, corners by 12 for the plane, and adds 2 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_triangle() {
-  return Tier::template contract<T>({.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+  return Tier::template contract<T>(
+      {.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
 }
 
 }  // namespace contracts

@@ -34,8 +34,10 @@ Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& ve
   if constexpr (Tier::template lifts<T>) {
     const auto text = [&](auto by, const auto& p, const auto& v, const auto& triangle) {
       using By = decltype(by);
-      if constexpr (Tier::template keeps<T>) return moving_point_triangle_prepared<By>(p, v, prepared);
-      else return moving_point_triangle_prepared<By>(p, v, prepare_triangle<By>(triangle));
+      if constexpr (Tier::template keeps<T>)
+        return moving_point_triangle_prepared<By>(p, v, prepared);
+      else
+        return moving_point_triangle_prepared<By>(p, v, prepare_triangle<By>(triangle));
     };
     return Tier::lift(text, point, velocity, prepared.triangle);
   }
@@ -62,7 +64,8 @@ namespace contracts {
 /// location adds 2 eps of 2 G. The velocity takes 3 eps of its own.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_triangle_prepared() {
-  return Tier::template contract<T>({.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+  return Tier::template contract<T>(
+      {.backward = 48, .unit = 4, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
 }
 
 }  // namespace contracts

@@ -130,7 +130,8 @@ struct PointPastBox {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_box<decltype(by)>(a...); }, sphere, velocity, box);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_box<decltype(by)>(a...); }, sphere, velocity,
+                      box);
   }
   if (sphere.radius == T(0)) return detail::point_enters_box<Tier>(sphere.center, velocity, box);
   const Axes<T> axes = axes_of(box.orientation);
@@ -195,7 +196,8 @@ namespace contracts {
 /// the axes are combined by a unit vector.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_box() {
-  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 40, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
 }
 
 }  // namespace contracts

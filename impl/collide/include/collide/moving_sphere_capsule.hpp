@@ -25,8 +25,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_capsule<decltype(by)>(a...); },
-                      sphere, velocity, capsule);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_capsule<decltype(by)>(a...); }, sphere,
+                      velocity, capsule);
   }
   return detail::past_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
 }
@@ -38,7 +38,8 @@ namespace contracts {
 /// and the sum of the radii 5 eps more; the way back along the axis 9 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_capsule() {
-  return Tier::template contract<T>({.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -22,8 +22,8 @@ template <class Tier = Fast, class T>
 Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box,
                                      T limit) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_box<decltype(by)>(a...); }, sphere, velocity, box,
-                      limit);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_box<decltype(by)>(a...); }, sphere,
+                      velocity, box, limit);
   }
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half);

@@ -20,8 +20,8 @@ template <class Tier = Fast, class T>
 Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
                                         const T& limit) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_sphere<decltype(by)>(a...); },
-                      sphere, velocity, fixed, limit);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_sphere<decltype(by)>(a...); }, sphere,
+                      velocity, fixed, limit);
   }
   const T reach = sphere.radius + fixed.radius;
   if (!(limit >= T(0))) return {false};

@@ -95,7 +95,8 @@ namespace contracts {
 /// carries 4 eps, which turns the plane.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_plane() {
-  return Tier::template contract<T>({.backward = 32, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 32, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

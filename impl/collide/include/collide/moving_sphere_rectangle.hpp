@@ -21,7 +21,8 @@ template <class Tier = Fast, class T>
 Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                   const Rectangle<T>& rectangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_rectangle<decltype(by)>(a...); }, sphere, velocity, rectangle);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_rectangle<decltype(by)>(a...); }, sphere,
+                      velocity, rectangle);
   }
   const TriangleImpact<T> one =
       moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
@@ -39,7 +40,8 @@ namespace contracts {
 /// their own corners, and of the two that they share, twice as many.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_rectangle() {
-  return Tier::template contract<T>({.backward = 256, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+  return Tier::template contract<T>(
+      {.backward = 256, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
 }
 
 }  // namespace contracts

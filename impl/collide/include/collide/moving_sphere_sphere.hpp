@@ -28,8 +28,8 @@ Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
     }
   }
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); },
-                      sphere, velocity, fixed);
+    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); }, sphere,
+                      velocity, fixed);
   }
   const T reach = sphere.radius + fixed.radius;
   const Vec3<T> from = sphere.center - fixed.center;
@@ -55,7 +55,8 @@ namespace contracts {
 /// location 2 eps of 4 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_sphere() {
-  return Tier::template contract<T>({.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 64, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

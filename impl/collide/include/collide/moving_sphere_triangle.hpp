@@ -35,7 +35,7 @@ struct SpherePastTriangle {
   std::array<Vec3<T>, 3> v, edge;  ///< edge i from v[i] to v[i + 1]
   std::array<Vec3<T>, 3> inward;   ///< n x edge i
   Vec3<T> n;
-  T n_length, height, approach;    ///< n . (center - v[0]), -n . velocity
+  T n_length, height, approach;  ///< n . (center - v[0]), -n . velocity
 
   SpherePastTriangle(const Sphere<T>& sphere, const Vec3<T>& along, const Triangle<T>& triangle) noexcept
       : center(sphere.center), radius(sphere.radius), velocity(along), v{triangle.v0, triangle.v1, triangle.v2} {
@@ -77,10 +77,11 @@ struct SpherePastTriangle {
         const Vec3<T> on_plane = w - n * (Tier::dot(n, w) / n2);
         const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], on_plane);
         const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
-        // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where the
-        // corners lie on a line. A place is taken for one on the face where its weights put it, but for 32 u (the unit
-        // roundoff) of the longest of two edges and the way to it: 64 u of the largest position, or of the center's where its
-        // velocity took it further, to which the velocity's own error is added. Half of what is promised.
+        // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where
+        // the corners lie on a line. A place is taken for one on the face where its weights put it, but for 32 u (the
+        // unit roundoff) of the longest of two edges and the way to it: 64 u of the largest position, or of the
+        // center's where its velocity took it further, to which the velocity's own error is added. Half of what is
+        // promised.
         const T longest = std::max({largest_abs(w), largest_abs(edge[0]), largest_abs(edge[2])});
         const T most = T(16) * std::numeric_limits<T>::epsilon() * longest;
         if (!(largest_abs(edge[0] * base - edge[2] * apex - on_plane) <= most)) return false;
@@ -95,7 +96,9 @@ struct SpherePastTriangle {
   TrianglePlace<T> on_edge(int i, const T& along) const noexcept {
     TrianglePlace<T> place{1 + i, v[i] + edge[i] * along, {}};
     const T rest = T(1) - along;
-    place.weights = i == 0 ? Vec3<T>{rest, along, T(0)} : i == 1 ? Vec3<T>{T(0), rest, along} : Vec3<T>{along, T(0), rest};
+    place.weights = i == 0   ? Vec3<T>{rest, along, T(0)}
+                    : i == 1 ? Vec3<T>{T(0), rest, along}
+                             : Vec3<T>{along, T(0), rest};
     return place;
   }
   TrianglePlace<T> at_vertex(int i) const noexcept {
@@ -197,7 +200,8 @@ struct SpherePastTriangle {
   /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
   /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
   /// Squares of w, u and the radius are multiplied by `scale2`. `touches`: it is known that the radius is reached.
-  T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1), [[maybe_unused]] bool touches = false) const noexcept {
+  T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1),
+               [[maybe_unused]] bool touches = false) const noexcept {
     using std::sqrt;
     const T closing = -Tier::dot(w, u);
     if (!(closing > T(0))) return T(-1);
@@ -221,8 +225,8 @@ struct SpherePastTriangle {
   /// When the sphere touches the plane from its front.
   T face_time() const noexcept { return not_negative(height - radius * n_length) / approach; }
 
-  /// Where face and edge meet, rounding may leave a contact to neither: at `first` the sphere is then deeper in the face than
-  /// it is apart from the boundary at the time of the plane. In that case, true with the latter contact.
+  /// Where face and edge meet, rounding may leave a contact to neither: at `first` the sphere is then deeper in the
+  /// face than it is apart from the boundary at the time of the plane. In that case, true with the latter contact.
   bool passed_between(const T& first, T& time, TrianglePlace<T>& place, Vec3<T>& away) const noexcept {
     if (!nears_front()) return false;
     const T later = smaller(first, height / approach), left = (height - approach * later) / n_length;
@@ -299,7 +303,8 @@ struct SpherePastTriangle {
 #if defined(COLLIDE_LANES)
 
 /// An impact with its weights, stored as registers.
-inline TriangleImpact<float> stored(float time, Lanes<float> location, Lanes<float> normal, Lanes<float> weights) noexcept {
+inline TriangleImpact<float> stored(float time, Lanes<float> location, Lanes<float> normal,
+                                    Lanes<float> weights) noexcept {
   static_assert(sizeof(TriangleImpact<float>) == 40);
   TriangleImpact<float> answer;
   char* const numbers = reinterpret_cast<char*>(&answer);
@@ -324,7 +329,8 @@ inline TriangleImpact<double> stored(double time, Lanes<double> location, Lanes<
 }
 
 /// Of four things that a sphere nears, the times at which it first touches them; +infinity: never. A thing's distance,
-/// squared, is beyond the radius, squared, by speed2 t^2 - 2 closing t + outside; `chord2` is closing^2 - speed2 outside.
+/// squared, is beyond the radius, squared, by speed2 t^2 - 2 closing t + outside; `chord2` is closing^2 - speed2
+/// outside.
 ///
 /// No later than the time of the least distance, which counts where rounding is all that closes in.
 template <class T>
@@ -337,35 +343,40 @@ Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const L
   return without(select((zero < closing) & (zero <= chord2), time, never), at_start);
 }
 
-/// What `Fast` answers; of what is extreme, and where rounding leaves the nearest feature open, what `shared` does. Lane i
-/// is edge i, from corner i to the next, or corner i. What decides on which side of an edge the center is, or how far
-/// along it, is linear in time: the triangle is looked at once.
+/// What `Fast` answers; of what is extreme, and where rounding leaves the nearest feature open, what `shared` does.
+/// Lane i is edge i, from corner i to the next, or corner i. What decides on which side of an edge the center is, or
+/// how far along it, is linear in time: the triangle is looked at once.
 ///
-/// Rounding, u the unit roundoff. The normal as in moving_point_triangle: corners move by 30 u of G, the largest position.
-/// Let w be a corner seen from the center at the start, d the way to the contact, w + d the corner seen from there. Where
-/// the center is beside an edge is known to 5 u of |w + d| and 4 u of |w| and of |d|; |w| and |w + d| are at most 3.5 G:
-/// 60 u. Where two edges meet in a tip both may be wrong far beyond it: a contact on the face is within the corners' bounds,
-/// or no farther from them than rounding takes it. The time on the face takes 7 u of |w| and 3 u of the velocity, the
-/// location 3 u of the center and of d: 128 u together. The way to an edge's line, at right angles to the edge, is known as
-/// well as the velocity is, whose part across the edge takes 3 u of the whole: of a motion along the edge, that is 16 times
-/// as much of the part, and more is left open. An edge or a corner counts where the center is beyond it by 7 times what
-/// rounding makes of that: then no direction from there to the center is nothing but rounding.
+/// Rounding, u the unit roundoff. The normal as in moving_point_triangle: corners move by 30 u of G, the largest
+/// position. Let w be a corner seen from the center at the start, d the way to the contact, w + d the corner seen from
+/// there. Where the center is beside an edge is known to 5 u of |w + d| and 4 u of |w| and of |d|; |w| and |w + d| are
+/// at most 3.5 G: 60 u. Where two edges meet in a tip both may be wrong far beyond it: a contact on the face is within
+/// the corners' bounds, or no farther from them than rounding takes it. The time on the face takes 7 u of |w| and 3 u
+/// of the velocity, the location 3 u of the center and of d: 128 u together. The way to an edge's line, at right angles
+/// to the edge, is known as well as the velocity is, whose part across the edge takes 3 u of the whole: of a motion
+/// along the edge, that is 16 times as much of the part, and more is left open. An edge or a corner counts where the
+/// center is beyond it by 7 times what rounding makes of that: then no direction from there to the center is nothing
+/// but rounding.
 template <class T, class Shared>
 inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                          const Triangle<T>& triangle, const Shared& shared) noexcept {
   using L = Lanes<T>;
   using limits = std::numeric_limits<T>;
-  // Of lengths: products of eight of them stay in range. Of a normal, squared, in units of the edges' squares: below it is
-  // nothing but rounding.
-  constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120), most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
+  // Of lengths: products of eight of them stay in range. Of a normal, squared, in units of the edges' squares: below it
+  // is nothing but rounding.
+  constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120),
+              most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
   constexpr T shortest = limits::epsilon() * limits::epsilon();
   constexpr T least2 = least * least, most2 = most * most, known = T(64) * limits::epsilon();
   const L center = lanes(sphere), along = lanes(velocity), zero = L::all(T(0));
   const CornerLanes<T> t = corner_lanes(triangle);
   const T radius = sphere.radius, radius2 = radius * radius;
-  const auto sums_with = [&](const L& n) { return sums_of_three(n * along, n * (center - t.v0), n * n, along * along); };
+  const auto sums_with = [&](const L& n) {
+    return sums_of_three(n * along, n * (center - t.v0), n * n, along * along);
+  };
   L n = cross(t.v1 - t.v0, t.v2 - t.v0), sums = sums_with(n);
-  const Columns<T> corner = columns(t.v0, t.v1, t.v2, t.v0), edge = yzx(corner) - corner, from = every_column(center) - corner;
+  const Columns<T> corner = columns(t.v0, t.v1, t.v2, t.v0), edge = yzx(corner) - corner,
+                   from = every_column(center) - corner;
   const L edge2 = dot(edge, edge), from2 = dot(from, from);
   if (!all_three((L::all(least2) <= edge2) & (edge2 <= L::all(most2)) & (from2 <= L::all(most2)))) {
     return shared(sphere, velocity, triangle);
@@ -377,7 +388,8 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   }
   const auto [receding, height, n2, speed2] = four(sums);
   const T both2 = edge2.first() + edge2.template broadcast<2>().first();
-  const bool in_range = n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
+  const bool in_range =
+      n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
   if (!in_range) return shared(sphere, velocity, triangle);
   // Behind the plane: overlaps it, or touches it and does not leave.
   const T height2 = height * height, reach2 = radius2 * n2;
@@ -395,14 +407,17 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
     const L rounding = L::all(T(16) * limits::epsilon()) * largest_of_three(larger(absolute(center), corners));
     const L low = smaller(t.v0, smaller(t.v1, t.v2)) - rounding, high = larger(t.v0, larger(t.v1, t.v2)) + rounding;
     if (thin || !all_three((low <= location) & (location <= high))) return shared(sphere, velocity, triangle);
-    return stored(face_time, location, n / L::all(height < T(0) ? -n_length : n_length), yzx(weights) / sum_of_three(weights));
+    return stored(face_time, location, n / L::all(height < T(0) ? -n_length : n_length),
+                  yzx(weights) / sum_of_three(weights));
   }
 
   // Each line's distances are multiplied by its edge's length.
-  const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across), moment = cross(from, u);
+  const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across),
+                   moment = cross(from, u);
   const L r2 = L::all(radius2), u2 = L::all(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
   if (any_of_three(across2 * L::all(T(256)) < edge2 * u2)) return shared(sphere, velocity, triangle);
-  const L corner_chord2 = r2 * u2 - dot(moment, moment), line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
+  const L corner_chord2 = r2 * u2 - dot(moment, moment),
+          line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
   // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
   const L at_ends = (zero <= corner_chord2) | (zero <= yzx(corner_chord2));
   const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2,
@@ -426,13 +441,15 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   static constexpr std::array<std::array<T, 4>, 4> unit{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}}};
   const auto unit_at = [](int k) { return L::load(reinterpret_cast<const char*>(&unit[k])); };
   const std::array<L, 4> v{t.v0, t.v1, t.v2, t.v0};
-  const T per_edge2 = four((L::all(T(1)) / edge2) & at_edge)[i], share = smaller(four(after_start)[i] * per_edge2, T(1));
+  const T per_edge2 = four((L::all(T(1)) / edge2) & at_edge)[i],
+          share = smaller(four(after_start)[i] * per_edge2, T(1));
   const L e = v[i + 1] - v[i], way = e * L::all(share), seen = (center + along * passed - v[i]) - way;
   // What rounding left of a part along the edge counts where the rest is small.
   const L away = seen - e * (sum_of_three(seen * e) * L::all(per_edge2)), away2 = sum_of_three(away * away);
   const T away2_least = limits::min() / limits::epsilon() + least_way * least_way;
   if (!(away2.first() >= away2_least)) return shared(sphere, velocity, triangle);
-  return stored(time, v[i] + way, away / sqrt(away2), unit_at(i) * L::all(T(1) - share) + unit_at(i + 1) * L::all(share));
+  return stored(time, v[i] + way, away / sqrt(away2),
+                unit_at(i) * L::all(T(1) - share) + unit_at(i + 1) * L::all(share));
 }
 
 #endif
@@ -448,20 +465,22 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
 /// nearest to the center at that time, `weights` are its barycentric coordinates.
 ///
 /// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from location to the center; where the center is on the triangle it is an outward one, and not along
+/// 2. normal points from location to the center; where the center is on the triangle it is an outward one, and not
+/// along
 ///    the motion
 /// 3. location == weights.x v0 + weights.y v1 + weights.z v2, weights.x + weights.y + weights.z == 1
 ///
 /// Source: the points within the radius of a triangle are a prism over its face, a cylinder about each edge
 /// and a ball about each vertex; the first contact is the first entry into any of them (Ericson, Real-Time
-/// Collision Detection, 5.5.3, the sphere swept against features). Each cylinder is cut where its edge ends, no ball is, so nothing
-/// passes between the parts.
+/// Collision Detection, 5.5.3, the sphere swept against features). Each cylinder is cut where its edge ends, no ball
+/// is, so nothing passes between the parts.
 template <class Tier = Fast, class T>
 TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                          const Triangle<T>& triangle) noexcept {
   if constexpr (Tier::template lifts<T>) {
     const auto shared = [](const auto&... inputs) {
-      return Tier::lift([](auto by, const auto&... a) { return moving_sphere_triangle<decltype(by)>(a...); }, inputs...);
+      return Tier::lift([](auto by, const auto&... a) { return moving_sphere_triangle<decltype(by)>(a...); },
+                        inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
@@ -481,7 +500,8 @@ namespace contracts {
 /// normal takes 5 eps of the edges, its weights as much again: 64 eps together. Unit: a root of three squares.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_triangle() {
-  return Tier::template contract<T>({.backward = 128, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 8, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});
 }
 
 }  // namespace contracts

@@ -66,11 +66,15 @@ inline double if_less(double a, double b, double x, double y) noexcept {
 
 /// x, or the nearer end of [low, high].
 template <class T>
-constexpr T clamped(const T& x, const T& low, const T& high) noexcept { return smaller(larger(x, low), high); }
+constexpr T clamped(const T& x, const T& low, const T& high) noexcept {
+  return smaller(larger(x, low), high);
+}
 
 /// x, or 0 where it is negative; NaN stays NaN.
 template <class T>
-constexpr T not_negative(const T& x) noexcept { return larger(x, T(0)); }
+constexpr T not_negative(const T& x) noexcept {
+  return larger(x, T(0));
+}
 
 namespace detail {
 

@@ -33,22 +33,24 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
     return contact_along(time, on_axis, reach > T(0) ? unit<Tier>(away) : Vec3<T>{});
   };
   /// The same between the ends, where `away` is at a right angle to the axis but for rounding. That is taken out of its
-  /// direction, for `away` itself may be a few subnormal numbers; all of it is rounding where more of it leads along the
-  /// axis than aside.
+  /// direction, for `away` itself may be a few subnormal numbers; all of it is rounding where more of it leads along
+  /// the axis than aside.
   const auto contact_beside = [&](const T& time, const T& at, const Vec3<T>& away) {
     Vec3<T> normal = reach > T(0) ? unit<Tier>(away) : Vec3<T>{};
     if constexpr (MachineNumber<T>) {
       const T rounding = Tier::dot(axis, normal), rounding2 = rounding * rounding;
       normal = normal - axis * rounding;
-      if (rounding2 > T(0.5)) normal = Vec3<T>{};
-      else if (rounding2 > std::numeric_limits<T>::epsilon() / T(8)) normal = unit<Tier>(normal);
+      if (rounding2 > T(0.5))
+        normal = Vec3<T>{};
+      else if (rounding2 > std::numeric_limits<T>::epsilon() / T(8))
+        normal = unit<Tier>(normal);
     }
     const Vec3<T> on_axis = at + at <= length ? capsule.p0 + axis * at : capsule.p1 - axis * (length - at);
     return contact_along(time, on_axis, normal);
   };
 
   // Seen from the end itself: beside it, rounding of the length is more than what leads along the axis.
-  const bool before = along < T(0), beyond = along > length && !(Tier::dot(axis, from_p1) < T(0));
+  const bool before = along<T(0), beyond = along> length && !(Tier::dot(axis, from_p1) < T(0));
   const Vec3<T> nearest = before ? from_p0 : beyond ? from_p1 : beside;
   const T apart = Tier::beyond_radius(nearest, reach);
   if (!(apart > T(0))) {

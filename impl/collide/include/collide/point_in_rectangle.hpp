@@ -19,7 +19,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal, const Vec3<T>& point) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return point_in_rectangle<decltype(by)>(a...); }, rectangle, normal, point);
+    return Tier::lift([](auto by, const auto&... a) { return point_in_rectangle<decltype(by)>(a...); }, rectangle,
+                      normal, point);
   }
   if constexpr (MachineNumber<T>) {
     if (!detail::is_finite(normal)) return {};

@@ -59,8 +59,8 @@ bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) 
   return left || right;
 }
 
-/// The answer where it is sure, computed in the next wider type: the sides of the edges, whose shares of their sum are the
-/// weights. Nothing where the point may lie on an edge's line, the triangle has no area, or an input is not finite.
+/// The answer where it is sure, computed in the next wider type: the sides of the edges, whose shares of their sum are
+/// the weights. Nothing where the point may lie on an edge's line, the triangle has no area, or an input is not finite.
 ///
 /// In the wider type nothing overflows or underflows. A side is known to 4 u of the sum of its terms' magnitudes, u its
 /// unit roundoff, and the weights to 11 u of all terms' magnitudes over the sum of the sides; 16 u are allowed to be a
@@ -117,7 +117,8 @@ Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& nor
         if (const auto answer = detail::surely(triangle, along, point)) return Tier::sure(*answer);
       }
     }
-    return Tier::lift([](auto by, const auto&... a) { return point_in_triangle<decltype(by)>(a...); }, triangle, normal, axis, point);
+    return Tier::lift([](auto by, const auto&... a) { return point_in_triangle<decltype(by)>(a...); }, triangle, normal,
+                      axis, point);
   }
   if constexpr (MachineNumber<T>) {
     if (!detail::is_finite(normal)) return {};

@@ -51,7 +51,8 @@ PreparedAABox<T> prepare_aabox(const AABox<T>& aabox) noexcept {
 
 namespace detail {
 
-/// Three numbers of a prepared thing, with any number in the fourth lane: `other` has one behind them, `last` before them.
+/// Three numbers of a prepared thing, with any number in the fourth lane: `other` has one behind them, `last` before
+/// them.
 template <class Prepared>
 Lanes<float> three_of(const Prepared& prepared, const Vec3<float>& other) noexcept {
   const char* const whole = reinterpret_cast<const char*>(&prepared);
@@ -60,16 +61,21 @@ Lanes<float> three_of(const Prepared& prepared, const Vec3<float>& other) noexce
 template <class Prepared>
 Lanes<float> last_three_of(const Prepared& prepared, const Vec3<float>& last) noexcept {
   const char* const whole = reinterpret_cast<const char*>(&prepared);
-  return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&last) - whole) - sizeof(float)).shuffled<1, 2, 3, 3>();
+  return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&last) - whole) - sizeof(float))
+      .shuffled<1, 2, 3, 3>();
 }
 template <class Prepared>
-Lanes<double> three_of(const Prepared&, const Vec3<double>& other) noexcept { return lanes(other); }
+Lanes<double> three_of(const Prepared&, const Vec3<double>& other) noexcept {
+  return lanes(other);
+}
 template <class Prepared>
-Lanes<double> last_three_of(const Prepared&, const Vec3<double>& last) noexcept { return lanes(last); }
+Lanes<double> last_three_of(const Prepared&, const Vec3<double>& last) noexcept {
+  return lanes(last);
+}
 
-/// The ray is in the box from the last entry of a pair of faces to the first exit. A pair that it is parallel to it enters
-/// and leaves at an infinite time, of the one sign where it starts beside the pair, of both where it starts between; the
-/// time to a face that it lies in is NaN, and does not count.
+/// The ray is in the box from the last entry of a pair of faces to the first exit. A pair that it is parallel to it
+/// enters and leaves at an infinite time, of the one sign where it starts beside the pair, of both where it starts
+/// between; the time to a face that it lies in is NaN, and does not count.
 ///
 /// Every time is off by 3 eps of itself, as if the gap were: faces and origin explain that.
 template <class T>
@@ -107,8 +113,10 @@ inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& bo
 #endif
   if constexpr (Tier::template lifts<T>) {
     const auto text = [&](auto by, const auto& r, const auto& b) {
-      if constexpr (Tier::template keeps<T>) return ray_aabox<decltype(by)>(ray, box);
-      else return ray_aabox<decltype(by)>(prepare_ray(r), prepare_aabox(b));
+      if constexpr (Tier::template keeps<T>)
+        return ray_aabox<decltype(by)>(ray, box);
+      else
+        return ray_aabox<decltype(by)>(prepare_ray(r), prepare_aabox(b));
     };
     return Tier::lift(text, ray.ray, box.aabox);
   }

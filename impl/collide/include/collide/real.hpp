@@ -49,8 +49,8 @@ class BigInterval {
   mpfr_prec_t precision_ = 0;
 };
 
-/// A node of an expression. Its sign is decided by evaluating in intervals of rising precision; where zero stays within, it
-/// is found exactly, in a tower of square roots.
+/// A node of an expression. Its sign is decided by evaluating in intervals of rising precision; where zero stays
+/// within, it is found exactly, in a tower of square roots.
 struct Expression {
   enum class Kind : std::uint8_t { leaf, sum, difference, product, quotient, root, infinite, invalid };
 
@@ -93,7 +93,9 @@ using ExpressionKind = Expression::Kind;
 /// Bits of the intervals in which a sign is looked for before it is found exactly.
 inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
 
-inline bool proper(const Expression& e) { return e.kind != ExpressionKind::invalid && e.kind != ExpressionKind::infinite; }
+inline bool proper(const Expression& e) {
+  return e.kind != ExpressionKind::invalid && e.kind != ExpressionKind::infinite;
+}
 int sign_of(Expression& e);
 
 inline Expression& leaf_of(double x) {
@@ -261,8 +263,14 @@ class Real {
   friend bool operator<(const Real& a, const Real& b) { return order(a, b) == -1; }
   friend bool operator>(const Real& a, const Real& b) { return order(a, b) == 1; }
   friend bool operator==(const Real& a, const Real& b) { return order(a, b) == 0; }
-  friend bool operator<=(const Real& a, const Real& b) { const int o = order(a, b); return o == -1 || o == 0; }
-  friend bool operator>=(const Real& a, const Real& b) { const int o = order(a, b); return o == 1 || o == 0; }
+  friend bool operator<=(const Real& a, const Real& b) {
+    const int o = order(a, b);
+    return o == -1 || o == 0;
+  }
+  friend bool operator>=(const Real& a, const Real& b) {
+    const int o = order(a, b);
+    return o == 1 || o == 0;
+  }
 
   friend Real larger(const Real& a, const Real& b) { return a < b ? b : a; }
   friend Real smaller(const Real& a, const Real& b) { return b < a ? b : a; }

@@ -20,8 +20,7 @@ struct Segment {
   Vec3<T> v0{}, v1{};
 
   static constexpr auto members() {
-    return std::tuple(member("v0", &Segment::v0, Role::position),
-                      member("v1", &Segment::v1, Role::position));
+    return std::tuple(member("v0", &Segment::v0, Role::position), member("v1", &Segment::v1, Role::position));
   }
 };
 
@@ -67,8 +66,7 @@ struct Triangle {
   Vec3<T> v0{}, v1{}, v2{};
 
   static constexpr auto members() {
-    return std::tuple(member("v0", &Triangle::v0, Role::position),
-                      member("v1", &Triangle::v1, Role::position),
+    return std::tuple(member("v0", &Triangle::v0, Role::position), member("v1", &Triangle::v1, Role::position),
                       member("v2", &Triangle::v2, Role::position));
   }
 };
@@ -92,8 +90,7 @@ struct Sphere {
   T radius{};
 
   static constexpr auto members() {
-    return std::tuple(member("center", &Sphere::center, Role::position),
-                      member("radius", &Sphere::radius, Role::size));
+    return std::tuple(member("center", &Sphere::center, Role::position), member("radius", &Sphere::radius, Role::size));
   }
   constexpr std::optional<Broken> broken() const noexcept {
     if (radius < T(0)) return Broken{"radius", "not negative", double(radius)};
@@ -139,8 +136,8 @@ struct Quaternion {
   T x{}, y{}, z{}, w{1};
 
   static constexpr auto members() {
-    return std::tuple(member("x", &Quaternion::x), member("y", &Quaternion::y),
-                      member("z", &Quaternion::z), member("w", &Quaternion::w));
+    return std::tuple(member("x", &Quaternion::x), member("y", &Quaternion::y), member("z", &Quaternion::z),
+                      member("w", &Quaternion::w));
   }
   constexpr std::optional<Broken> broken() const noexcept {
     if (x == T(0) && y == T(0) && z == T(0) && w == T(0)) return Broken{"w", "not all of x, y, z, w zero", 0.0};
@@ -156,8 +153,7 @@ struct Box {
   Quaternion<T> orientation{};
 
   static constexpr auto members() {
-    return std::tuple(member("center", &Box::center, Role::position),
-                      member("half", &Box::half, Role::size),
+    return std::tuple(member("center", &Box::center, Role::position), member("half", &Box::half, Role::size),
                       member("orientation", &Box::orientation, Role::rotation));
   }
   constexpr std::optional<Broken> broken() const noexcept {

@@ -37,7 +37,8 @@ std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Box<T>& box) n
   const double s = sum_of_three(absolute(seen)).first(), r = sphere.radius, norm2 = sum_of_four(q * q).first();
   const double scale2 = s * s + r * r, bound = 0x1p-46 * scale2;
   const auto in_range = [](double x) { return x >= 0x1p-900 && x <= 0x1p900; };
-  if (!(in_range(scale2) && in_range(norm2) && std::abs(beyond) > bound && all_three(are_finite(half)))) return std::nullopt;
+  if (!(in_range(scale2) && in_range(norm2) && std::abs(beyond) > bound && all_three(are_finite(half))))
+    return std::nullopt;
   return beyond < 0;
 }
 

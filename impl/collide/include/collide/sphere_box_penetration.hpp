@@ -34,7 +34,8 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   // NaN where an argument is not finite.
   const L local = frame.into(center - middle) * inverse, away = excess(local, half) + half * every(no_radius);
   const P distance2 = first_pair(sum_of_three(away * away)), is_outside = zero < distance2;
-  const P in_range = (P::all(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= P::all(limits::max() / T(16)));
+  const P in_range =
+      (P::all(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= P::all(limits::max() / T(16)));
   if (!holds_or_all_zero(in_range, away)) return shared(sphere, box);
 
   const P distance = sqrt(distance2);
@@ -43,12 +44,14 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
     return Penetration<T>{depth.first(), first_three(normal & overlap), first_three(contact & overlap)};
   };
   if constexpr (std::same_as<T, double>) {  // in two registers what only the inside needs costs more than a wrong guess
-    if (distance2.first() > T(0)) return answer(radius - distance, frame.out_of(away) * inverse, one / (zero - distance), one);
+    if (distance2.first() > T(0))
+      return answer(radius - distance, frame.out_of(away) * inverse, one / (zero - distance), one);
   }
   const L to_face = half - absolute(local), to_nearest_face = smallest_of_three(to_face);
   const L side = L::all(T(1)) ^ (local & L::all(T(-0.0)));
   const L face = without(first_of_three(to_face == to_nearest_face) & side, every(is_outside));
-  const L way = frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
+  const L way =
+      frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
   return answer(radius - distance + without(first_pair(to_nearest_face), is_outside), way,
                 one / (zero - (distance | without(one, is_outside))), select(is_outside, one, radius));
 }
@@ -70,7 +73,8 @@ template <class Tier = Fast, class T>
 Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) noexcept {
   if constexpr (Tier::template lifts<T>) {
     const auto shared = [](const auto&... inputs) {
-      return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); }, inputs...);
+      return Tier::lift([](auto by, const auto&... a) { return sphere_box_penetration<decltype(by)>(a...); },
+                        inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
@@ -104,7 +108,8 @@ namespace contracts {
 /// quotient by it count as well where the contact is reached along the normal.
 template <class Tier = Fast, class T = double>
 constexpr Contract sphere_box_penetration() {
-  return Tier::template contract<T>({.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 128, .unit = 40, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -21,7 +21,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_plane_penetration<decltype(by)>(a...); }, sphere, plane);
+    return Tier::lift([](auto by, const auto&... a) { return sphere_plane_penetration<decltype(by)>(a...); }, sphere,
+                      plane);
   }
   const T norm = length(components(plane.normal));
   const T depth = sphere.radius - (Tier::dot(plane.normal, sphere.center) + plane.offset) / norm;
@@ -37,7 +38,8 @@ namespace contracts {
 /// depth and contact 2 eps each of the center and the radius.
 template <class Tier = Fast, class T = double>
 constexpr Contract sphere_plane_penetration() {
-  return Tier::template contract<T>({.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 16, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

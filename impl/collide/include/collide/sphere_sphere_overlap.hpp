@@ -15,7 +15,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_overlap<decltype(by)>(a...); }, sphere1, sphere2);
+    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_overlap<decltype(by)>(a...); }, sphere1,
+                      sphere2);
   }
   const Vec3<T> between = sphere2.center - sphere1.center;
   const T reach = sphere1.radius + sphere2.radius;

@@ -19,7 +19,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_penetration<decltype(by)>(a...); }, sphere1, sphere2);
+    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_penetration<decltype(by)>(a...); }, sphere1,
+                      sphere2);
   }
   const Vec3<T> between = sphere2.center - sphere1.center;
   const T distance = length(components(between));
@@ -36,7 +37,8 @@ namespace contracts {
 /// of as much. The normal's 4 eps of the radius are explained by moving centers and radius.
 template <class Tier = Fast, class T = double>
 constexpr Contract sphere_sphere_penetration() {
-  return Tier::template contract<T>({.backward = 24, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>(
+      {.backward = 24, .unit = 4, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
 }
 
 }  // namespace contracts

@@ -20,20 +20,22 @@ namespace detail {
 template <class T>
 struct SphereFromTriangle {
   using L = Lanes<T>;
-  L distances2;             ///< of the edges from v0, v1, v2 to the next corner, and of the plane
-  L lengths2;               ///< of the edges
-  L height2;                ///< of v2 above the first edge's line; in every lane
+  L distances2;                ///< of the edges from v0, v1, v2 to the next corner, and of the plane
+  L lengths2;                  ///< of the edges
+  L height2;                   ///< of v2 above the first edge's line; in every lane
   L base_weight, apex_weight;  ///< of v1 and v2 in the point of the plane; in every lane
-  L inside;                 ///< that point in the triangle
+  L inside;                    ///< that point in the triangle
 
   SphereFromTriangle(const L& center, const L& v0, const L& v1, const L& v2) noexcept {
     const L zero = L::all(T(0)), one = L::all(T(1));
     const L edge0 = v1 - v0, edge1 = v2 - v1, edge2 = v0 - v2, w0 = center - v0, w1 = center - v1, w2 = center - v2;
-    // How far along each edge, as a share of it, the center lies; the last lane: the corner v0 along the edge before it.
+    // How far along each edge, as a share of it, the center lies; the last lane: the corner v0 along the edge before
+    // it.
     lengths2 = sums_of_three(edge0 * edge0, edge1 * edge1, edge2 * edge2, edge0 * edge0);
     const L along = sums_of_three(w0 * edge0, w1 * edge1, w2 * edge2, edge2 * edge0) / lengths2;
     const L share = smaller(larger(along, zero), one) & (zero < lengths2);
-    const L from_edge0 = w0 - edge0 * share.template broadcast<0>(), from_edge1 = w1 - edge1 * share.template broadcast<1>();
+    const L from_edge0 = w0 - edge0 * share.template broadcast<0>(),
+            from_edge1 = w1 - edge1 * share.template broadcast<1>();
     const L from_edge2 = w2 - edge2 * share.template broadcast<2>();
     // As in foot_on_face.
     const L base_share = along.template broadcast<0>(), apex_share = zero - along.template broadcast<3>();
@@ -44,7 +46,8 @@ struct SphereFromTriangle {
     base_weight = base_share - apex_weight * apex_share;
     inside = (zero <= apex_weight) & (zero <= base_weight) & (base_weight + apex_weight <= one);
     const L from_face = beside - height * apex_weight;
-    distances2 = sums_of_three(from_edge0 * from_edge0, from_edge1 * from_edge1, from_edge2 * from_edge2, from_face * from_face);
+    distances2 =
+        sums_of_three(from_edge0 * from_edge0, from_edge1 * from_edge1, from_edge2 * from_edge2, from_face * from_face);
   }
 };
 
@@ -59,16 +62,19 @@ struct SphereFromTriangle {
 template <class T>
 std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle) noexcept {
   using L = Lanes<double>;
-  const L center = wide_lanes(sphere.center), v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1), v2 = wide_lanes(triangle.v2);
+  const L center = wide_lanes(sphere.center), v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1),
+          v2 = wide_lanes(triangle.v2);
   const SphereFromTriangle<double> seen(center, v0, v1, v2);
   const double s = sum_of_three(absolute(v0 - center) + absolute(v1 - center) + absolute(v2 - center)).first();
   const double r = sphere.radius, s2 = s * s, scale2 = s2 + r * r;
   if (!(scale2 >= 0x1p-800 && scale2 <= 0x1p800)) return std::nullopt;
-  const L beyond = seen.distances2 - L::all(r * r), bound = L::all(0x1p-45 * scale2), zero = L::all(0.0), one = L::all(1.0);
+  const L beyond = seen.distances2 - L::all(r * r), bound = L::all(0x1p-45 * scale2), zero = L::all(0.0),
+          one = L::all(1.0);
   if (((beyond < zero - bound) & (seen.inside | L::first_three())).bits() != 0) return true;
   const L margin = L::all(0x1p-20);
   const L outside = (seen.apex_weight < zero - margin) | (seen.base_weight < zero - margin) |
-                    (one + margin < seen.base_weight + seen.apex_weight) | (L::all(0x1p-38 * scale2) < beyond.template broadcast<3>());
+                    (one + margin < seen.base_weight + seen.apex_weight) |
+                    (L::all(0x1p-38 * scale2) < beyond.template broadcast<3>());
   const L well_shaped = L::all(s2) <= L::all(0x1p12) * smaller(seen.height2, seen.lengths2);
   if (all_three((bound < beyond) & outside & well_shaped)) return false;
   return std::nullopt;
@@ -102,15 +108,14 @@ Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& 
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_triangle_overlap<decltype(by)>(a...); }, sphere, triangle);
+    return Tier::lift([](auto by, const auto&... a) { return sphere_triangle_overlap<decltype(by)>(a...); }, sphere,
+                      triangle);
   }
   if constexpr (MachineNumber<T>) {
     const Vec3<T> all = triangle.v0 + triangle.v1 + triangle.v2;
     if (!detail::is_finite(all) || !(sphere.radius <= std::numeric_limits<T>::max())) return {false};
   }
-  const auto reaches = [&](const Vec3<T>& away) {
-    return Tier::beyond_radius(away, sphere.radius) <= T(0);
-  };
+  const auto reaches = [&](const Vec3<T>& away) { return Tier::beyond_radius(away, sphere.radius) <= T(0); };
   const Vec3<T> base = triangle.v1 - triangle.v0, w = sphere.center - triangle.v0;
   const detail::FaceFoot<T> face = detail::foot_on_face<Tier>(base, triangle.v2 - triangle.v0, w);
   if (face.inside) return {reaches(w - face.from_start(base))};

@@ -7,8 +7,8 @@
 /// number.hpp, decides by comparisons alone, and keeps what guards against rounding, overflow and
 /// underflow behind `if constexpr (MachineNumber<T>)`.
 ///
-/// Some queries have a second text, in lanes (lanes.hpp), which `Fast` takes where the machine has them, and some a first
-/// look in doubles, which `Certified` takes.
+/// Some queries have a second text, in lanes (lanes.hpp), which `Fast` takes where the machine has them, and some a
+/// first look in doubles, which `Certified` takes.
 #pragma once
 
 #include <bit>
@@ -32,7 +32,8 @@ template <class Operations>
 struct WithCross {
   template <class T>
   static constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) noexcept {
-    return {Operations::difference_of_products(a.y, b.z, a.z, b.y), Operations::difference_of_products(a.z, b.x, a.x, b.z),
+    return {Operations::difference_of_products(a.y, b.z, a.z, b.y),
+            Operations::difference_of_products(a.z, b.x, a.x, b.z),
             Operations::difference_of_products(a.x, b.y, a.y, b.x)};
   }
 };
@@ -119,7 +120,8 @@ constexpr bool all_finite(const Args&... args) noexcept {
   std::uint64_t found = 0;  // in the sign bit of double, and in that of float
   const auto look = [&](const auto& argument) {
     if constexpr (MachineNumber<std::remove_cvref_t<decltype(argument)>>) {
-      if (!(argument >= -std::numeric_limits<std::remove_cvref_t<decltype(argument)>>::max())) found = ~std::uint64_t{0};
+      if (!(argument >= -std::numeric_limits<std::remove_cvref_t<decltype(argument)>>::max()))
+        found = ~std::uint64_t{0};
     } else {
       for_each_leaf(argument, [&](const auto& leaf, Role) {
         if constexpr (MachineNumber<std::remove_cvref_t<decltype(leaf)>>) found |= not_finite_bit(leaf);
@@ -212,7 +214,10 @@ struct Accurate : Compensated {
       A answer{};
       convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
       keep_apart(wide.yes(), answer);
-      if constexpr (requires { answer.time; A::miss(); }) {
+      if constexpr (requires {
+                      answer.time;
+                      A::miss();
+                    }) {
         if (wide.yes() && wide.time > double(std::numeric_limits<float>::max())) return A::miss();
       }
       return answer;
@@ -257,8 +262,9 @@ namespace detail {
 
 /// 1 - |a|^2 to 2^-8 eps, of a vector of at most about unit length.
 ///
-/// a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. Squares of h are multiples of 2^-2g, and 2 g + 2 digits
-/// hold their sums: nothing is rounded. What is left of |a|^2 is the sum of l (h + a), each known to 2 u of 2^-g.
+/// a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. Squares of h are multiples of 2^-2g, and 2 g + 2
+/// digits hold their sums: nothing is rounded. What is left of |a|^2 is the sum of l (h + a), each known to 2 u of
+/// 2^-g.
 template <MachineNumber T>
 T short_of_unit(const Vec3<T>& a) noexcept {
   constexpr int digits = std::numeric_limits<T>::digits, g = (digits - 2) / 2;
@@ -272,9 +278,9 @@ T short_of_unit(const Vec3<T>& a) noexcept {
 
 /// `a` with the length sqrt(1 - missing), which it has but for some eps; |missing| <= 1/4.
 ///
-/// Other directions of the operands may explain the error of a direction, but no error of a length that is 1, whatever the
-/// operands are. So this leaves of it 2^-8 eps, and 1/3 of it times `missing`, which belongs to a length that depends on an
-/// angle, beside the last rounding of each number.
+/// Other directions of the operands may explain the error of a direction, but no error of a length that is 1, whatever
+/// the operands are. So this leaves of it 2^-8 eps, and 1/3 of it times `missing`, which belongs to a length that
+/// depends on an angle, beside the last rounding of each number.
 template <class T>
 Vec3<T> of_length(const Vec3<T>& a, const T& missing = T(0)) noexcept {
   if constexpr (MachineNumber<T>) {

@@ -12,7 +12,8 @@ namespace collide {
 template <class Tier = Fast, class T>
 Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point) noexcept {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_contains_point<decltype(by)>(a...); }, sphere, point);
+    return Tier::lift([](auto by, const auto&... a) { return sphere_contains_point<decltype(by)>(a...); }, sphere,
+                      point);
   }
   const Vec3<T> m = point - sphere.center;
   return {Tier::dot(m, m) <= sphere.radius * sphere.radius};
