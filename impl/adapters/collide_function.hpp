@@ -48,7 +48,7 @@ auto arguments(const inputs::closest_point_segment_unit<T>& q) noexcept {
 }
 template <class Tier, class T>
 auto arguments(const inputs::closest_point_triangle_perimeter_edges<T>& q) noexcept {
-  return std::tuple(collide::prepare_edges<Tier>(q.triangle), q.point);
+  return std::tuple(collide::prepare_triangle_edges<Tier>(q.triangle), q.point);
 }
 template <class Tier, class T>
 auto arguments(const inputs::moving_point_triangle_prepared<T>& q) noexcept {
@@ -56,7 +56,7 @@ auto arguments(const inputs::moving_point_triangle_prepared<T>& q) noexcept {
 }
 template <class Tier, class T>
 auto arguments(const inputs::ray_aabox<T>& q) noexcept {
-  return std::tuple(collide::prepare_ray(q.ray), collide::prepare_aabox(q.aabox));
+  return std::tuple(collide::prepare_ray<Tier>(q.ray), collide::prepare_aabox<Tier>(q.aabox));
 }
 template <class Tier, class T>
 auto arguments(const inputs::moving_sphere_passes_box<T>& q) noexcept {

@@ -6,6 +6,7 @@
 
 #include <collide/checked.hpp>
 
+#include "impl/catalogue/named_leaves.hpp"
 #include "impl/catalogue/query.hpp"
 
 namespace nearmiss {
@@ -16,7 +17,7 @@ template <class S>
 std::vector<Field> fields_of() {
   std::vector<Field> fields;
   S s{};
-  collide::for_each_named_leaf(s, [&](const std::string& path, auto&, Role role) { fields.push_back({path, role}); });
+  for_each_named_leaf(s, [&](const std::string& path, auto&, Role role) { fields.push_back({path, role}); });
   return fields;
 }
 

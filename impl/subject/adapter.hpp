@@ -11,6 +11,7 @@
 #include <collide/contract.hpp>
 
 #include "impl/catalogue/answer.hpp"
+#include "impl/catalogue/named_leaves.hpp"
 
 namespace nearmiss {
 
@@ -31,7 +32,7 @@ Partly<A> only(const A& answer, std::initializer_list<std::string_view> names) {
   Partly<A> p{answer};
   std::size_t i = 0;
   A walked = answer;
-  collide::for_each_named_leaf(walked, [&](const std::string& path, auto&, collide::Role) {
+  for_each_named_leaf(walked, [&](const std::string& path, auto&, collide::Role) {
     for (std::string_view name : names) {
       if (path == name || path.starts_with(std::string(name) + ".")) p.given |= std::uint64_t{1} << i;
     }

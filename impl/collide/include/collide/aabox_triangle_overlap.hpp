@@ -1,58 +1,13 @@
 /// Whether an axis-aligned box and a triangle overlap.
 #pragma once
 
-#include <optional>
-
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/edges.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/aabox_triangle_overlap.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
 namespace collide {
-
-#if defined(COLLIDE_LANES)
-
-namespace detail {
-
-/// Whether they meet; nothing where doubles may be wrong.
-///
-/// The coordinate axes are compared without rounding. Let G be the largest coordinate, u = 2^-53. Seen from the box's
-/// center a corner is known to 3 u G, half extents to u G, an edge to 2 u G. Along a cross product, a corner is then
-/// known to 36 u G^2 and the box's reach to 16 u G^2, their difference to 64 u G^2; along the normal, to 700 u G^3.
-template <class T>
-std::optional<bool> surely_overlap(const AABox<T>& box, const Triangle<T>& triangle) noexcept {
-  using L = Lanes<double>;
-  const L low = wide_lanes(box.min), high = wide_lanes(box.max), zero = L::all(0.0), half_of = L::all(0.5);
-  const L v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1), v2 = wide_lanes(triangle.v2);
-  const double size = sum_of_three(absolute(low) + absolute(high) + absolute(v0) + absolute(v1) + absolute(v2)).first();
-  if (!(size >= 0x1p-250 && size <= 0x1p250)) return std::nullopt;
-  if (any_of_three((high < smaller(smaller(v0, v1), v2)) | (larger(larger(v0, v1), v2) < low))) return false;
-
-  const L center = (low + high) * half_of, half = (high - low) * half_of, half1 = yzx(half), half2 = zxy(half);
-  const L a = v0 - center, b = v1 - center, c = v2 - center;
-  const L bound2 = L::all(0x1p-46 * size * size);
-  // How far the interval between two numbers is from the box, which reaches that far to both sides of zero.
-  const auto gap = [&](const L& p, const L& q, const L& reach)
-                       COLLIDE_INLINE { return larger(smaller(p, q), zero - larger(p, q)) - reach; };
-  // Across the coordinate axes and an edge: both ends of the edge are at one place.
-  const auto gaps = [&](const L& edge, const L& start, const L& apex) COLLIDE_INLINE {
-    const L size_of = absolute(edge);
-    return gap(cross(edge, start), cross(edge, apex), half1 * zxy(size_of) + half2 * yzx(size_of));
-  };
-  const L ab = b - a, gaps_ab = gaps(ab, a, c), gaps_bc = gaps(c - b, b, a), gaps_ca = gaps(a - c, c, b);
-  const L n = cross(ab, c - a), of_plane = sum_of_three(n * a), reach = sum_of_three(absolute(n) * half);
-  const double plane_gap = std::abs(of_plane.first()) - reach.first(), bound3 = 0x1p-43 * size * size * size;
-  const L largest = larger(larger(gaps_ab, gaps_bc), gaps_ca);
-  if (any_of_three(bound2 < largest) || plane_gap > bound3) return false;
-  if (all_three(largest < zero - bound2) && plane_gap < -bound3) return true;
-  return std::nullopt;
-}
-
-}  // namespace detail
-
-#endif
 
 /// Whether the closed axis-aligned box and the closed triangle, seen from either side, meet. A triangle
 /// without area is a segment or a point.
@@ -63,61 +18,9 @@ std::optional<bool> surely_overlap(const AABox<T>& box, const Triangle<T>& trian
 /// coordinate axes are compared without rounding; the plane's normal is made of an edge and of the other one
 /// at right angles to it, so that a thin triangle has as good a normal as any other.
 template <class Tier = Fast, class T>
-Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& triangle) noexcept {
-#if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T> || looks_first<Tier, T>) {
-    if (const auto sure = detail::surely_overlap(box, triangle)) {
-      if constexpr (looks_first<Tier, T>) return Tier::sure(Decision<T>{*sure});
-      return {*sure};
-    }
-  }
-#endif
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return aabox_triangle_overlap<decltype(by)>(a...); }, box,
-                      triangle);
-  }
-  if constexpr (MachineNumber<T>) {
-    if (!detail::is_finite(box.min + box.max + triangle.v0 + triangle.v1 + triangle.v2)) return {false};
-  }
-  using Three = std::array<T, 3>;
-  const std::array<Three, 3> v{components(triangle.v0), components(triangle.v1), components(triangle.v2)};
-  const Three low = components(box.min), high = components(box.max);
-  for (int k = 0; k < 3; ++k) {
-    if (!(smaller(smaller(v[0][k], v[1][k]), v[2][k]) <= high[k])) return {false};
-    if (!(larger(larger(v[0][k], v[1][k]), v[2][k]) >= low[k])) return {false};
-  }
-
-  // Across coordinate axis k and an edge: seen along the axis, the line through the edge.
-  for (int i = 0; i < 3; ++i) {
-    const Three &start = v[i], &end = v[(i + 1) % 3], &apex = v[(i + 2) % 3];
-    Three edge, to_low, to_high, to_apex;
-    for (int k = 0; k < 3; ++k) {
-      edge[k] = end[k] - start[k];
-      to_low[k] = low[k] - start[k];
-      to_high[k] = high[k] - start[k];
-      to_apex[k] = apex[k] - start[k];
-    }
-    for (int k = 0; k < 3; ++k) {
-      const int a = (k + 1) % 3, b = (k + 2) % 3;
-      const T b1 = edge[a] * to_low[b], b2 = edge[a] * to_high[b];
-      const T a1 = edge[b] * to_low[a], a2 = edge[b] * to_high[a];
-      const T of_apex = Tier::difference_of_products(edge[a], to_apex[b], edge[b], to_apex[a]);
-      if (!(smaller(b1, b2) - larger(a1, a2) <= not_negative(of_apex))) return {false};
-      if (!(larger(b1, b2) - smaller(a1, a2) >= smaller(of_apex, T(0)))) return {false};
-    }
-  }
-
-  // The plane, its normal times the square of an edge's length: nothing is divided.
-  const Vec3<T> base = triangle.v1 - triangle.v0, apex = triangle.v2 - triangle.v0;
-  const Vec3<T> height = apex * Tier::dot(base, base) - base * Tier::dot(apex, base);
-  const Three normal = components(Tier::cross(base, height));
-  T least(0), most(0);
-  for (int k = 0; k < 3; ++k) {
-    const T to_low = normal[k] * (low[k] - v[0][k]), to_high = normal[k] * (high[k] - v[0][k]);
-    least = least + smaller(to_low, to_high);
-    most = most + larger(to_low, to_high);
-  }
-  return {least <= T(0) && most >= T(0)};
+[[nodiscard]] Decision<T> aabox_triangle_overlap(const AABox<T>& box,
+                                                 const Triangle<T>& triangle) noexcept(Tier::never_throws) {
+  return kernels::aabox_triangle_overlap<Tier>(box, triangle);
 }
 
 namespace contracts {

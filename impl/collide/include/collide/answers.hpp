@@ -1,8 +1,10 @@
 /// What the queries return: a small closed set of kinds, each one plain struct.
+///
+/// Every answer has its decision in `yes()`: a hit, an overlap, a point inside; touching is yes. A query that always
+/// has an answer (a nearest point) always says yes. The numbers of an answer hold only where its comment says so.
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include <collide/vec3.hpp>
@@ -12,10 +14,10 @@ namespace collide {
 /// Yes or no. Touching is yes.
 template <class T>
 struct Decision {
-  bool answer = false;
+  bool decision = false;
 
-  bool yes() const noexcept { return answer; }
-  static constexpr auto decision() { return &Decision::answer; }
+  [[nodiscard]] constexpr bool yes() const { return decision; }
+  static constexpr auto decision_member() { return &Decision::decision; }
   static constexpr auto members() { return std::tuple<>(); }
 };
 
@@ -26,10 +28,10 @@ struct Decision {
 template <class T>
 struct Containment {
   Vec3<T> weights{};  ///< x, y, z are the weights of v0, v1, v2; their sum is 1; zero outside
-  bool inside = false;
+  bool decision = false;
 
-  bool yes() const noexcept { return inside; }
-  static constexpr auto decision() { return &Containment::inside; }
+  [[nodiscard]] constexpr bool yes() const { return decision; }
+  static constexpr auto decision_member() { return &Containment::decision; }
   static constexpr auto members() { return std::tuple(member("weights", &Containment::weights, Role::weight)); }
 };
 
@@ -37,11 +39,11 @@ struct Containment {
 template <class T>
 struct RayHit {
   Vec3<T> location{};  ///< where the ray enters, its origin for a start inside; zero for a miss
-  bool hit = false;
+  bool decision = false;
   bool inside = false;  ///< the ray starts in the solid
 
-  bool yes() const noexcept { return hit; }
-  static constexpr auto decision() { return &RayHit::hit; }
+  [[nodiscard]] constexpr bool yes() const { return decision; }
+  static constexpr auto decision_member() { return &RayHit::decision; }
   static constexpr auto members() {
     return std::tuple(member("inside", &RayHit::inside, Role::flag),
                       member("location", &RayHit::location, Role::position));
@@ -51,22 +53,22 @@ struct RayHit {
 /// Whether two boxes overlap, and what keeps them apart.
 template <class T>
 struct BoxOverlap {
-  bool overlap = false;
+  bool decision = false;
   int axis = -1;  ///< an axis 0..14 that separates them, the hint for the next time; -1 where they overlap
 
-  bool yes() const noexcept { return overlap; }
-  static constexpr auto decision() { return &BoxOverlap::overlap; }
+  [[nodiscard]] constexpr bool yes() const { return decision; }
+  static constexpr auto decision_member() { return &BoxOverlap::decision; }
   static constexpr auto members() { return std::tuple(member("axis", &BoxOverlap::axis, Role::index)); }
 };
 
 /// Which axes of two boxes are parallel.
 template <class T>
 struct ParallelAxes {
-  bool parallel = false;
+  bool decision = false;
   int axis1 = -1, axis2 = -1;  ///< 0..2, of box 1 and of box 2; -1 where none are
 
-  bool yes() const noexcept { return parallel; }
-  static constexpr auto decision() { return &ParallelAxes::parallel; }
+  [[nodiscard]] constexpr bool yes() const { return decision; }
+  static constexpr auto decision_member() { return &ParallelAxes::decision; }
   static constexpr auto members() {
     return std::tuple(member("axis1", &ParallelAxes::axis1, Role::index),
                       member("axis2", &ParallelAxes::axis2, Role::index));
@@ -80,8 +82,8 @@ struct Impact {
   Vec3<T> location{};                           ///< contact on the fixed object; zero for a miss
   Vec3<T> normal{};                             ///< unit, from the fixed object to the moving one; zero for a miss
 
-  static constexpr Impact miss() noexcept { return {}; }
-  bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
+  static constexpr Impact miss() { return {}; }
+  [[nodiscard]] constexpr bool yes() const { return time < std::numeric_limits<T>::infinity(); }
   static constexpr auto members() {
     return std::tuple(member("time", &Impact::time, Role::time), member("location", &Impact::location, Role::position),
                       member("normal", &Impact::normal, Role::normal));
@@ -96,8 +98,8 @@ struct TriangleImpact {
   Vec3<T> normal{};                             ///< unit, from the triangle to the moving thing; zero for a miss
   Vec3<T> weights{};                            ///< location = x v0 + y v1 + z v2, x + y + z = 1; zero for a miss
 
-  static constexpr TriangleImpact miss() noexcept { return {}; }
-  bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
+  static constexpr TriangleImpact miss() { return {}; }
+  [[nodiscard]] constexpr bool yes() const { return time < std::numeric_limits<T>::infinity(); }
   static constexpr auto members() {
     return std::tuple(member("time", &TriangleImpact::time, Role::time),
                       member("location", &TriangleImpact::location, Role::position),
@@ -114,8 +116,8 @@ struct Entry {
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
   Vec3<T> normal{};                             ///< unit, outward; zero for a miss
 
-  static constexpr Entry miss() noexcept { return {}; }
-  bool yes() const noexcept { return time < std::numeric_limits<T>::infinity(); }
+  static constexpr Entry miss() { return {}; }
+  [[nodiscard]] constexpr bool yes() const { return time < std::numeric_limits<T>::infinity(); }
   static constexpr auto members() {
     return std::tuple(member("inside", &Entry::inside, Role::flag),
                       member("location", &Entry::location, Role::position), member("time", &Entry::time, Role::time),
@@ -128,7 +130,7 @@ template <class T>
 struct ClosestPoint {
   Vec3<T> point{};
 
-  static bool yes() noexcept { return true; }
+  [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() { return std::tuple(member("point", &ClosestPoint::point, Role::position)); }
 };
 
@@ -138,7 +140,7 @@ struct EdgePoint {
   Vec3<T> point{};
   int edge = 0;  ///< edge i runs from v[i] to v[(i + 1) % 3]
 
-  static bool yes() noexcept { return true; }
+  [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() {
     return std::tuple(member("point", &EdgePoint::point, Role::position),
                       member("edge", &EdgePoint::edge, Role::index));
@@ -151,7 +153,7 @@ struct ClosestPoints {
   Vec3<T> point1{};  ///< of the first
   Vec3<T> point2{};  ///< of the second
 
-  static bool yes() noexcept { return true; }
+  [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() {
     return std::tuple(member("point1", &ClosestPoints::point1, Role::position),
                       member("point2", &ClosestPoints::point2, Role::position));
@@ -165,7 +167,7 @@ struct Penetration {
   Vec3<T> normal{};   ///< unit, from the first object into the second; zero when apart
   Vec3<T> contact{};  ///< zero when apart
 
-  bool yes() const noexcept { return depth >= T(0); }
+  [[nodiscard]] constexpr bool yes() const { return depth >= T(0); }
   static constexpr auto members() {
     return std::tuple(member("depth", &Penetration::depth, Role::depth),
                       member("normal", &Penetration::normal, Role::normal),
@@ -181,7 +183,7 @@ struct BoxPenetration {
   Vec3<T> normal{};   ///< unit, from box 1 into box 2; zero when apart
   Vec3<T> contact{};  ///< zero when apart
 
-  bool yes() const noexcept { return depth >= T(0); }
+  [[nodiscard]] constexpr bool yes() const { return depth >= T(0); }
   static constexpr auto members() {
     return std::tuple(member("depth", &BoxPenetration::depth, Role::depth),
                       member("axis", &BoxPenetration::axis, Role::index),
@@ -193,7 +195,10 @@ struct BoxPenetration {
 /// A corner of a box that may lie behind a plane.
 template <class T>
 struct Corner {
-  T behind{};       ///< 1: on the plane or behind it, a contact; 0: in front
+  /// bool; of a number type that can be uncertain, that type with the values 0 and 1.
+  using Flag = std::conditional_t<std::is_floating_point_v<T>, bool, T>;
+
+  Flag behind{};    ///< on the plane or behind it: a contact
   Vec3<T> point{};  ///< zero in front
 
   static constexpr auto members() {
@@ -209,7 +214,7 @@ struct CornerContacts {
   /// Corner i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k.
   std::array<Corner<T>, 8> corners{};
 
-  bool yes() const noexcept { return depth >= T(0); }
+  [[nodiscard]] constexpr bool yes() const { return depth >= T(0); }
   static constexpr auto members() {
     return std::tuple(member("depth", &CornerContacts::depth, Role::depth),
                       member("normal", &CornerContacts::normal, Role::normal),
@@ -222,7 +227,7 @@ template <class T>
 struct Measure {
   T value{};
 
-  static bool yes() noexcept { return true; }
+  [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() { return std::tuple(member("value", &Measure::value, Role::depth)); }
 };
 
@@ -235,7 +240,7 @@ struct BoxBoxInfo {
   std::array<Vec3<T>, 3> abs_cosine{};  ///< their absolute values
   Vec3<T> between1{}, between2{};       ///< `between` along the axes of box 1, of box 2
 
-  static bool yes() noexcept { return true; }
+  [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() {
     return std::tuple(
         member("half1", &BoxBoxInfo::half1, Role::position), member("half2", &BoxBoxInfo::half2, Role::position),
@@ -251,7 +256,7 @@ template <class T>
 struct Direction {
   Vec3<T> direction{};
 
-  static bool yes() noexcept { return true; }
+  [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() { return std::tuple(member("direction", &Direction::direction, Role::weight)); }
 };
 

@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/bounce_direction.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -18,17 +19,10 @@ namespace collide {
 ///
 /// The sphere's radius and the lengths of u, normal and velocity play no part.
 template <class Tier = Fast, class T>
-Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
-                              const Vec3<T>& normal) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return bounce_direction<decltype(by)>(a...); }, sphere, velocity,
-                      time, location, normal);
-  }
-  const Vec3<T> to_center = (sphere.center - location) + velocity * time;
-  const bool apart = !(to_center == Vec3<T>{});
-  const Vec3<T> u = unit<Tier>(apart ? to_center : normal);
-  const Vec3<T> d = unit<Tier>(velocity);
-  return {of_length<T>(d - u * (T(2) * Tier::dot(d, u)))};
+[[nodiscard]] Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
+                                            const Vec3<T>& location,
+                                            const Vec3<T>& normal) noexcept(Tier::never_throws) {
+  return kernels::bounce_direction<Tier>(sphere, velocity, time, location, normal);
 }
 
 namespace contracts {

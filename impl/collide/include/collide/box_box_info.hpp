@@ -2,9 +2,8 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/box_pair.hpp>
 #include <collide/contract.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/box_box_info.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -20,28 +19,8 @@ namespace collide {
 /// Lengths are in the unit of the boxes. Source: the numbers that every separating axis test of two boxes
 /// shares (Gottschalk, Lin, Manocha, OBBTree, 1996); the cosines are those of the relative rotation.
 template <class Tier = Fast, class T>
-BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_info<decltype(by)>(a...); }, box1, box2);
-  }
-  using std::abs;
-  const detail::BoxPair<T> pair(box1, box2);
-  const Axes<T> axes1 = axes_of(box1.orientation), axes2 = axes_of(box2.orientation);
-  BoxBoxInfo<T> info;
-  info.half1 = box1.half;
-  info.half2 = box2.half;
-  info.between = box2.center - box1.center;
-  const T scale = pair.norm1 * pair.norm2;
-  for (int i = 0; i < 3; ++i) {
-    const auto& row = pair.cosine[i];
-    info.cosine[i] = detail::at_most_one(Vec3<T>{row[0], row[1], row[2]} / scale);
-    info.abs_cosine[i] = {abs(info.cosine[i].x), abs(info.cosine[i].y), abs(info.cosine[i].z)};
-  }
-  const std::array<T, 3> between1 = into_frame<Tier>(axes1, info.between);
-  const std::array<T, 3> between2 = into_frame<Tier>(axes2, info.between);
-  info.between1 = {between1[0], between1[1], between1[2]};
-  info.between2 = {between2[0], between2[1], between2[2]};
-  return info;
+[[nodiscard]] BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) noexcept(Tier::never_throws) {
+  return kernels::box_box_info<Tier>(box1, box2);
 }
 
 namespace contracts {

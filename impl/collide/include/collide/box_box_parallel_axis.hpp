@@ -2,8 +2,8 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/box_pair.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/box_box_parallel_axis.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -18,51 +18,15 @@ namespace collide {
 /// relative rotation, 1 -+ cosine is a sum of two squares of sums of r's numbers, over |r|^2; so nearly
 /// parallel axes are told from parallel ones without the rounding of a cosine near 1.
 template <class Tier = Fast, class T>
-ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, box1, box2,
-                      epsilon);
-  }
-  if (epsilon < T(0)) return {};  // no two axes are that near
-  const std::array<T, 4> r = detail::seen_from(detail::moderate(box1.orientation), detail::moderate(box2.orientation));
-  const T most = epsilon * detail::norm2(r);
-  if constexpr (MachineNumber<T>) {
-    if (!(detail::norm2(r) > T(0))) return {};  // no rotation, or NaN
-  }
-  if (epsilon >= T(1))
-    return epsilon <= std::numeric_limits<T>::max() ? ParallelAxes<T>{true, 0, 0} : ParallelAxes<T>{};
-  const auto sum = [](const T& a, const T& b) { return a * a + b * b; };
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      T from_same, from_opposite;  // |r|^2 (1 - cosine), |r|^2 (1 + cosine)
-      if (i == j) {
-        from_same = T(2) * sum(r[(i + 1) % 3], r[(i + 2) % 3]);
-        from_opposite = T(2) * sum(r[i], r[3]);
-      } else {
-        const T third = j == (i + 1) % 3 ? r[3 - i - j] : -r[3 - i - j];
-        from_same = sum(r[i] - r[j], r[3] + third);
-        from_opposite = sum(r[i] + r[j], r[3] - third);
-      }
-      if (smaller(from_same, from_opposite) <= most) return {true, i, j};
-    }
-  }
-  return {};
+[[nodiscard]] ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2,
+                                                    T epsilon) noexcept(Tier::never_throws) {
+  return kernels::box_box_parallel_axis<Tier>(box1, box2, epsilon);
 }
 
 /// The same from what the tools for pairs of boxes share: as exact as the cosines are.
 template <class Tier = Fast, class T>
-ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_parallel_axis<decltype(by)>(a...); }, info,
-                      epsilon);
-  }
-  for (int i = 0; i < 3; ++i) {
-    const std::array<T, 3> row = components(info.abs_cosine[i]);
-    for (int j = 0; j < 3; ++j) {
-      if (row[j] >= T(1) - epsilon) return {true, i, j};
-    }
-  }
-  return {};
+[[nodiscard]] ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) noexcept(Tier::never_throws) {
+  return kernels::box_box_parallel_axis<Tier>(info, epsilon);
 }
 
 namespace contracts {

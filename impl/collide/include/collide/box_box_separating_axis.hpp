@@ -2,9 +2,8 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/box_pair.hpp>
 #include <collide/contract.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/box_box_separating_axis.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -18,23 +17,9 @@ namespace collide {
 /// An axis that does not exist has NaN. Source: Gottschalk, Lin, Manocha, OBBTree, 1996; the cross product
 /// of nearly parallel axes comes from the relative rotation, which keeps its direction.
 template <class Tier = Fast, class T>
-Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return box_box_separating_axis<decltype(by)>(a...); }, box1, box2,
-                      axis);
-  }
-  if (axis < 0 || axis >= box_box_axes) {
-    const T none = std::numeric_limits<T>::quiet_NaN();
-    return {{none, none, none}};
-  }
-  if (axis >= 3 && axis < 6) return {detail::at_most_one(axes_of(box2.orientation)[axis - 3])};
-  const Axes<T> axes1 = axes_of(box1.orientation);
-  if (axis < 3) return {detail::at_most_one(axes1[axis])};
-  const detail::BoxPair<T> pair(box1, box2);
-  const int i = (axis - 6) / 3, j = (axis - 6) % 3;
-  const auto cross = pair.cross_axis(i, j, false).in1;
-  const T scale = pair.norm1 * pair.norm2;
-  return {detail::at_most_one(axes1[(i + 1) % 3] * (cross[0] / scale) + axes1[(i + 2) % 3] * (cross[1] / scale))};
+[[nodiscard]] Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2,
+                                                   int axis) noexcept(Tier::never_throws) {
+  return kernels::box_box_separating_axis<Tier>(box1, box2, axis);
 }
 
 namespace contracts {

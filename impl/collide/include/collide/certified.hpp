@@ -1,14 +1,10 @@
 /// The certified tier: every decision is the exact one, for all finite inputs, and every number lies within
 /// two units in the last place of the exact one. Needs MPFR and GMP (target collide::certified).
 ///
-/// The text of a query is computed up to three times: in doubles with error bounds (bounded.hpp), in
+/// The kernel of a query is computed up to three times: in doubles with error bounds (bounded.hpp), in
 /// double-words with error bounds, in exact real numbers (real.hpp). A computation counts when no
 /// comparison was in doubt and each number of the answer is known well enough; the last one always is.
 #pragma once
-
-#if defined(__FAST_MATH__)
-#error "collide/certified.hpp: its error bounds do not hold under -ffast-math"
-#endif
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -23,18 +19,20 @@
 #include <cfenv>
 #include <cstdint>
 
-#include <collide/bounded.hpp>
 #include <collide/contract.hpp>
-#include <collide/real.hpp>
+#include <collide/detail/bounded.hpp>
+#include <collide/detail/real.hpp>
 #include <collide/tiers.hpp>
 
-// Numbers with bounds are worth their speed where a whole text becomes one piece of code: the compiler then sees which
-// are exact. Sanitizers would check each operation of it by itself, and compile for very long.
+// Numbers with bounds are worth their speed where a whole kernel becomes one piece of code: the compiler then sees
+// which are exact. Sanitizers would check each operation of it by itself, and compile for very long.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(COLLIDE_SANITIZED)
 #define COLLIDE_IN_ONE_PIECE [[gnu::noinline, gnu::flatten]]
 #else
 #define COLLIDE_IN_ONE_PIECE [[gnu::noinline]]
 #endif
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide {
 
@@ -53,7 +51,7 @@ namespace detail {
 
 /// The compiler cannot know the numbers of `x` from before.
 template <class X>
-void forget(const X& x) noexcept {
+void forget(const X& x) {
 #if defined(__GNUC__)
   asm volatile("" : : "r"(&x) : "memory");
 #else
@@ -62,7 +60,7 @@ void forget(const X& x) noexcept {
 }
 
 /// `x`, and whatever is in memory, is computed before what follows.
-inline void settle(double x) noexcept {
+inline void settle(double x) {
 #if defined(__GNUC__) && defined(__SSE2__)
   asm volatile("" : : "x"(x) : "memory");
 #elif defined(__GNUC__)
@@ -72,8 +70,8 @@ inline void settle(double x) noexcept {
   static_cast<void>(settled);
 #endif
 }
-inline void settle(const DoubleWord<double>& x) noexcept { settle(x.high), settle(x.low); }
-inline void settle(int x) noexcept {
+inline void settle(const DoubleWord<double>& x) { settle(x.high), settle(x.low); }
+inline void settle(int x) {
 #if defined(__GNUC__)
   asm volatile("" : : "r"(x) : "memory");
 #else
@@ -87,13 +85,13 @@ inline void settle(int x) noexcept {
 class RangeFlags {
  public:
   template <class... Args>
-  explicit RangeFlags(const Args&... args) noexcept {
+  explicit RangeFlags(const Args&... args) {
     clear();
     (forget(args), ...);
   }
   template <class A>
-  bool raised_for(const A& answer) const noexcept {
-    if constexpr (requires { A::decision(); }) settle(int(answer.*A::decision()));
+  bool raised_for(const A& answer) const {
+    if constexpr (requires { A::decision_member(); }) settle(int(answer.*A::decision_member()));
     for_each_leaf(answer, [](const auto& leaf, Role) {
       if constexpr (requires { leaf.error; }) {
         settle(leaf.value), settle(leaf.error);
@@ -109,18 +107,18 @@ class RangeFlags {
  private:
 #if defined(__SSE2__)
   static constexpr unsigned mask = 0x08 | 0x10;  // overflow, underflow
-  static void clear() noexcept {
+  static void clear() {
     const unsigned state = _mm_getcsr();
     if ((state & mask) != 0) _mm_setcsr(state & ~mask);
   }
-  static bool raised() noexcept { return (_mm_getcsr() & mask) != 0; }
+  static bool raised() { return (_mm_getcsr() & mask) != 0; }
 #else
-  static void clear() noexcept { std::feclearexcept(FE_OVERFLOW | FE_UNDERFLOW); }
-  static bool raised() noexcept { return std::fetestexcept(FE_OVERFLOW | FE_UNDERFLOW) != 0; }
+  static void clear() { std::feclearexcept(FE_OVERFLOW | FE_UNDERFLOW); }
+  static bool raised() { return std::fetestexcept(FE_OVERFLOW | FE_UNDERFLOW) != 0; }
 #endif
 };
 
-/// The operations of a text in more digits, without bounds: those of Bounded hold for them too, times the
+/// The operations of a kernel in more digits, without bounds: those of Bounded hold for them too, times the
 /// ratio of the unit roundoffs. `M` is the machine's long double where that has 64 digits, or a double-word.
 template <class Scalar, class M>
 struct Longer {
@@ -130,35 +128,35 @@ struct Longer {
   constexpr Longer(double v) noexcept : value(v) {}
   constexpr explicit Longer(float v) noexcept : value(double(v)) {}
   constexpr explicit Longer(int v) noexcept : value(double(v)) {}
-  static constexpr Longer of(const M& v) noexcept {
+  static constexpr Longer of(const M& v) {
     Longer x;
     x.value = v;
     return x;
   }
 
-  friend Longer operator-(const Longer& a) noexcept { return of(-a.value); }
-  friend Longer operator+(const Longer& a, const Longer& b) noexcept { return of(a.value + b.value); }
-  friend Longer operator-(const Longer& a, const Longer& b) noexcept { return of(a.value - b.value); }
-  friend Longer operator*(const Longer& a, const Longer& b) noexcept { return of(a.value * b.value); }
-  friend Longer operator/(const Longer& a, const Longer& b) noexcept { return of(a.value / b.value); }
-  Longer& operator+=(const Longer& b) noexcept { return *this = *this + b; }
-  Longer& operator-=(const Longer& b) noexcept { return *this = *this - b; }
-  Longer& operator*=(const Longer& b) noexcept { return *this = *this * b; }
-  friend Longer sqrt(const Longer& a) noexcept {
-    using std::sqrt;
+  friend Longer operator-(const Longer& a) { return of(-a.value); }
+  friend Longer operator+(const Longer& a, const Longer& b) { return of(a.value + b.value); }
+  friend Longer operator-(const Longer& a, const Longer& b) { return of(a.value - b.value); }
+  friend Longer operator*(const Longer& a, const Longer& b) { return of(a.value * b.value); }
+  friend Longer operator/(const Longer& a, const Longer& b) { return of(a.value / b.value); }
+  Longer& operator+=(const Longer& b) { return *this = *this + b; }
+  Longer& operator-=(const Longer& b) { return *this = *this - b; }
+  Longer& operator*=(const Longer& b) { return *this = *this * b; }
+  friend Longer sqrt(const Longer& a) {
+    using detail::sqrt;
     return of(sqrt(a.value));
   }
-  friend Longer abs(const Longer& a) noexcept {
-    using std::abs;
+  friend Longer abs(const Longer& a) {
+    using detail::abs;
     return of(abs(a.value));
   }
-  friend bool operator<(const Longer& a, const Longer& b) noexcept { return a.value < b.value; }
-  friend bool operator>(const Longer& a, const Longer& b) noexcept { return a.value > b.value; }
-  friend bool operator<=(const Longer& a, const Longer& b) noexcept { return a.value <= b.value; }
-  friend bool operator>=(const Longer& a, const Longer& b) noexcept { return a.value >= b.value; }
-  friend bool operator==(const Longer& a, const Longer& b) noexcept { return a.value == b.value; }
-  friend Longer larger(const Longer& a, const Longer& b) noexcept { return a.value < b.value ? b : a; }
-  friend Longer smaller(const Longer& a, const Longer& b) noexcept { return b.value < a.value ? b : a; }
+  friend bool operator<(const Longer& a, const Longer& b) { return a.value < b.value; }
+  friend bool operator>(const Longer& a, const Longer& b) { return a.value > b.value; }
+  friend bool operator<=(const Longer& a, const Longer& b) { return a.value <= b.value; }
+  friend bool operator>=(const Longer& a, const Longer& b) { return a.value >= b.value; }
+  friend bool operator==(const Longer& a, const Longer& b) { return a.value == b.value; }
+  friend Longer larger(const Longer& a, const Longer& b) { return a.value < b.value ? b : a; }
+  friend Longer smaller(const Longer& a, const Longer& b) { return b.value < a.value ? b : a; }
 };
 
 inline constexpr bool has_long_double = std::numeric_limits<long double>::digits == 64;
@@ -217,7 +215,7 @@ Known known_quantity(const Quantity& quantity) {
   double largest = 0, error = 0;
   for_each_leaf(quantity, [&](const auto& leaf, Role) {
     if constexpr (requires { leaf.error; }) {
-      largest = std::max(largest, std::abs(leading(leaf.value)));
+      largest = std::max(largest, detail::abs(leading(leaf.value)));
       error = leaf.error <= error ? error : leaf.error;  // NaN stays
     }
   });
@@ -257,8 +255,10 @@ Known known(const A& answer, Role role = Role::inherited) {
 }  // namespace detail
 
 /// Every decision exact over all finite inputs, every number within two units in the last place of its
-/// scalar (of a vector: of its largest number). The machine must round to nearest.
+/// scalar (of a vector: of its largest number). The machine must round to nearest. Where memory runs out a query throws
+/// std::bad_alloc, or GMP ends the program.
 struct Certified : Plain {
+  static constexpr bool never_throws = false;
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
   template <class T>
@@ -271,29 +271,29 @@ struct Certified : Plain {
   }
 
   /// How many answers each stage gave on this thread.
-  static StageCounts& counts() noexcept {
+  static StageCounts& counts() {
     static constinit thread_local StageCounts all;
     return all;
   }
 
   /// An answer that is known by a query's own bound on its error in doubles.
   template <class A>
-  static A sure(const A& answer) noexcept {
+  static A sure(const A& answer) {
     ++counts().filter;
     return answer;
   }
 
   template <class F, class... Args>
-  static auto lift(F&& text, const Args&... args) noexcept {
-    using Answer = decltype(text(Plain{}, args...));
+  static auto lift(F&& kernel, const Args&... args) {
+    using Answer = decltype(kernel(Plain{}, args...));
     using T = typename detail::AnswerOver<Answer>::Scalar;
     Answer answer{};
-    if (filtered<T>(answer, text, args...)) {
+    if (filtered<T>(answer, kernel, args...)) {
       ++counts().filter;
-    } else if (extended<T>(answer, text, args...)) {
+    } else if (extended<T>(answer, kernel, args...)) {
       ++counts().extended;
     } else {
-      exact<T>(answer, text, args...);
+      exact<T>(answer, kernel, args...);
     }
     deny_if_invalid(answer, args...);
     return answer;
@@ -301,11 +301,11 @@ struct Certified : Plain {
 
  private:
   template <class T, class F, class... Args>
-  COLLIDE_IN_ONE_PIECE static bool filtered(auto& answer, F& text, const Args&... args) noexcept {
+  COLLIDE_IN_ONE_PIECE static bool filtered(auto& answer, F& kernel, const Args&... args) {
     using N = Bounded<T>;
     const detail::RangeFlags range(args...);
     Doubt::any = false;
-    auto wide = text(Plain{}, detail::raised<N>(args)...);
+    auto wide = kernel(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     const bool yes = wide.yes();
     if (range.raised_for(wide) || Doubt::any) return false;
@@ -318,40 +318,40 @@ struct Certified : Plain {
     if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
       if constexpr (detail::has_long_double) {
         if (known == detail::Known::in_long_double) {
-          in_long_double<T>(yes, answer, text, args...);
+          in_long_double<T>(yes, answer, kernel, args...);
           return true;
         }
       }
       if (known == detail::Known::in_double_words) {
-        return in_double_words<T>(yes, answer, text, args...);
+        return in_double_words<T>(yes, answer, kernel, args...);
       }
     }
     return false;
   }
 
   template <class T, class F, class... Args>
-  COLLIDE_IN_ONE_PIECE static void in_long_double(bool yes, auto& answer, F& text, const Args&... args) noexcept {
-    longer<T, detail::Longer<T, long double>>(yes, answer, text, args...);
+  COLLIDE_IN_ONE_PIECE static void in_long_double(bool yes, auto& answer, F& kernel, const Args&... args) {
+    longer<T, detail::Longer<T, long double>>(yes, answer, kernel, args...);
   }
   template <class T, class F, class... Args>
-  [[gnu::noinline]] static bool in_double_words(bool yes, auto& answer, F& text, const Args&... args) noexcept {
+  [[gnu::noinline]] static bool in_double_words(bool yes, auto& answer, F& kernel, const Args&... args) {
     const detail::RangeFlags range(args...);
-    longer<T, detail::Longer<T, DoubleWord<double>>>(yes, answer, text, args...);
+    longer<T, detail::Longer<T, DoubleWord<double>>>(yes, answer, kernel, args...);
     return !range.raised_for(answer);
   }
   template <class T, class N, class F, class... Args>
-  static void longer(bool yes, auto& answer, F& text, const Args&... args) noexcept {
-    const auto wide = text(Plain{}, detail::raised<N>(args)...);
+  static void longer(bool yes, auto& answer, F& kernel, const Args&... args) {
+    const auto wide = kernel(Plain{}, detail::raised<N>(args)...);
     convert(wide, answer, [](const N& from, T& to) { to = detail::rounded(from.value); });
     keep_apart(yes, answer);
   }
 
   template <class T, class F, class... Args>
-  [[gnu::noinline]] static bool extended(auto& answer, F& text, const Args&... args) noexcept {
+  [[gnu::noinline]] static bool extended(auto& answer, F& kernel, const Args&... args) {
     using N = WideBounded<T>;
     const detail::RangeFlags range(args...);
     Doubt::any = false;
-    auto wide = text(Plain{}, detail::raised<N>(args)...);
+    auto wide = kernel(Plain{}, detail::raised<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     const bool yes = wide.yes();
     if (range.raised_for(wide) || Doubt::any || detail::known<T>(wide) != detail::Known::now) return false;
@@ -361,21 +361,21 @@ struct Certified : Plain {
   }
 
   template <class T, class F, class... Args>
-  [[gnu::noinline]] static void exact(auto& answer, F& text, const Args&... args) noexcept {
+  [[gnu::noinline]] static void exact(auto& answer, F& kernel, const Args&... args) {
     using N = Real<T>;
     if (!all_finite(args...)) {
       ++counts().invalid;
-      answer = text(Plain{}, args...);
+      answer = kernel(Plain{}, args...);
       return;
     }
     ++counts().exact;
-    {
-      auto wide = text(Plain{}, detail::raised<N>(args)...);
-      detail::miss_beyond_range<N>(wide);
-      convert(wide, answer, [](const N& from, T& to) { to = from.rounded(); });
-      keep_apart(wide.yes(), answer);
-    }
-    detail::Expressions::here().clear();
+    const struct ClearAtEnd {
+      ~ClearAtEnd() { detail::Expressions::here().clear(); }
+    } after_the_numbers;
+    auto wide = kernel(Plain{}, detail::raised<N>(args)...);
+    detail::miss_beyond_range<N>(wide);
+    convert(wide, answer, [](const N& from, T& to) { to = from.rounded(); });
+    keep_apart(wide.yes(), answer);
   }
 };
 
@@ -384,7 +384,9 @@ struct Certified : Plain {
 template <class Scalar, class M>
 struct std::numeric_limits<collide::detail::Longer<Scalar, M>> : std::numeric_limits<double> {
   using Number = collide::detail::Longer<Scalar, M>;
-  static constexpr Number infinity() noexcept { return std::numeric_limits<double>::infinity(); }
-  static constexpr Number quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
-  static constexpr Number max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
+  static constexpr Number infinity() { return std::numeric_limits<double>::infinity(); }
+  static constexpr Number quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
+  static constexpr Number max() { return double(std::numeric_limits<Scalar>::max()); }
 };
+
+#include <collide/detail/strict_end.hpp>

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include <collide/number.hpp>
+#include <collide/detail/number.hpp>
 #include <collide/shapes.hpp>
 
 namespace collide {

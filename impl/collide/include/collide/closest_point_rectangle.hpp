@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/edges.hpp>
+#include <collide/detail/closest_point_rectangle.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -17,57 +17,9 @@ namespace collide {
 /// Units: lengths. Never fails. Source: the foot of the perpendicular where it lies in a triangle, else the
 /// nearest edge. The triangles are compared from the diagonal or from the vertices that they share.
 template <class Tier = Fast, class T>
-ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& point) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_point_rectangle<decltype(by)>(a...); }, rectangle,
-                      point);
-  }
-  const auto& [v0, v1, v2, v3] = rectangle;
-  if constexpr (MachineNumber<T>) {
-    if (const Vec3<T> all = v0 + v1 + v2 + v3 + point; !detail::is_finite(all)) return {all};
-  }
-  const Vec3<T> diagonal = v2 - v0, w = point - v0;
-  const detail::FaceFoot<T> face1 = detail::foot_on_face<Tier>(diagonal, v1 - v0, w);
-  const detail::FaceFoot<T> face2 = detail::foot_on_face<Tier>(diagonal, v3 - v0, w);
-  if (face1.inside && face2.inside) {
-    // Both feet are equally far along the diagonal, and their distances from it may differ by less than squares tell.
-    const Vec3<T> out1 = face1.height * face1.apex_weight, out2 = face2.height * face2.apex_weight;
-    const bool first = detail::further_by<Tier>(out1, out2, w - diagonal * face1.base_share) >= T(0);
-    return {v0 + (first ? face1 : face2).from_start(diagonal)};
-  }
-
-  // One foot is inside, in a face next to the diagonal: it is nearer than the diagonal. The other face's edges?
-  const std::array<Vec3<T>, 4> v{v0, v1, v2, v3};
-  const auto foot_on = [&](int edge) { return detail::foot_on_edge<Tier>(v[edge], v[(edge + 1) % 4], point); };
-  const auto on = [&](int edge, const detail::EdgeFoot<T>& foot) {
-    return ClosestPoint<T>{foot.on(v[edge], v[(edge + 1) % 4])};
-  };
-  const Vec3<T> w2 = point - v2;
-  if (face1.inside) {
-    const detail::EdgeFoot<T> foot2 = foot_on(2), foot3 = foot_on(3);
-    const bool at_v2 = detail::next_further_by<Tier>(foot2, foot3, point - v3) >= T(0);
-    const T by = at_v2 ? detail::further_by<Tier>(face1.from_end(diagonal), foot2.from_start, w2)
-                       : detail::further_by<Tier>(face1.from_start(diagonal), foot3.from_end, w);
-    if (by < T(0)) return at_v2 ? on(2, foot2) : on(3, foot3);
-    return {v0 + face1.from_start(diagonal)};
-  }
-  if (face2.inside) {
-    const detail::EdgeFoot<T> foot0 = foot_on(0), foot1 = foot_on(1);
-    const bool at_v0 = detail::next_further_by<Tier>(foot0, foot1, point - v1) >= T(0);
-    const T by = at_v0 ? detail::further_by<Tier>(face2.from_start(diagonal), foot0.from_start, w)
-                       : detail::further_by<Tier>(face2.from_end(diagonal), foot1.from_end, w2);
-    if (by < T(0)) return at_v0 ? on(0, foot0) : on(1, foot1);
-    return {v0 + face2.from_start(diagonal)};
-  }
-
-  // The nearest of the four edges, and the diagonal, the ridge of a folded rectangle.
-  const std::array<detail::EdgeFoot<T>, 4> foot{foot_on(0), foot_on(1), foot_on(2), foot_on(3)};
-  const int edge = detail::nearest_edge<Tier>(v, foot, point);
-  const detail::EdgeFoot<T> ridge = detail::foot_on_edge<Tier>(v0, v2, point);
-  const Vec3<T>& from_shared = edge == 0 || edge == 2 ? foot[edge].from_start : foot[edge].from_end;
-  const bool at_v0 = edge == 0 || edge == 3;
-  const T by = detail::further_by<Tier>(from_shared, at_v0 ? ridge.from_start : ridge.from_end, at_v0 ? w : w2);
-  return by < T(0) ? ClosestPoint<T>{ridge.on(v0, v2)} : on(edge, foot[edge]);
+[[nodiscard]] ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle,
+                                                      const Vec3<T>& point) noexcept(Tier::never_throws) {
+  return kernels::closest_point_rectangle<Tier>(rectangle, point);
 }
 
 namespace contracts {

@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/edges.hpp>
+#include <collide/detail/closest_point_rectangle_perimeter.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -17,19 +17,9 @@ namespace collide {
 /// Units: lengths. Never fails. Source: the nearest point of each edge; opposite edges are compared from the
 /// point, neighbours from the vertex that they share.
 template <class Tier = Fast, class T>
-ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_point_rectangle_perimeter<decltype(by)>(a...); },
-                      rectangle, point);
-  }
-  const std::array<Vec3<T>, 4> v{rectangle.v0, rectangle.v1, rectangle.v2, rectangle.v3};
-  if constexpr (MachineNumber<T>) {
-    if (const Vec3<T> all = v[0] + v[1] + v[2] + v[3] + point; !detail::is_finite(all)) return {all};
-  }
-  std::array<detail::EdgeFoot<T>, 4> foot;
-  for (int i = 0; i < 4; ++i) foot[i] = detail::foot_on_edge<Tier>(v[i], v[(i + 1) % 4], point);
-  const int edge = detail::nearest_edge<Tier>(v, foot, point);
-  return {foot[edge].on(v[edge], v[(edge + 1) % 4])};
+[[nodiscard]] ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle,
+                                                                const Vec3<T>& point) noexcept(Tier::never_throws) {
+  return kernels::closest_point_rectangle_perimeter<Tier>(rectangle, point);
 }
 
 namespace contracts {

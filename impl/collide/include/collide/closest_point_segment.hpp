@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/closest_point_segment.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -15,17 +16,9 @@ namespace collide {
 ///
 /// Units: lengths. Never fails. Source: orthogonal projection, clamped to the segment.
 template <class Tier = Fast, class T>
-ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_point_segment<decltype(by)>(a...); }, segment,
-                      point);
-  }
-  const Vec3<T> along = segment.v1 - segment.v0;
-  const T projection = Tier::dot(point - segment.v0, along);
-  const T length2 = Tier::dot(along, along);
-  if (projection <= T(0)) return {segment.v0};
-  if (projection >= length2) return {segment.v1};
-  return {segment.v0 + along * (projection / length2)};
+[[nodiscard]] ClosestPoint<T> closest_point_segment(const Segment<T>& segment,
+                                                    const Vec3<T>& point) noexcept(Tier::never_throws) {
+  return kernels::closest_point_segment<Tier>(segment, point);
 }
 
 namespace contracts {

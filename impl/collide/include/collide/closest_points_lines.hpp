@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/closest_points_lines.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -18,19 +19,9 @@ namespace collide {
 /// 1990); line 2's point is the foot of the perpendicular from there, so that the two belong together also
 /// where the lines are nearly parallel.
 template <class Tier = Fast, class T>
-ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return closest_points_lines<decltype(by)>(a...); }, line1, line2);
-  }
-  const Vec3<T> normal = Tier::cross(line1.direction, line2.direction);
-  const T normal2 = Tier::dot(normal, normal);
-  Vec3<T> point1 = line1.point;
-  if (!(normal2 <= T(0))) {
-    const Vec3<T> between = line2.point - line1.point;
-    point1 = point1 + line1.direction * (Tier::dot(Tier::cross(between, line2.direction), normal) / normal2);
-  }
-  const T along = Tier::dot(point1 - line2.point, line2.direction) / Tier::dot(line2.direction, line2.direction);
-  return {point1, line2.point + line2.direction * along};
+[[nodiscard]] ClosestPoints<T> closest_points_lines(const Line<T>& line1,
+                                                    const Line<T>& line2) noexcept(Tier::never_throws) {
+  return kernels::closest_points_lines<Tier>(line1, line2);
 }
 
 namespace contracts {

@@ -10,7 +10,7 @@ namespace collide {
 /// scalar: 2^-24 for float, 2^-53 for double.
 ///
 /// The tiers of this library promise one thing more, which is about operations and not about answers: where no
-/// operation of a query's text rounds, the decision, touches included, and all numbers are the exact ones.
+/// operation of a query's kernel rounds, the decision, touches included, and all numbers are the exact ones.
 struct Contract {
   static constexpr double none = std::numeric_limits<double>::infinity();
 

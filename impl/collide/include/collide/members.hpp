@@ -1,22 +1,17 @@
-/// The members of a plain struct, listed once, so that codecs, generators, checks and drawings can
-/// all be derived from the struct itself.
+/// The members of a plain struct, listed once: serialization, checks and drawings can be derived from the list.
 ///
-/// A listed struct offers `static constexpr auto members()`, a tuple of `member(name, pointer, role)`
-/// in the order of declaration. Numbers without a role of their own (the x of a vector) take the role
-/// of the member that holds them.
+/// A listed struct has `static constexpr auto members()`, a tuple of `member(name, pointer, role)` in the order of
+/// declaration. A number without a role of its own (the x of a vector) takes the role of the member that holds it.
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <string_view>
 #include <tuple>
 #include <type_traits>
 
 namespace collide {
 
-/// What a number stands for. Positions, velocities, sizes, directions, rotations, times and
-/// offsets of an input are also the groups within which a perturbation is measured (docs/semantics.md, "Backward
-/// error").
+/// What a number stands for. The numbers of an input that have one role form a group: a contract measures an error by
+/// the largest number of its group (contract.hpp).
 enum class Role {
   inherited,  ///< the role of the enclosing member
   position,   ///< length, from the origin
@@ -35,13 +30,13 @@ enum class Role {
 
 template <class Owner, class Value>
 struct Member {
-  std::string_view name;
+  const char* name;
   Value Owner::*pointer;
   Role role;
 };
 
 template <class Owner, class Value>
-constexpr Member<Owner, Value> member(std::string_view name, Value Owner::*pointer, Role role = Role::inherited) {
+constexpr Member<Owner, Value> member(const char* name, Value Owner::*pointer, Role role = Role::inherited) {
   return {name, pointer, role};
 }
 
@@ -58,29 +53,12 @@ constexpr void for_each_member(S& s, F&& f) {
 template <class S, class F>
 constexpr void for_each_leaf(S& s, F&& f, Role role = Role::inherited) {
   if constexpr (Listed<S>) {
-    for_each_member(s, [&](std::string_view, auto& value, Role own) {
-      for_each_leaf(value, f, own == Role::inherited ? role : own);
-    });
+    for_each_member(
+        s, [&](const char*, auto& value, Role own) { for_each_leaf(value, f, own == Role::inherited ? role : own); });
   } else if constexpr (requires { s.begin(); }) {
     for (auto& item : s) for_each_leaf(item, f, role);
   } else {
     f(s, role);
-  }
-}
-
-/// Calls f(path, value, role) for each leaf; path is "sphere.center.x", "contacts.0.y".
-template <class S, class F>
-void for_each_named_leaf(S& s, F&& f, const std::string& path = {}, Role role = Role::inherited) {
-  const auto below = [&](auto name) { return path.empty() ? std::string(name) : path + "." + std::string(name); };
-  if constexpr (Listed<S>) {
-    for_each_member(s, [&](std::string_view name, auto& value, Role own) {
-      for_each_named_leaf(value, f, below(name), own == Role::inherited ? role : own);
-    });
-  } else if constexpr (requires { s.begin(); }) {
-    std::size_t i = 0;
-    for (auto& item : s) for_each_named_leaf(item, f, below(std::to_string(i++)), role);
-  } else {
-    f(path, s, role);
   }
 }
 

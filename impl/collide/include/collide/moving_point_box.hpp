@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/point_enters_box.hpp>
+#include <collide/detail/moving_point_box.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -20,12 +20,9 @@ namespace collide {
 /// Source: in the box's frame, the face planes in front of the start, the last one reached (Woo, Fast
 /// Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
-Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_box<decltype(by)>(a...); }, point, velocity,
-                      box);
-  }
-  return detail::point_enters_box<Tier>(point, velocity, box);
+[[nodiscard]] Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity,
+                                         const Box<T>& box) noexcept(Tier::never_throws) {
+  return kernels::moving_point_box<Tier>(point, velocity, box);
 }
 
 namespace contracts {

@@ -2,39 +2,12 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/moving_point_plane.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
 namespace collide {
-
-#if defined(COLLIDE_LANES)
-
-namespace detail {
-
-/// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
-template <class T, class Shared>
-inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane,
-                                             const Shared& shared) noexcept {
-  using L = Lanes<T>;
-  using P = Pair<T>;
-  using limits = std::numeric_limits<T>;
-  const L from = lanes(point), along = lanes(velocity), n = lanes(plane);
-  const P zero = P::all(T(0));
-  const L sums = sums_of_three(n * along, n * from, n * n, n);
-  const P approach = zero - first_pair(sums), height = swapped(first_pair(sums)) + P::all(plane.offset);
-  const P n2 = second_pair(sums), time = height / approach;
-  const L location = from + along * every(time);
-  const P hit = (zero < approach) & (zero <= height) & (time <= P::all(limits::max()));
-  const P in_range = (P::all(limits::min() / limits::epsilon()) <= n2) & (n2 <= P::all(limits::max()));
-  if (!all_three(are_finite(location & every(hit)) & every(in_range))) return shared(point, velocity, plane);
-  return impact(hit, time, location, n / every(sqrt(n2)));
-}
-
-}  // namespace detail
-
-#endif
 
 /// The first contact of `point`, moving by `velocity` per unit of time, with the front of `plane`.
 ///
@@ -46,30 +19,9 @@ inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>
 ///
 /// Source: the plane's equation along the line of motion, linear in time.
 template <class Tier = Fast, class T>
-Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
-      return Tier::lift([](auto by, const auto&... a) { return moving_point_plane<decltype(by)>(a...); }, inputs...);
-    };
-#if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_point_plane_in_lanes(point, velocity, plane, detail::out_of_line(shared));
-    }
-#endif
-    if constexpr (looks_first<Tier, T>) {
-      if (detail::surely_misses(detail::in_double(point), 0.0, detail::in_double(velocity),
-                                {detail::in_double(plane.normal), double(plane.offset)})) {
-        return Tier::sure(Impact<T>::miss());
-      }
-    }
-    return shared(point, velocity, plane);
-  }
-  const T approach = -Tier::dot(plane.normal, velocity);
-  if (!(approach > T(0))) return Impact<T>::miss();
-  const T height = Tier::dot(plane.normal, point) + plane.offset;
-  if (!(height >= T(0))) return Impact<T>::miss();
-  const T time = height / approach;
-  return detail::contact(time, point + velocity * time, unit<Tier>(plane.normal));
+[[nodiscard]] Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity,
+                                           const Plane<T>& plane) noexcept(Tier::never_throws) {
+  return kernels::moving_point_plane<Tier>(point, velocity, plane);
 }
 
 namespace contracts {

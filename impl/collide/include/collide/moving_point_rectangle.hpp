@@ -1,7 +1,11 @@
 /// When and where a moving point meets a one-sided rectangle.
 #pragma once
 
-#include <collide/moving_point_triangle.hpp>
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/detail/moving_point_rectangle.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
 
 namespace collide {
 
@@ -17,35 +21,9 @@ namespace collide {
 /// Source: signed volumes of the tetrahedra that the line of motion forms with the five edges; the diagonal
 /// decides both triangles by one number, so no motion passes between them.
 template <class Tier = Fast, class T>
-Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                 const Rectangle<T>& rectangle) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_point_rectangle<decltype(by)>(a...); }, point,
-                      velocity, rectangle);
-  }
-  const Vec3<T> a = rectangle.v0 - point, b = rectangle.v1 - point;
-  const Vec3<T> c = rectangle.v2 - point, d = rectangle.v3 - point;
-  const Vec3<T> diagonal = rectangle.v2 - rectangle.v0;
-  const T beside = Tier::dot(velocity, Tier::cross(c, a));  // the diagonal: negative on v1's side
-  T time = std::numeric_limits<T>::infinity();
-  Vec3<T> normal{};
-  const auto meet = [&](const Vec3<T>& edge1, const Vec3<T>& edge2) {
-    const Vec3<T> n = detail::normal_of<Tier>(edge1, edge2);
-    const T approach = -Tier::dot(n, velocity), behind = Tier::dot(n, a);
-    if (!(approach > T(0) && behind <= T(0))) return;
-    const T at = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, edge1, edge2);
-    if (at >= T(0) && at < time) time = at, normal = n;
-  };
-  if (beside <= T(0) && Tier::dot(velocity, Tier::cross(a, b)) <= T(0) &&
-      Tier::dot(velocity, Tier::cross(b, c)) <= T(0)) {
-    meet(rectangle.v1 - rectangle.v0, diagonal);
-  }
-  if (beside >= T(0) && Tier::dot(velocity, Tier::cross(c, d)) <= T(0) &&
-      Tier::dot(velocity, Tier::cross(d, a)) <= T(0)) {
-    meet(diagonal, rectangle.v3 - rectangle.v0);
-  }
-  if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-  return detail::contact(time, point + velocity * time, unit<Tier>(normal));
+[[nodiscard]] Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
+                                               const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
+  return kernels::moving_point_rectangle<Tier>(point, velocity, rectangle);
 }
 
 namespace contracts {

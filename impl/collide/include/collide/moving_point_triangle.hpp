@@ -1,187 +1,13 @@
 /// When and where a moving point meets a one-sided triangle.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <limits>
-
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
-#include <collide/edges.hpp>
+#include <collide/detail/moving_point_triangle.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
 namespace collide {
-
-namespace detail {
-
-template <class T>
-T sum_of_abs(const Vec3<T>& x) noexcept {
-  using std::abs;
-  return abs(x.x) + abs(x.y) + abs(x.z);
-}
-
-/// Whether a place is on the triangle, but for rounding, all seen from the moving point.
-///
-/// Coordinates seen from there are at most 2 G, G the largest position, so what is let through lies within 16 eps of
-/// 2 G (eps the unit roundoff): moving the point explains 32 of the 48 eps that the queries promise.
-template <class Tier, MachineNumber T>
-bool is_on_triangle(const Vec3<T>& place, const std::array<Vec3<T>, 3>& corner) noexcept {
-  T scale = largest_abs(place);
-  for (int i = 0; i < 3; ++i) scale = larger(scale, largest_abs(corner[i]));
-  const T rounding = T(8) * std::numeric_limits<T>::epsilon() * scale;
-  const auto on = [&](const Vec3<T>& foot) { return largest_abs(place - foot) <= rounding; };
-  const Vec3<T> base = corner[1] - corner[0];
-  const FaceFoot<T> face = foot_on_face<Tier>(base, corner[2] - corner[0], place - corner[0]);
-  if (face.inside && on(corner[0] + face.from_start(base))) return true;
-  for (int i = 0; i < 3; ++i) {
-    if (on(corner[i] + foot_on_edge<Tier>(corner[i], corner[(i + 1) % 3], place).from_start)) return true;
-  }
-  return false;
-}
-
-/// A time near `time` at which the motion is over the triangle, seen along its normal n, and on it but for
-/// rounding; negative where it never is. Corners are given as seen from the moving point.
-template <class Tier, MachineNumber T>
-T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n,
-                             const std::array<Vec3<T>, 3>& corner) noexcept {
-  using std::abs;
-  const Vec3<T> sideways = Tier::cross(velocity, n);
-  const T speed2 = Tier::dot(velocity, velocity);
-  std::array<T, 3> side, at;  // of each corner: how far beside the line of motion, and the time next to it
-  for (int i = 0; i < 3; ++i) side[i] = Tier::dot(sideways, corner[i]), at[i] = Tier::dot(velocity, corner[i]) / speed2;
-  T low = std::numeric_limits<T>::infinity(), high = -low;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const bool crosses = (side[i] < T(0) && side[j] > T(0)) || (side[i] > T(0) && side[j] < T(0));
-    // A product of three carries 7 roundings: a corner so near may lie on the line, whatever its sign.
-    const T scale = sum_of_abs(velocity) * sum_of_abs(n) * sum_of_abs(corner[i]);
-    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * scale;
-    if (abs(side[i]) <= rounding) low = smaller(low, at[i]), high = larger(high, at[i]);
-    if (!crosses) continue;
-    const T crossing = at[i] + (at[j] - at[i]) * (side[i] / (side[i] - side[j]));
-    low = smaller(low, crossing), high = larger(high, crossing);
-  }
-  if (!(low <= high && high >= T(0))) return T(-1);
-  const T nearest = not_negative(clamped(time, low, high));
-  return is_on_triangle<Tier>(velocity * nearest, corner) ? nearest : T(-1);
-}
-
-/// The time at which the plane of a triangle is hit, once its edges have been passed on their inner sides;
-/// negative where that was nothing but rounding.
-///
-/// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
-/// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal;
-/// where that is nearly on an edge, or the normal's square leaves the range, it is looked for again.
-/// The corners are `a`, seen from the moving point, a + edge1 and a + edge2: the edges are the triangle's own, of
-/// which those of a tiny triangle far from the point lose digits.
-template <class Tier, class T>
-T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& edge1,
-                   const Vec3<T>& edge2) noexcept {
-  if constexpr (MachineNumber<T>) {
-    using limits = std::numeric_limits<T>;
-    const Vec3<T> from_a = velocity * time - a, b = a + edge1, c = a + edge2;
-    const T n2 = Tier::dot(n, n);
-    const bool lost = a == b || b == c || c == a;  // an edge too short to be seen from there, or to be multiplied
-    const bool over = !lost && n2 >= limits::min() / limits::epsilon() && n2 <= limits::max() &&
-                      Tier::dot(n, Tier::cross(edge1, from_a)) > T(0) &&
-                      Tier::dot(n, Tier::cross(edge2 - edge1, from_a - edge1)) > T(0) &&
-                      Tier::dot(n, Tier::cross(from_a, edge2)) > T(0);
-    if (!over) return nearest_time_over_triangle<Tier, T>(time, velocity, n, {a, b, c});
-  }
-  return time;
-}
-
-#if defined(COLLIDE_LANES)
-
-/// What moving_point_triangle_in_lanes answers where the sides are known and the normal is not: of a thin triangle.
-template <class T, class Shared>
-COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                                        const Triangle<T>& triangle, const Shared& shared) noexcept {
-  using limits = std::numeric_limits<T>;
-  const Vec3<T> n = normal_of<Plain>(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
-  const T n2 = Plain::dot(n, n);
-  if (!(n2 >= limits::min() / limits::epsilon() && n2 <= limits::max())) return shared(point, velocity, triangle);
-  const T approach = -Plain::dot(n, velocity), behind = Plain::dot(n, triangle.v0 - point);
-  if (!(approach > T(0) && behind <= T(0))) return Impact<T>::miss();
-  const T time = -behind / approach;
-  return contact(time, point + velocity * time, unit<Plain>(n));
-}
-
-/// What `Fast` answers; where it is not sure, what `shared` does.
-///
-/// With a = v0 - point, f = v0 - v2, n = f x edge1 and q = velocity x a the motion passes the three edges on the sides
-/// that the signs of q . edge1, q . f and n . velocity - q . edge1 - q . f tell, each a volume (Moeller, Trumbore,
-/// Fast, Minimum Storage Ray/Triangle Intersection, 1997). Two cross products at a time are as much work as one.
-///
-/// Sides. Let e^2 = |edge1|^2 + |f|^2, l^2 = e^2 + |a|^2, u the unit roundoff. The three volumes are off by at most
-/// 17 u |velocity| l^2. Those that the shared text has of an edge are off by at most 15 u of |velocity| times the
-/// squares of the ways to the edge's ends, whichever triangle it belongs to. So where the largest of the three is
-/// beyond 64 u |velocity| l^2, the sides are those of the real numbers, and neighbors agree about their edge, whichever
-/// text answers for them.
-///
-/// The normal. n is off by 1.5 u |edge1| |f| <= 0.75 u e^2. Along the longest edge, whose square is at most 2 e^2, this
-/// is explained if its ends move by 30 u of the largest position, which is at least l / 6, as long as e^4 <= 100 |n|^2;
-/// across it the apex need move by no more. The normal of a thinner triangle is corrected.
-///
-/// The contact. Explaining it, the products with n and their quotient moves corners by less than 12 u l along the
-/// normal, which changes the volumes of a hit by less than 24 u |velocity| l^2: the place stays on the triangle.
-///
-/// What overflows is not sure, or is thin. `least` numbers are added to the squares so that what they bound is far
-/// above whatever underflows.
-template <class T, class Shared>
-inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity,
-                                                const Triangle<T>& triangle, const Shared& shared) noexcept {
-  using L = Lanes<T>;
-  using P = Pair<T>;
-  using limits = std::numeric_limits<T>;
-  constexpr T u = limits::epsilon() / 2;
-  constexpr T least_size2 = std::same_as<T, float> ? T(0x1p-30) : T(0x1p-300), least_speed2 = least_size2 / 4;
-  const L from_point = lanes(point), along = lanes(velocity);
-  const auto [v0, v1, v2] = corner_lanes(triangle);
-  const auto [x, y, z] = columns(v0 - v2, along, v1 - v0, v0 - from_point);
-  const P x1 = first_pair(x), y1 = first_pair(y), z1 = first_pair(z);     // f and the velocity
-  const P x2 = second_pair(x), y2 = second_pair(y), z2 = second_pair(z);  // edge1 and a
-  const P nq_x = y1 * z2 - z1 * y2, nq_y = z1 * x2 - x1 * z2, nq_z = x1 * y2 - y1 * x2;
-  const L products = swapped_twice(nq_x) * x + swapped_twice(nq_y) * y + swapped_twice(nq_z) * z;
-  const P beside_f = first_pair(products), beside_edge1 = second_pair(products);
-  const L squares = x * x + y * y + z * z;
-  const P f_and_speed2 = first_pair(squares) + P::two(least_size2, least_speed2), edge1_and_a2 = second_pair(squares);
-  const P approach = swapped(beside_f), behind = swapped(beside_edge1);  // n . velocity and n . a
-  const P time = behind / approach;
-  const L location = from_point + along * every(time);
-  const P outside = larger(larger(beside_f, beside_edge1), approach - (beside_f + beside_edge1));
-  const P e2 = f_and_speed2 + edge1_and_a2, l2 = e2 + swapped(edge1_and_a2), e4 = e2 * e2;
-  const P hit = larger(outside, behind) <= P::all(T(0));
-  const T bound2 = T(64 * 64) * u * u * (l2 * l2 * swapped(f_and_speed2)).first();
-  const P n2 = nq_x * nq_x + nq_y * nq_y + nq_z * nq_z;
-  const L normal = firsts(nq_x, nq_y, nq_z) / every(sqrt(n2));
-  if (!(bound2 < (outside * outside).first())) return shared(point, velocity, triangle);
-  if (!((hit & e4).first() < T(thinness) * n2.first()))
-    return impact_with_thin_triangle(point, velocity, triangle, shared);
-  return impact(hit, time, location, normal);
-}
-
-/// Whether the line of motion surely passes an edge on its outer side.
-///
-/// Each volume is a sum of products of three, known to 16 u of the product of the vectors' |x| + |y| + |z|, u = 2^-53,
-/// where nothing underflows.
-template <class T>
-bool surely_passes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept {
-  using L = Lanes<double>;
-  const L from = wide_lanes(point), along = wide_lanes(velocity);
-  const L a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from, c = wide_lanes(triangle.v2) - from;
-  const L volumes = sums_of_three(along * cross(a, b), along * cross(b, c), along * cross(c, a), along);
-  const L sizes = sums_of_three(absolute(a), absolute(b), absolute(c), absolute(along));
-  const L products = sizes * yzx(sizes), most = L::all(0x1p900);  // nothing overflows
-  const L bounds = L::all(0x1p-48) * (products * sizes.template broadcast<3>()) + L::all(0x1p-900);
-  return any_of_three((bounds < volumes) & (products <= most) & (bounds <= most));
-}
-
-#endif
-
-}  // namespace detail
 
 /// The first contact of `point`, moving by `velocity` per unit of time, with the front of `triangle`.
 ///
@@ -196,36 +22,9 @@ bool surely_passes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle
 /// passes between them. Source: signed volumes of the tetrahedra that the line of motion forms with
 /// the edges (Pluecker coordinates; Ericson, Real-Time Collision Detection, 5.3.4).
 template <class Tier = Fast, class T>
-Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
-      return Tier::lift([](auto by, const auto&... a) { return moving_point_triangle<decltype(by)>(a...); }, inputs...);
-    };
-#if defined(COLLIDE_LANES)
-    if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::out_of_line(shared));
-    }
-    if constexpr (looks_first<Tier, T>) {
-      if (detail::surely_passes(point, velocity, triangle)) return Tier::sure(Impact<T>::miss());
-    }
-#endif
-    return shared(point, velocity, triangle);
-  }
-  const Vec3<T> edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
-  const Vec3<T> n = detail::normal_of<Tier>(edge1, edge2);
-  const T approach = -Tier::dot(n, velocity);
-  if (!(approach > T(0))) return Impact<T>::miss();
-  const Vec3<T> a = triangle.v0 - point;
-  const T behind = Tier::dot(n, a);
-  if (!(behind <= T(0))) return Impact<T>::miss();
-  const Vec3<T> b = triangle.v1 - point;
-  const Vec3<T> c = triangle.v2 - point;
-  const bool inside = Tier::dot(velocity, Tier::cross(a, b)) <= T(0) &&
-                      Tier::dot(velocity, Tier::cross(b, c)) <= T(0) && Tier::dot(velocity, Tier::cross(c, a)) <= T(0);
-  if (!inside) return Impact<T>::miss();
-  const T time = detail::time_in_triangle<Tier>(T(-behind / approach), velocity, n, a, edge1, edge2);
-  if (!(time >= T(0))) return Impact<T>::miss();
-  return detail::contact(time, point + velocity * time, unit<Tier>(n));
+[[nodiscard]] Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
+                                              const Triangle<T>& triangle) noexcept(Tier::never_throws) {
+  return kernels::moving_point_triangle<Tier>(point, velocity, triangle);
 }
 
 namespace contracts {
@@ -233,7 +32,7 @@ namespace contracts {
 /// First order, G the largest position: an edge or a corner seen from the point is a difference of two
 /// positions, known to 2 eps G; each product of a cross product carries 3 eps more of 2 G, the dot
 /// product 3 eps: corners and point move by at most 2 + 2 * 3 + 3 eps of 2 G each, for the plane and
-/// again for the edges; the location adds 2 eps of 2 G. The velocity takes 3 eps of its own. The text in lanes moves
+/// again for the edges; the location adds 2 eps of 2 G. The velocity takes 3 eps of its own. The kernel in lanes moves
 /// ends of an edge by 30 eps G for the normal, corners by 12 for the plane, and adds 2 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_triangle() {

@@ -1,25 +1,14 @@
 /// When and where a moving point meets a one-sided triangle that is asked about many times.
 #pragma once
 
-#include <collide/moving_point_triangle.hpp>
+#include <collide/answers.hpp>
+#include <collide/contract.hpp>
+#include <collide/detail/moving_point_triangle_prepared.hpp>
+#include <collide/prepared.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
 
 namespace collide {
-
-/// A triangle with what `moving_point_triangle_prepared` needs of it; made by `prepare_triangle`.
-template <class T>
-struct PreparedTriangle {
-  Triangle<T> triangle{};
-  Vec3<T> edge1{}, edge2{};  ///< from v0 to v1 and to v2
-  Vec3<T> normal{};          ///< edge1 x edge2, as long as twice the area
-  Vec3<T> unit_normal{};     ///< normal / |normal|; zero for a triangle without area
-};
-
-template <class Tier = Fast, class T>
-PreparedTriangle<T> prepare_triangle(const Triangle<T>& triangle) noexcept {
-  const Vec3<T> edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
-  const Vec3<T> normal = detail::normal_of<Tier>(edge1, edge2);
-  return {triangle, edge1, edge2, normal, unit<Tier>(normal)};
-}
 
 /// What `moving_point_triangle` answers, from a triangle whose normal and edges are known.
 ///
@@ -29,31 +18,9 @@ PreparedTriangle<T> prepare_triangle(const Triangle<T>& triangle) noexcept {
 /// Source: Cramer's rule in the edges' frame, with the edges' cross product known (Moeller, Trumbore, Fast,
 /// Minimum Storage Ray/Triangle Intersection, 1997).
 template <class Tier = Fast, class T>
-Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
-                                         const PreparedTriangle<T>& prepared) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    const auto text = [&](auto by, const auto& p, const auto& v, const auto& triangle) {
-      using By = decltype(by);
-      if constexpr (Tier::template keeps<T>)
-        return moving_point_triangle_prepared<By>(p, v, prepared);
-      else
-        return moving_point_triangle_prepared<By>(p, v, prepare_triangle<By>(triangle));
-    };
-    return Tier::lift(text, point, velocity, prepared.triangle);
-  }
-  const T approach = -Tier::dot(prepared.normal, velocity);
-  if (!(approach > T(0))) return Impact<T>::miss();
-  const Vec3<T> from_v0 = point - prepared.triangle.v0;
-  const T height = Tier::dot(prepared.normal, from_v0);
-  if (!(height >= T(0))) return Impact<T>::miss();
-  const Vec3<T> moment = Tier::cross(from_v0, velocity);
-  const T weight1 = Tier::dot(prepared.edge2, moment);   // of v1, times approach
-  const T weight2 = -Tier::dot(prepared.edge1, moment);  // of v2, times approach
-  if (!(weight1 >= T(0) && weight2 >= T(0) && weight1 + weight2 <= approach)) return Impact<T>::miss();
-  const T time = detail::time_in_triangle<Tier>(T(height / approach), velocity, prepared.normal, -from_v0,
-                                                prepared.edge1, prepared.edge2);
-  if (!(time >= T(0))) return Impact<T>::miss();
-  return detail::contact(time, point + velocity * time, prepared.unit_normal);
+[[nodiscard]] Impact<T> moving_point_triangle_prepared(
+    const Vec3<T>& point, const Vec3<T>& velocity, const PreparedTriangle<T>& prepared) noexcept(Tier::never_throws) {
+  return kernels::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
 }
 
 namespace contracts {

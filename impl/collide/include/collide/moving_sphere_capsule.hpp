@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/past_capsule.hpp>
+#include <collide/detail/moving_sphere_capsule.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -23,12 +23,9 @@ namespace collide {
 /// Source: the center meets a capsule with both radii. In the plane across the axis the endless tube is a
 /// circle; where the center enters it beyond an end, the ball around that end counts.
 template <class Tier = Fast, class T>
-Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_capsule<decltype(by)>(a...); }, sphere,
-                      velocity, capsule);
-  }
-  return detail::past_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
+[[nodiscard]] Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                              const Capsule<T>& capsule) noexcept(Tier::never_throws) {
+  return kernels::moving_sphere_capsule<Tier>(sphere, velocity, capsule);
 }
 
 namespace contracts {

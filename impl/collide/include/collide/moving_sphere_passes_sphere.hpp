@@ -1,10 +1,9 @@
 /// Whether a moving sphere comes to a fixed one within a time limit.
 #pragma once
 
-#include <optional>
-
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/moving_sphere_passes_sphere.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -17,22 +16,10 @@ namespace collide {
 ///
 /// Source: the least distance of the centers over the motion, a segment or a ray.
 template <class Tier = Fast, class T>
-Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
-                                        const T& limit) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_passes_sphere<decltype(by)>(a...); }, sphere,
-                      velocity, fixed, limit);
-  }
-  const T reach = sphere.radius + fixed.radius;
-  if (!(limit >= T(0))) return {false};
-  const Vec3<T> from = sphere.center - fixed.center;
-  const T closing = -Tier::dot(from, velocity);
-  Vec3<T> offset = from;
-  if (closing > T(0)) {
-    const T nearest = smaller(T(closing / Tier::dot(velocity, velocity)), limit);  // time of the closest approach
-    offset = from + velocity * nearest;
-  }
-  return {-Tier::beyond_radius(offset, reach) >= T(0)};
+[[nodiscard]] Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                      const Sphere<T>& fixed,
+                                                      const T& limit) noexcept(Tier::never_throws) {
+  return kernels::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, limit);
 }
 
 namespace contracts {

@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/moving_sphere_triangle.hpp>
+#include <collide/detail/moving_sphere_rectangle.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -18,20 +18,9 @@ namespace collide {
 ///
 /// Source: moving_sphere_triangle, twice.
 template <class Tier = Fast, class T>
-Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                  const Rectangle<T>& rectangle) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_rectangle<decltype(by)>(a...); }, sphere,
-                      velocity, rectangle);
-  }
-  const TriangleImpact<T> one =
-      moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
-  const TriangleImpact<T> two =
-      moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
-  // On the diagonal both are hit at the same time.
-  const bool both = one.yes() && two.yes() && one.weights.y == T(0) && two.weights.z == T(0);
-  const TriangleImpact<T>& first = !both && two.time < one.time ? two : one;
-  return {first.time, first.location, first.normal};
+[[nodiscard]] Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
+  return kernels::moving_sphere_rectangle<Tier>(sphere, velocity, rectangle);
 }
 
 namespace contracts {

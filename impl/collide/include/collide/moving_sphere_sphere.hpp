@@ -2,8 +2,8 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/contact.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/moving_sphere_sphere.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -20,32 +20,9 @@ namespace collide {
 ///
 /// Source: a point that meets a ball with both radii.
 template <class Tier = Fast, class T>
-Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) noexcept {
-  if constexpr (looks_first<Tier, T>) {
-    const Vec3<double> from = detail::in_double(sphere.center) - detail::in_double(fixed.center);
-    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius) + double(fixed.radius))) {
-      return Tier::sure(Impact<T>::miss());
-    }
-  }
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return moving_sphere_sphere<decltype(by)>(a...); }, sphere,
-                      velocity, fixed);
-  }
-  const T reach = sphere.radius + fixed.radius;
-  const Vec3<T> from = sphere.center - fixed.center;
-  const auto contact_at = [&](const T& time) {
-    const Vec3<T> away = reach > T(0) ? from + velocity * time : Vec3<T>{};
-    const Vec3<T> normal = detail::outward<Tier>(away, velocity);
-    return detail::contact(time, fixed.center + normal * fixed.radius, normal);
-  };
-  const T apart = Tier::beyond_radius(from, reach);
-  if (!(apart > T(0))) {
-    const bool touches = apart == T(0) && Tier::dot(from, velocity) <= T(0);
-    const bool overlaps = apart < T(0) && sphere.radius > T(0);
-    return touches || overlaps ? contact_at(T(0)) : Impact<T>::miss();
-  }
-  const T time = detail::time_to_ball<Tier>(from, velocity, reach);
-  return time >= T(0) ? contact_at(time) : Impact<T>::miss();
+[[nodiscard]] Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                             const Sphere<T>& fixed) noexcept(Tier::never_throws) {
+  return kernels::moving_sphere_sphere<Tier>(sphere, velocity, fixed);
 }
 
 namespace contracts {

@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/point_in_triangle.hpp>
+#include <collide/detail/point_in_rectangle.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -17,17 +17,9 @@ namespace collide {
 /// No point is lost on the diagonal: both triangles see it on opposite sides by the same number. Source: the
 /// sides of the edges (as in Pineda, A Parallel Algorithm for Polygon Rasterization, 1988).
 template <class Tier = Fast, class T>
-Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal, const Vec3<T>& point) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return point_in_rectangle<decltype(by)>(a...); }, rectangle,
-                      normal, point);
-  }
-  if constexpr (MachineNumber<T>) {
-    if (!detail::is_finite(normal)) return {};
-  }
-  const int axis = detail::largest_component(normal);
-  return {detail::is_inside<Tier>({rectangle.v0, rectangle.v1, rectangle.v2}, axis, point) ||
-          detail::is_inside<Tier>({rectangle.v0, rectangle.v2, rectangle.v3}, axis, point)};
+[[nodiscard]] Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal,
+                                             const Vec3<T>& point) noexcept(Tier::never_throws) {
+  return kernels::point_in_rectangle<Tier>(rectangle, normal, point);
 }
 
 namespace contracts {

@@ -9,9 +9,9 @@ namespace collide {
 
 /// A rule of a shape that its numbers break.
 struct Broken {
-  std::string_view member;  ///< which member
-  std::string_view rule;    ///< what it must be
-  double value;             ///< what it is
+  const char* member;  ///< which member
+  const char* rule;    ///< what it must be
+  double value;        ///< what it is
 };
 
 /// The segment from v0 to v1; v0 == v1 is a point.

@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/slide_direction.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -18,21 +19,9 @@ namespace collide {
 /// The sphere's radius and the lengths of u and velocity play no part. Units: none. Source: u x (d x u),
 /// which is at right angles to u also where nearly nothing is left of d.
 template <class Tier = Fast, class T>
-Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
-                             const Vec3<T>& location) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return slide_direction<decltype(by)>(a...); }, sphere, velocity,
-                      time, location);
-  }
-  const Vec3<T> to_center = (sphere.center - location) + velocity * time;
-  const Vec3<T> d = unit<Tier>(velocity);
-  if (to_center == Vec3<T>{}) return {of_length(d)};
-  const Vec3<T> u = unit<Tier>(to_center), slid = Tier::cross(u, Tier::cross(d, u));
-  if constexpr (MachineNumber<T>) {
-    const T cosine = Tier::dot(d, u), cosine2 = cosine * cosine;
-    return {cosine2 <= T(0.25) ? of_length(slid, cosine2) : slid};
-  }
-  return {slid};
+[[nodiscard]] Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
+                                           const Vec3<T>& location) noexcept(Tier::never_throws) {
+  return kernels::slide_direction<Tier>(sphere, velocity, time, location);
 }
 
 namespace contracts {

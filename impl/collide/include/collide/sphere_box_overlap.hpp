@@ -1,50 +1,13 @@
 /// Whether a sphere and a box overlap.
 #pragma once
 
-#include <cmath>
-#include <optional>
-
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/sphere_box_overlap.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
 namespace collide {
-
-#if defined(COLLIDE_LANES)
-
-namespace detail {
-
-/// |c - b|^2 - r^2 of a ball around c with radius r, seen from the center of a box, and its nearest point b of the box.
-template <class T>
-Lanes<T> beyond_ball(const Lanes<T>& seen, const Lanes<T>& q, const Lanes<T>& half, const Lanes<T>& radius) noexcept {
-  const Lanes<T> away = excess(FrameInLanes<T>(q).into(seen), half);
-  return sum_of_three(away * away) - radius * radius;
-}
-
-/// Whether they meet; nothing where doubles may be wrong.
-///
-/// u = 2^-53, S = |x| + |y| + |z| of the way between the centers: a number of the matrix is known to 15 u, a coordinate
-/// in the frame to 20 u S and its excess to 21 u S, the sum of the squares to 2 sqrt(3) 21 u S^2 + 3 u S^2, the
-/// difference to 80 u S^2 + 2 u r^2. What underflows is far less where S^2 + r^2 and the quaternion are not tiny.
-template <class T>
-std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Box<T>& box) noexcept {
-  using L = Lanes<double>;
-  const L seen = wide_lanes(sphere.center) - wide_lanes(box.center), half = wide_lanes(box.half);
-  const L q = wide_lanes(box.orientation), radius = L::all(sphere.radius);
-  const double beyond = beyond_ball(seen, q, half, radius).first();
-  const double s = sum_of_three(absolute(seen)).first(), r = sphere.radius, norm2 = sum_of_four(q * q).first();
-  const double scale2 = s * s + r * r, bound = 0x1p-46 * scale2;
-  const auto in_range = [](double x) { return x >= 0x1p-900 && x <= 0x1p900; };
-  if (!(in_range(scale2) && in_range(norm2) && std::abs(beyond) > bound && all_three(are_finite(half))))
-    return std::nullopt;
-  return beyond < 0;
-}
-
-}  // namespace detail
-
-#endif
 
 /// Whether the closed ball and the solid box meet.
 ///
@@ -53,31 +16,8 @@ std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Box<T>& box) n
 /// Source: in the box's frame the squared distance is the sum of the squared excesses of each coordinate
 /// (Arvo, A Simple Method for Box-Sphere Intersection Testing, Graphics Gems, 1990).
 template <class Tier = Fast, class T>
-Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) noexcept {
-#if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T>) {
-    using detail::lanes;
-    using L = detail::Lanes<T>;
-    const L center = lanes(sphere.center), middle = lanes(box.center), half = lanes(box.half);
-    const L q = lanes(box.orientation), radius = L::all(sphere.radius);
-    const L beyond = detail::beyond_ball(center - middle, q, half, radius);
-    return {all_three((beyond <= L::all(T(0))) & are_finite(center, middle, half, q, radius))};
-  }
-  if constexpr (looks_first<Tier, T>) {
-    if (const auto sure = detail::surely_overlap(sphere, box)) return Tier::sure(Decision<T>{*sure});
-  }
-#endif
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_box_overlap<decltype(by)>(a...); }, sphere, box);
-  }
-  const Axes<T> axes = axes_of(box.orientation);
-  const std::array<T, 3> half = components(box.half);
-  const std::array<T, 3> local = into_frame<Tier>(axes, sphere.center - box.center);
-  const Vec3<T> away{excess(local[0], half[0]), excess(local[1], half[1]), excess(local[2], half[2])};
-  if constexpr (MachineNumber<T>) {
-    if (!(sphere.radius + half[0] + half[1] + half[2] <= std::numeric_limits<T>::max())) return {false};
-  }
-  return {Tier::beyond_radius(away, sphere.radius) <= T(0)};
+[[nodiscard]] Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) noexcept(Tier::never_throws) {
+  return kernels::sphere_box_overlap<Tier>(sphere, box);
 }
 
 namespace contracts {

@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/sphere_plane_penetration.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -19,16 +19,9 @@ namespace collide {
 ///
 /// The lengths of n and offset play a part only together: they are one plane.
 template <class Tier = Fast, class T>
-Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_plane_penetration<decltype(by)>(a...); }, sphere,
-                      plane);
-  }
-  const T norm = length(components(plane.normal));
-  const T depth = sphere.radius - (Tier::dot(plane.normal, sphere.center) + plane.offset) / norm;
-  if (!(depth >= T(0))) return {depth};
-  const Vec3<T> normal = plane.normal / norm;
-  return {depth, normal, sphere.center - normal * sphere.radius};
+[[nodiscard]] Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere,
+                                                      const Plane<T>& plane) noexcept(Tier::never_throws) {
+  return kernels::sphere_plane_penetration<Tier>(sphere, plane);
 }
 
 namespace contracts {

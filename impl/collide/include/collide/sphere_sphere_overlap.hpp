@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/sphere_sphere_overlap.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -13,17 +14,9 @@ namespace collide {
 /// 1. sphere_sphere_overlap(a, b) == sphere_sphere_overlap(b, a)
 /// 2. sphere_sphere_overlap(a, b) == (sphere_sphere_penetration(a, b).depth >= 0) in real numbers
 template <class Tier = Fast, class T>
-Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_overlap<decltype(by)>(a...); }, sphere1,
-                      sphere2);
-  }
-  const Vec3<T> between = sphere2.center - sphere1.center;
-  const T reach = sphere1.radius + sphere2.radius;
-  if constexpr (MachineNumber<T>) {
-    if (!(reach <= std::numeric_limits<T>::max())) return {false};
-  }
-  return {Tier::beyond_radius(between, reach) <= T(0)};
+[[nodiscard]] Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1,
+                                                const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
+  return kernels::sphere_sphere_overlap<Tier>(sphere1, sphere2);
 }
 
 namespace contracts {

@@ -3,7 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/sphere_sphere_penetration.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -17,17 +17,9 @@ namespace collide {
 /// 2. contact == center1 + normal * radius1
 /// 3. moving sphere 2 by depth * normal makes them touch
 template <class Tier = Fast, class T>
-Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_sphere_penetration<decltype(by)>(a...); }, sphere1,
-                      sphere2);
-  }
-  const Vec3<T> between = sphere2.center - sphere1.center;
-  const T distance = length(components(between));
-  const T depth = (sphere1.radius + sphere2.radius) - distance;
-  if (!(depth >= T(0))) return {depth};
-  const Vec3<T> normal = distance > T(0) ? unit<Tier>(between) : Vec3<T>{T(1), T(0), T(0)};
-  return {depth, normal, sphere1.center + normal * sphere1.radius};
+[[nodiscard]] Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1,
+                                                       const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
+  return kernels::sphere_sphere_penetration<Tier>(sphere1, sphere2);
 }
 
 namespace contracts {

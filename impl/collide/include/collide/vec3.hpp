@@ -3,6 +3,8 @@
 
 #include <collide/members.hpp>
 
+#include <collide/detail/strict_begin.hpp>
+
 namespace collide {
 
 template <class T>
@@ -13,20 +15,22 @@ struct Vec3 {
     return std::tuple(member("x", &Vec3::x), member("y", &Vec3::y), member("z", &Vec3::z));
   }
 
-  friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend constexpr Vec3 operator-(const Vec3& a) noexcept { return {-a.x, -a.y, -a.z}; }
-  friend constexpr Vec3 operator*(const Vec3& a, const T& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
-  friend constexpr Vec3 operator*(const T& s, const Vec3& a) noexcept { return a * s; }
-  friend constexpr Vec3 operator/(const Vec3& a, const T& s) noexcept { return {a.x / s, a.y / s, a.z / s}; }
+  friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+  friend constexpr Vec3 operator*(const Vec3& a, const T& s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend constexpr Vec3 operator*(const T& s, const Vec3& a) { return a * s; }
+  friend constexpr Vec3 operator/(const Vec3& a, const T& s) { return {a.x / s, a.y / s, a.z / s}; }
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
 namespace detail {
 template <class T>
-Vec3<double> in_double(const Vec3<T>& a) noexcept {
+Vec3<double> in_double(const Vec3<T>& a) {
   return {double(a.x), double(a.y), double(a.z)};
 }
 }  // namespace detail
 
 }  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include <collide/double_word.hpp>
-#include <collide/number.hpp>
+#include <collide/detail/double_word.hpp>
+#include <collide/detail/number.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide {
 
@@ -38,11 +40,11 @@ struct Bounded {
   constexpr explicit Bounded(int v) noexcept : value(v) {}
   constexpr Bounded(double v, double e) noexcept : value(v), error(e) {}
 
-  static double magnitude(double x) noexcept { return std::abs(x); }
+  static double magnitude(double x) { return detail::abs(x); }
 
-  friend Bounded operator-(const Bounded& a) noexcept { return {-a.value, a.error}; }
+  friend Bounded operator-(const Bounded& a) { return {-a.value, a.error}; }
   /// Whether the compiler sees that the number is exact, as inputs are: terms of its error need not be computed.
-  static bool is_exact(const Bounded& a) noexcept {
+  static bool is_exact(const Bounded& a) {
 #if defined(__GNUC__)
     return __builtin_constant_p(a.error) && a.error == 0;
 #else
@@ -50,22 +52,22 @@ struct Bounded {
 #endif
   }
 
-  friend Bounded operator+(const Bounded& a, const Bounded& b) noexcept {
+  friend Bounded operator+(const Bounded& a, const Bounded& b) {
     const double sum = a.value + b.value, own = u * magnitude(sum);
     if (is_exact(a) && is_exact(b)) return {sum, own};
     if (is_exact(a)) return {sum, b.error + own};
     if (is_exact(b)) return {sum, a.error + own};
     return {sum, (a.error + b.error) + own};
   }
-  friend Bounded operator-(const Bounded& a, const Bounded& b) noexcept { return a + -b; }
-  friend Bounded operator*(const Bounded& a, const Bounded& b) noexcept {
+  friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + -b; }
+  friend Bounded operator*(const Bounded& a, const Bounded& b) {
     const double product = a.value * b.value, own = u * magnitude(product);
     if (is_exact(a) && is_exact(b)) return {product, own};
     if (is_exact(a)) return {product, magnitude(a.value) * b.error + own};
     if (is_exact(b)) return {product, magnitude(b.value) * a.error + own};
     return {product, (magnitude(a.value) + a.error) * b.error + (magnitude(b.value) + 2 * b.error) * a.error + own};
   }
-  friend Bounded operator/(const Bounded& a, const Bounded& b) noexcept {
+  friend Bounded operator/(const Bounded& a, const Bounded& b) {
     const double quotient = a.value / b.value;
     const double least = magnitude(b.value) - 2 * b.error;
     if (!(least > 0)) Doubt::any = true;
@@ -73,12 +75,12 @@ struct Bounded {
     return {quotient,
             (a.error + magnitude(quotient) * b.error) * inverse * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
   }
-  Bounded& operator+=(const Bounded& b) noexcept { return *this = *this + b; }
-  Bounded& operator-=(const Bounded& b) noexcept { return *this = *this - b; }
-  Bounded& operator*=(const Bounded& b) noexcept { return *this = *this * b; }
+  Bounded& operator+=(const Bounded& b) { return *this = *this + b; }
+  Bounded& operator-=(const Bounded& b) { return *this = *this - b; }
+  Bounded& operator*=(const Bounded& b) { return *this = *this * b; }
 
-  friend Bounded sqrt(const Bounded& a) noexcept {
-    const double root = std::sqrt(a.value);
+  friend Bounded sqrt(const Bounded& a) {
+    const double root = detail::sqrt(a.value);
     if (a.error == 0) return {root, u * root};
     if (!(a.value > 4 * a.error)) {
       Doubt::any = true;
@@ -87,36 +89,36 @@ struct Bounded {
     const double inverse = 1 / a.value;  // beside the root, not after it: a.error / root is twice what is needed
     return {root, a.error * inverse * root + 2 * u * root};
   }
-  friend Bounded abs(const Bounded& a) noexcept { return {std::abs(a.value), a.error}; }
+  friend Bounded abs(const Bounded& a) { return {detail::abs(a.value), a.error}; }
 
   /// The sum of two errors within which a comparison is open; NaN where one is.
-  static double open(const Bounded& a, const Bounded& b) noexcept { return (a.error + b.error) * slack; }
+  static double open(const Bounded& a, const Bounded& b) { return (a.error + b.error) * slack; }
 
-  friend bool operator<(const Bounded& a, const Bounded& b) noexcept {
+  friend bool operator<(const Bounded& a, const Bounded& b) {
     const double within = open(a, b);
     if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
     return a.value < b.value;
   }
-  friend bool operator>(const Bounded& a, const Bounded& b) noexcept { return b < a; }
-  friend bool operator<=(const Bounded& a, const Bounded& b) noexcept {
+  friend bool operator>(const Bounded& a, const Bounded& b) { return b < a; }
+  friend bool operator<=(const Bounded& a, const Bounded& b) {
     const double within = open(a, b);
     if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
     return a.value <= b.value;
   }
-  friend bool operator>=(const Bounded& a, const Bounded& b) noexcept { return b <= a; }
-  friend bool operator==(const Bounded& a, const Bounded& b) noexcept {
+  friend bool operator>=(const Bounded& a, const Bounded& b) { return b <= a; }
+  friend bool operator==(const Bounded& a, const Bounded& b) {
     const double within = open(a, b);
     if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
     return a.value == b.value;
   }
 
   /// Of two numbers whose order is open, either is within both errors of the larger.
-  friend Bounded larger(const Bounded& a, const Bounded& b) noexcept {
+  friend Bounded larger(const Bounded& a, const Bounded& b) {
     const double of_larger = if_less(a.value, b.value, b.error, a.error);
     return {collide::larger(a.value, b.value),
             if_less(open(a, b), magnitude(b.value - a.value), of_larger, collide::larger(a.error, b.error))};
   }
-  friend Bounded smaller(const Bounded& a, const Bounded& b) noexcept { return -larger(-a, -b); }
+  friend Bounded smaller(const Bounded& a, const Bounded& b) { return -larger(-a, -b); }
 };
 
 /// The same with a value of twice the precision. It sees when an operation is exact, so that decisions
@@ -135,10 +137,10 @@ struct WideBounded {
   constexpr explicit WideBounded(int v) noexcept : value(double(v)) {}
   constexpr WideBounded(const Value& v, double e) noexcept : value(v), error(e) {}
 
-  static double magnitude(double x) noexcept { return std::abs(x); }
+  static double magnitude(double x) { return detail::abs(x); }
 
-  friend WideBounded operator-(const WideBounded& a) noexcept { return {-a.value, a.error}; }
-  friend WideBounded operator+(const WideBounded& a, const WideBounded& b) noexcept {
+  friend WideBounded operator-(const WideBounded& a) { return {-a.value, a.error}; }
+  friend WideBounded operator+(const WideBounded& a, const WideBounded& b) {
     const Value high = Value::two_sum(a.value.high, b.value.high), low = Value::two_sum(a.value.low, b.value.low);
     const Value rest = Value::two_sum(high.low, low.high);
     const Value first = Value::two_sum(high.high, rest.high);
@@ -147,8 +149,8 @@ struct WideBounded {
     const Value sum = Value::fast_two_sum(first.high, third.high);
     return {sum, (a.error + b.error) + (magnitude(second.low) + magnitude(third.low))};
   }
-  friend WideBounded operator-(const WideBounded& a, const WideBounded& b) noexcept { return a + -b; }
-  friend WideBounded operator*(const WideBounded& a, const WideBounded& b) noexcept {
+  friend WideBounded operator-(const WideBounded& a, const WideBounded& b) { return a + -b; }
+  friend WideBounded operator*(const WideBounded& a, const WideBounded& b) {
     const Value p = Value::two_product(a.value.high, b.value.high);
     const double inherited = (magnitude(a.value.high) * (1 + 2 * u) + a.error) * b.error +
                              (magnitude(b.value.high) * (1 + 2 * u) + b.error) * a.error;
@@ -161,7 +163,7 @@ struct WideBounded {
                         magnitude(a.value.low * b.value.low);
     return {product, inherited + left};
   }
-  friend WideBounded operator/(const WideBounded& a, const WideBounded& b) noexcept {
+  friend WideBounded operator/(const WideBounded& a, const WideBounded& b) {
     const double least = magnitude(b.value.high) * (1 - 2 * u) - b.error;
     if (!(least > 0)) Doubt::any = true;
     // Two steps of long division, and the exact rest of the second.
@@ -173,17 +175,17 @@ struct WideBounded {
     const double left = magnitude(last.value.high) * (1 + 2 * u) + last.error;
     return {quotient, (left + a.error + (magnitude(quotient.high) * (1 + 4 * u)) * b.error) / least * (1 + 0x1p-40)};
   }
-  WideBounded& operator+=(const WideBounded& b) noexcept { return *this = *this + b; }
-  WideBounded& operator-=(const WideBounded& b) noexcept { return *this = *this - b; }
-  WideBounded& operator*=(const WideBounded& b) noexcept { return *this = *this * b; }
+  WideBounded& operator+=(const WideBounded& b) { return *this = *this + b; }
+  WideBounded& operator-=(const WideBounded& b) { return *this = *this - b; }
+  WideBounded& operator*=(const WideBounded& b) { return *this = *this * b; }
 
-  friend WideBounded sqrt(const WideBounded& a) noexcept {
+  friend WideBounded sqrt(const WideBounded& a) {
     if (a.value.high == 0 && a.error == 0) return a;
     if (!(a.value.high * (1 - 2 * u) > a.error)) {
       Doubt::any = true;
       return a;
     }
-    const double first = std::sqrt(a.value.high);
+    const double first = detail::sqrt(a.value.high);
     const WideBounded rest = WideBounded(a.value, 0) - WideBounded(first) * WideBounded(first);
     const double second = rest.value.high / (2 * first);
     const Value root = Value::fast_two_sum(first, second);
@@ -192,10 +194,10 @@ struct WideBounded {
     const double left = magnitude(last.value.high) * (1 + 2 * u) + last.error;
     return {root, (left + a.error) / (first * (1 - 0x1p-40)) * (1 + 0x1p-40)};
   }
-  friend WideBounded abs(const WideBounded& a) noexcept { return a.value.high < 0 ? -a : a; }
+  friend WideBounded abs(const WideBounded& a) { return a.value.high < 0 ? -a : a; }
 
   /// -1, 0 or 1: how a compares with b; records a doubt where their errors leave it open.
-  static int order(const WideBounded& a, const WideBounded& b) noexcept {
+  static int order(const WideBounded& a, const WideBounded& b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (magnitude(a.value.high) == infinity || magnitude(b.value.high) == infinity) {
       return a.value.high < b.value.high ? -1 : a.value.high > b.value.high ? 1 : 0;
@@ -205,13 +207,13 @@ struct WideBounded {
     if (!(magnitude(d) * (1 - 4 * u) > apart.error * slack) && apart.error != 0) Doubt::any = true;
     return d < 0 ? -1 : d > 0 ? 1 : 0;
   }
-  friend bool operator<(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) < 0; }
-  friend bool operator>(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) > 0; }
-  friend bool operator<=(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) <= 0; }
-  friend bool operator>=(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) >= 0; }
-  friend bool operator==(const WideBounded& a, const WideBounded& b) noexcept { return order(a, b) == 0; }
+  friend bool operator<(const WideBounded& a, const WideBounded& b) { return order(a, b) < 0; }
+  friend bool operator>(const WideBounded& a, const WideBounded& b) { return order(a, b) > 0; }
+  friend bool operator<=(const WideBounded& a, const WideBounded& b) { return order(a, b) <= 0; }
+  friend bool operator>=(const WideBounded& a, const WideBounded& b) { return order(a, b) >= 0; }
+  friend bool operator==(const WideBounded& a, const WideBounded& b) { return order(a, b) == 0; }
 
-  friend WideBounded larger(const WideBounded& a, const WideBounded& b) noexcept {
+  friend WideBounded larger(const WideBounded& a, const WideBounded& b) {
     const bool doubt = Doubt::any;
     Doubt::any = false;
     WideBounded result = order(a, b) < 0 ? b : a;
@@ -219,22 +221,22 @@ struct WideBounded {
     Doubt::any = doubt;
     return result;
   }
-  friend WideBounded smaller(const WideBounded& a, const WideBounded& b) noexcept { return -larger(-a, -b); }
+  friend WideBounded smaller(const WideBounded& a, const WideBounded& b) { return -larger(-a, -b); }
 };
 
 }  // namespace collide
 
 template <class Scalar>
 struct std::numeric_limits<collide::Bounded<Scalar>> : std::numeric_limits<double> {
-  static constexpr collide::Bounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
-  static constexpr collide::Bounded<Scalar> quiet_NaN() noexcept { return std::numeric_limits<double>::quiet_NaN(); }
-  static constexpr collide::Bounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
+  static constexpr collide::Bounded<Scalar> infinity() { return std::numeric_limits<double>::infinity(); }
+  static constexpr collide::Bounded<Scalar> quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
+  static constexpr collide::Bounded<Scalar> max() { return double(std::numeric_limits<Scalar>::max()); }
 };
 template <class Scalar>
 struct std::numeric_limits<collide::WideBounded<Scalar>> : std::numeric_limits<double> {
-  static constexpr collide::WideBounded<Scalar> infinity() noexcept { return std::numeric_limits<double>::infinity(); }
-  static constexpr collide::WideBounded<Scalar> quiet_NaN() noexcept {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  static constexpr collide::WideBounded<Scalar> max() noexcept { return double(std::numeric_limits<Scalar>::max()); }
+  static constexpr collide::WideBounded<Scalar> infinity() { return std::numeric_limits<double>::infinity(); }
+  static constexpr collide::WideBounded<Scalar> quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
+  static constexpr collide::WideBounded<Scalar> max() { return double(std::numeric_limits<Scalar>::max()); }
 };
+
+#include <collide/detail/strict_end.hpp>

@@ -1,4 +1,4 @@
-/// What the texts of the queries may do with a number besides + - * / and comparing: the same words for
+/// What the kernels of the queries may do with a number besides + - * / and comparing: the same words for
 /// float, double and every number type of the tiers.
 #pragma once
 
@@ -6,14 +6,15 @@
 #include <emmintrin.h>
 #endif
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <concepts>
 #include <limits>
 #include <type_traits>
 
+#include <collide/detail/machine_math.hpp>
 #include <collide/members.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide {
 
@@ -34,7 +35,7 @@ inline constexpr bool has_wider = std::numeric_limits<Wider<T>>::digits >= std::
 // the first argument stays.
 
 template <MachineNumber T>
-constexpr T larger(T a, T b) noexcept {
+constexpr T larger(T a, T b) {
 #if defined(__SSE2__)  // one instruction; compilers often make branches of it, which nobody can predict
   if (!std::is_constant_evaluated()) {
     if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(b), _mm_set_sd(a)));
@@ -44,7 +45,7 @@ constexpr T larger(T a, T b) noexcept {
   return a < b ? b : a;
 }
 template <MachineNumber T>
-constexpr T smaller(T a, T b) noexcept {
+constexpr T smaller(T a, T b) {
 #if defined(__SSE2__)
   if (!std::is_constant_evaluated()) {
     if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(b), _mm_set_sd(a)));
@@ -55,7 +56,7 @@ constexpr T smaller(T a, T b) noexcept {
 }
 
 /// `x` where a < b, else `y`, without a branch.
-inline double if_less(double a, double b, double x, double y) noexcept {
+inline double if_less(double a, double b, double x, double y) {
 #if defined(__SSE2__)
   const __m128d less = _mm_cmplt_sd(_mm_set_sd(a), _mm_set_sd(b));
   return _mm_cvtsd_f64(_mm_or_pd(_mm_and_pd(less, _mm_set_sd(x)), _mm_andnot_pd(less, _mm_set_sd(y))));
@@ -66,13 +67,13 @@ inline double if_less(double a, double b, double x, double y) noexcept {
 
 /// x, or the nearer end of [low, high].
 template <class T>
-constexpr T clamped(const T& x, const T& low, const T& high) noexcept {
+constexpr T clamped(const T& x, const T& low, const T& high) {
   return smaller(larger(x, low), high);
 }
 
 /// x, or 0 where it is negative; NaN stays NaN.
 template <class T>
-constexpr T not_negative(const T& x) noexcept {
+constexpr T not_negative(const T& x) {
   return larger(x, T(0));
 }
 
@@ -109,14 +110,18 @@ constexpr void convert(const From& from, To& to, F&& number) {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       (convert(from.*(std::get<i>(From::members()).pointer), to.*(std::get<i>(To::members()).pointer), number), ...);
     }(std::make_index_sequence<std::tuple_size_v<decltype(From::members())>>());
-    if constexpr (requires { From::decision(); }) to.*To::decision() = from.*From::decision();
+    if constexpr (requires { From::decision_member(); }) to.*To::decision_member() = from.*From::decision_member();
   } else if constexpr (requires { from.begin(); }) {
     for (std::size_t i = 0; i < from.size(); ++i) convert(from[i], to[i], number);
   } else if constexpr (std::same_as<From, bool> || std::same_as<From, int>) {
     to = from;
+  } else if constexpr (std::same_as<To, bool>) {  // a flag in numbers that can be uncertain
+    to = !(from == From(0));
   } else {
     number(from, to);
   }
 }
 
 }  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

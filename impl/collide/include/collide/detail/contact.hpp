@@ -1,41 +1,45 @@
 /// What the queries about moving things share: when a contact is one, and normals where many are right.
 #pragma once
 
-#include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <collide/answers.hpp>
 #include <collide/tiers.hpp>
 
+#include <collide/detail/strict_begin.hpp>
+
 namespace collide::detail {
 
 /// The contact; a miss where its time is beyond the largest finite number.
 template <class T>
-Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) noexcept {
+Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) {
   if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
   return {time, location, normal};
 }
 
 #if defined(COLLIDE_LANES)
 /// What `impact` stores, as registers: shuffles would take longer.
-inline Impact<float> stored(Lanes<float> time, Lanes<float> location, Lanes<float> normal) noexcept {
-  static_assert(sizeof(Impact<float>) == 28);
+inline Impact<float> stored(Lanes<float> time, Lanes<float> location, Lanes<float> normal) {
+  using A = Impact<float>;
+  static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<float>));
   Impact<float> answer;
   char* const numbers = reinterpret_cast<char*>(&answer);
   _mm_store_ss(&answer.time, time.v);
-  _mm_storeu_ps(reinterpret_cast<float*>(numbers + 4), location.v);  // and a fourth number, which the next replaces
-  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + 16), normal.v);
+  _mm_storeu_ps(reinterpret_cast<float*>(numbers + offsetof(A, location)),
+                location.v);  // and a fourth number, which the next replaces
+  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + offsetof(A, normal)), normal.v);
   _mm_store_ss(&answer.normal.z, _mm_movehl_ps(normal.v, normal.v));
   return answer;
 }
-inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<double> normal) noexcept {
-  static_assert(sizeof(Impact<double>) == 56);
+inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<double> normal) {
+  using A = Impact<double>;
   Impact<double> answer;
   char* const numbers = reinterpret_cast<char*>(&answer);
   _mm_store_sd(&answer.time, time.v);
-  _mm_storeu_pd(reinterpret_cast<double*>(numbers + 8), location.low.v);
+  _mm_storeu_pd(reinterpret_cast<double*>(numbers + offsetof(A, location)), location.low.v);
   _mm_store_sd(&answer.location.z, location.high.v);
-  _mm_storeu_pd(reinterpret_cast<double*>(numbers + 32), normal.low.v);
+  _mm_storeu_pd(reinterpret_cast<double*>(numbers + offsetof(A, normal)), normal.low.v);
   _mm_store_sd(&answer.normal.z, normal.high.v);
   return answer;
 }
@@ -43,9 +47,9 @@ inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<doub
 /// A contact where `hit` has all bits in the first lane, whatever the others are where it has none. A time is not
 /// negative.
 template <class P, class L>
-auto impact(const P& hit, const P& time, const L& location, const L& normal) noexcept {
+auto impact(const P& hit, const P& time, const L& location, const L& normal) {
   using T = decltype(time.first());
-  const P none = without(P::first_is(std::numeric_limits<T>::infinity()), hit);
+  const P none = and_not(P::first_is(std::numeric_limits<T>::infinity()), hit);
   const L hits = every(hit);
   return stored(larger(none, time), location & hits, normal & hits);
 }
@@ -53,8 +57,8 @@ auto impact(const P& hit, const P& time, const L& location, const L& normal) noe
 
 /// A unit vector at a right angle to the unit vector u; any unit vector where u is zero.
 template <class Tier, class T>
-Vec3<T> perpendicular(const Vec3<T>& u) noexcept {
-  using std::abs;
+Vec3<T> perpendicular(const Vec3<T>& u) {
+  using detail::abs;
   const T x = abs(u.x), y = abs(u.y), z = abs(u.z);
   Vec3<T> across{T(0), u.z, -u.y};
   if (y < x && y <= z) across = {-u.z, T(0), u.x};
@@ -65,27 +69,27 @@ Vec3<T> perpendicular(const Vec3<T>& u) noexcept {
 
 /// n or, where it leads along the motion, -n.
 template <class Tier, class T>
-Vec3<T> turned_against(const Vec3<T>& n, const Vec3<T>& velocity) noexcept {
+Vec3<T> turned_against(const Vec3<T>& n, const Vec3<T>& velocity) {
   return Tier::dot(n, velocity) > T(0) ? -n : n;
 }
 
 /// A unit vector at a right angle to the unit vector `axis`, or any where that is zero, that does not lead along the
 /// motion.
 template <class Tier, class T>
-Vec3<T> perpendicular_against(const Vec3<T>& axis, const Vec3<T>& velocity) noexcept {
+Vec3<T> perpendicular_against(const Vec3<T>& axis, const Vec3<T>& velocity) {
   return turned_against<Tier>(perpendicular<Tier>(axis), velocity);
 }
 
 /// The unit vector against the motion; any where nothing moves.
 template <class Tier, class T>
-Vec3<T> against(const Vec3<T>& velocity) noexcept {
+Vec3<T> against(const Vec3<T>& velocity) {
   const Vec3<T> n = unit<Tier>(Vec3<T>{} - velocity);
   return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
 }
 
 /// `away` as a unit vector; where it is zero, a unit vector that does not lead along the motion.
 template <class Tier, class T>
-Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) noexcept {
+Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) {
   const Vec3<T> n = unit<Tier>(away);
   return Tier::dot(n, n) > T(0) ? n : against<Tier>(velocity);
 }
@@ -98,8 +102,8 @@ Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) noexcept {
 /// of the textbooks loses what the square of the radius loses; this difference loses 1 eps of the way to
 /// the closest approach.
 template <class Tier, class T>
-T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) noexcept {
-  using std::sqrt;
+T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
+  using detail::sqrt;
   const T closing = -Tier::dot(from, velocity);
   const T speed2 = Tier::dot(velocity, velocity);
   if (!(closing > T(0) && speed2 > T(0))) return T(-1);
@@ -116,17 +120,17 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) no
 /// A sum of n products is known to n u of the sum of their magnitudes (u = 2^-53), the length of the normal to 3 u of
 /// itself, each product to 2^-1074 where it underflows; 8 u are asked for.
 inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
-                          const Plane<double>& plane) noexcept {
+                          const Plane<double>& plane) {
   const Vec3<double>& n = plane.normal;
   const auto magnitudes = [&n](const Vec3<double>& v) {
-    return std::abs(n.x * v.x) + std::abs(n.y * v.y) + std::abs(n.z * v.z);
+    return detail::abs(n.x * v.x) + detail::abs(n.y * v.y) + detail::abs(n.z * v.z);
   };
   constexpr double known = 0x1p-50, least = 0x1p-1000;
   if (Plain::dot(n, velocity) > known * magnitudes(velocity) + least) return true;
-  const double length2 = Plain::dot(n, n), reach = radius * std::sqrt(length2);
+  const double length2 = Plain::dot(n, n), reach = radius * detail::sqrt(length2);
   if (!(length2 >= least)) return false;
   const double height = Plain::dot(n, center) + plane.offset;
-  return -height - reach > known * (magnitudes(center) + std::abs(plane.offset) + reach) + least;
+  return -height - reach > known * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
 }
 
 /// Whether a moving point is surely outside of a ball and never comes to it. `from`, seen from the center, and `radius`
@@ -135,7 +139,7 @@ inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<
 /// Where nothing overflows or underflows a square of a length is known to 5 u of itself, `along` to 5 u of the sum of
 /// its terms' magnitudes, at most sqrt(distance2 speed2): each difference below is known to less than 2^6 u of what it
 /// is compared with, and 2^11 u are asked for.
-inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) noexcept {
+inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
   const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
   const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;
   const double scale = (distance2 + radius2) * speed2;
@@ -144,8 +148,10 @@ inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity
         speed2 <= most))
     return false;
   if (!(distance2 - radius2 > known * (distance2 + radius2))) return false;
-  if (along > known * (std::abs(x) + std::abs(y) + std::abs(z))) return true;  // it moves away
+  if (along > known * (detail::abs(x) + detail::abs(y) + detail::abs(z))) return true;  // it moves away
   return (distance2 - radius2) * speed2 - along * along > known * (scale + along * along);
 }
 
 }  // namespace collide::detail
+
+#include <collide/detail/strict_end.hpp>

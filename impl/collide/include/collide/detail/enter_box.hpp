@@ -3,8 +3,10 @@
 
 #include <array>
 
-#include <collide/lanes.hpp>
-#include <collide/number.hpp>
+#include <collide/detail/lanes.hpp>
+#include <collide/detail/number.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
 
@@ -24,7 +26,7 @@ struct BoxEntry {
 /// does. Source: Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990.
 template <class T, class Over>
 BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, const std::array<T, 3>& low,
-                      const std::array<T, 3>& high, Over over) noexcept {
+                      const std::array<T, 3>& high, Over over) {
   BoxEntry<T> entry;
   for (int i = 0; i < 3; ++i) {
     if (at[i] >= low[i] && at[i] <= high[i]) continue;
@@ -63,21 +65,23 @@ struct BoxEntryInLanes {
 /// Everybody is asked everything, and then selected from. Infinity and NaN do not enter.
 template <class T, class Over>
 BoxEntryInLanes<T> enter_box(const Lanes<T>& at, const Lanes<T>& step, const Lanes<T>& low, const Lanes<T>& high,
-                             Over over) noexcept {
+                             Over over) {
   using L = Lanes<T>;
-  const L zero = L::all(T(0)), most = L::all(std::numeric_limits<T>::max());
+  const L zero = L::splat(T(0)), most = L::splat(std::numeric_limits<T>::max());
   const L within = (low <= at) & (at <= high), below = at < low;
   const L face = select(below, low, high), gap = face - at;
-  const L times = without(over(gap), within);
+  const L times = and_not(over(gap), within);
   const L time = largest_of_three(times);
   const L x = at + step * time;
-  const L axis = without(times == time, within);
+  const L axis = and_not(times == time, within);
   const L ends_within = select(zero < step, x <= high, low <= x) | axis;
-  const L wrong_way = without((gap ^ step) | (step == zero), within);  // in the sign bits
-  const bool enters = all_three(without(ends_within & are_finite(at, step, low, high) & (time <= most), wrong_way));
+  const L wrong_way = and_not((gap ^ step) | (step == zero), within);  // in the sign bits
+  const bool enters = all_three(and_not(ends_within & are_finite(at, step, low, high) & (time <= most), wrong_way));
   return {enters, all_three(within), time, select(axis, face, smaller(larger(x, low), high)), axis, below};
 }
 
 #endif
 
 }  // namespace collide::detail
+
+#include <collide/detail/strict_end.hpp>

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <collide/detail/strict_begin.hpp>
+
 namespace collide::detail {
 
 /// A rational, or a + b sqrt(d): a, b and d are rationals or have roots that were taken before sqrt(d).
@@ -134,3 +136,5 @@ class Roots {
 };
 
 }  // namespace collide::detail
+
+#include <collide/detail/strict_end.hpp>

@@ -3,11 +3,12 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 
-#include <collide/frame.hpp>
+#include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide {
 
@@ -19,7 +20,7 @@ namespace detail {
 
 /// conj(a) b: the rotation b seen from the rotation a.
 template <class T>
-std::array<T, 4> seen_from(const std::array<T, 4>& a, const std::array<T, 4>& b) noexcept {
+std::array<T, 4> seen_from(const std::array<T, 4>& a, const std::array<T, 4>& b) {
   return {(a[3] * b[0] - a[0] * b[3]) - (a[1] * b[2] - a[2] * b[1]),
           (a[3] * b[1] - a[1] * b[3]) - (a[2] * b[0] - a[0] * b[2]),
           (a[3] * b[2] - a[2] * b[3]) - (a[0] * b[1] - a[1] * b[0]),
@@ -28,7 +29,7 @@ std::array<T, 4> seen_from(const std::array<T, 4>& a, const std::array<T, 4>& b)
 
 /// The matrix of the rotation q, times |q|^2, columns first.
 template <class T>
-std::array<std::array<T, 3>, 3> scaled_axes(const std::array<T, 4>& q) noexcept {
+std::array<std::array<T, 3>, 3> scaled_axes(const std::array<T, 4>& q) {
   const auto& [x, y, z, w] = q;
   const T two(2);
   return {{{(w * w - z * z) + (x * x - y * y), two * (x * y + w * z), two * (x * z - w * y)},
@@ -37,20 +38,20 @@ std::array<std::array<T, 3>, 3> scaled_axes(const std::array<T, 4>& q) noexcept 
 }
 
 template <class T>
-T norm2(const std::array<T, 4>& q) noexcept {
+T norm2(const std::array<T, 4>& q) {
   return (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
 }
 
 /// Multiplies two numbers by the same power of two where both are so small that products of them underflow.
 template <class T>
-void raise(T& a, T& b) noexcept {
+void raise(T& a, T& b) {
   if constexpr (MachineNumber<T>) {
-    using std::abs;
+    using detail::abs;
     const T largest = larger(abs(a), abs(b));
     constexpr T least = sizeof(T) == sizeof(float) ? T(0x1p-32) : T(0x1p-300);
     if (!(largest < least && largest > T(0))) return;
-    const int up = -std::ilogb(largest);
-    a = std::ldexp(a, up), b = std::ldexp(b, up);
+    const int up = -detail::ilogb(largest);
+    a = detail::ldexp(a, up), b = detail::ldexp(b, up);
   }
 }
 
@@ -77,8 +78,7 @@ struct BoxPair {
   std::array<T, 3> half1, half2;
   T norm1, norm2;  ///< |q1|^2, |q2|^2
 
-  BoxPair(const Box<T>& box1, const Box<T>& box2) noexcept
-      : half1(components(box1.half)), half2(components(box2.half)) {
+  BoxPair(const Box<T>& box1, const Box<T>& box2) : half1(components(box1.half)), half2(components(box2.half)) {
     const std::array<T, 4> a = moderate(box1.orientation), b = moderate(box2.orientation);
     turn = seen_from(a, b);
     const auto axes1 = scaled_axes(a), columns = scaled_axes(turn);
@@ -92,7 +92,7 @@ struct BoxPair {
   }
 
 #if defined(COLLIDE_LANES)
-  explicit BoxPair(const BoxPairInLanes<T>& pair) noexcept
+  explicit BoxPair(const BoxPairInLanes<T>& pair)
       : turn(four(pair.turn)),
         between(components(first_three(pair.between))),
         half1(components(first_three(pair.half1))),
@@ -110,7 +110,7 @@ struct BoxPair {
   /// Of nearly parallel axes the cross product is small: each of its numbers is a sum of products p s of
   /// a small p, whose squares add up to 1 - |cosine|, and a large s, so that none is the difference of
   /// large ones and all are as exact, relative to the whole, as `turn` is.
-  CrossAxis<T> cross_axis(int i, int j, bool as_direction = true) const noexcept {
+  CrossAxis<T> cross_axis(int i, int j, bool as_direction = true) const {
     T w = turn[3];
     if (i == j) {
       T v = turn[i], v1 = turn[(i + 1) % 3], v2 = turn[(i + 2) % 3];
@@ -131,12 +131,12 @@ struct BoxPair {
 
 /// A number of a unit vector: rounding does not make it longer than 1.
 template <class T>
-T at_most_one(const T& x) noexcept {
+T at_most_one(const T& x) {
   if constexpr (MachineNumber<T>) return clamped(x, T(-1), T(1));
   return x;
 }
 template <class T>
-Vec3<T> at_most_one(const Vec3<T>& v) noexcept {
+Vec3<T> at_most_one(const Vec3<T>& v) {
   return {at_most_one(v.x), at_most_one(v.y), at_most_one(v.z)};
 }
 
@@ -148,8 +148,8 @@ struct Separation {
 };
 
 template <class T>
-Separation<T> separation(const BoxPair<T>& p, int axis, bool as_direction = true) noexcept {
-  using std::abs;
+Separation<T> separation(const BoxPair<T>& p, int axis, bool as_direction = true) {
+  using detail::abs;
   if (axis < 3) {
     const auto& row = p.cosine[axis];
     const T toward = p.between[axis] * p.norm2;
@@ -185,11 +185,11 @@ struct SeparationsInLanes {
 };
 
 /// Axis i of the n-th three of BoxPairInLanes is bit 3 n + i; bit 15, no axis, is -1.
-inline int axis_of_bit(int bit) noexcept {
+inline int axis_of_bit(int bit) {
   constexpr signed char axes[] = {0, 1, 2, 3, 4, 5, 6, 10, 14, 7, 11, 12, 8, 9, 13, -1};
   return axes[bit];
 }
-inline int first_bit(unsigned bits) noexcept { return std::countr_zero(bits | 1u << box_box_axes); }
+inline int first_bit(unsigned bits) { return std::countr_zero(bits | 1u << box_box_axes); }
 
 /// BoxPair in lanes, and what every axis says. In lane i are what belongs to axis i of box 1, or to axis i of box 2,
 /// or to the cross products of axis i of box 1 with axis i + f of box 2, f = 0, 1, 2 the family.
@@ -199,12 +199,11 @@ struct BoxPairInLanes {
   L turn, between, half1, half2, norm1, norm2;
   bool are_rotations = true;  ///< whether the quaternions are some
 
-  BoxPairInLanes(const Box<T>& box1, const Box<T>& box2) noexcept
+  BoxPairInLanes(const Box<T>& box1, const Box<T>& box2)
       : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
                        lanes(box2.half)) {}
   /// Of boxes with these orientations and half extents, box 2 `way` from box 1.
-  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1,
-                 const L& half_of_2) noexcept
+  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1, const L& half_of_2)
       : half1(half_of_1), half2(half_of_2) {
     L a = lanes(q1), b = lanes(q2);
     norm1 = sum_of_four(a * a);
@@ -223,12 +222,12 @@ struct BoxPairInLanes {
   }
 
   /// Whether the quaternions are some, and the half extents and the way between the boxes finite.
-  bool is_usual() const noexcept { return are_rotations && all_three(are_finite(half1, half2, between)); }
+  bool is_usual() const { return are_rotations && all_three(are_finite(half1, half2, between)); }
 
   /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether
   /// all of them are good: a cross product so small that products underflow is not.
   template <class Each>
-  bool for_each_axis(Each each) const noexcept {
+  bool for_each_axis(Each each) const {
     const auto frame = FrameInLanes<T>::scaled(turn), sizes = frame.magnitudes();
     const L scale = norm1 * norm2;
     const L toward1 = between * norm2, toward2 = frame.into(between);
@@ -240,7 +239,7 @@ struct BoxPairInLanes {
     const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
     // Far above what underflows, and the same whatever the quaternions' lengths.
     const L least =
-        L::all(std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(0x1p40)) * scale * scale;
+        L::splat(std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(0x1p40)) * scale * scale;
     std::array<L, 3> small;
     const auto family = [&](int number, const L& in1_0, const L& in1_1, const L& in2_0, const L& in2_1, const L& far1,
                             const L& far2) COLLIDE_INLINE {
@@ -256,7 +255,7 @@ struct BoxPairInLanes {
       const L qt = q * t, ps = p * s, sq = s * q, pt = p * t;
       last(qt - ps, sq + pt, qt + ps, sq - pt);  // jj, kj, ii, ik
     };
-    const L zero = L::all(T(0));
+    const L zero = L::splat(T(0));
     mixed(v - v1, v + v1, w + v2, w - v2, [&](const L& jj, const L& kj, const L& ii, const L& ik) COLLIDE_INLINE {
       family(3, zero - kj, jj, ii, zero - ik, zxy(half2), half2);
     });
@@ -266,9 +265,9 @@ struct BoxPairInLanes {
     if (!any_of_three(small[0] | small[1] | small[2])) return true;
     // Parallel axes have none, which is as good.
     const auto vanish = [&](const L& p, const L& q) { return (p == zero) & (q == zero); };
-    const L bad = without(small[0], vanish(v1, v2) | vanish(v, w)) |
-                  without(small[1], vanish(v - v1, w + v2) | vanish(v + v1, w - v2)) |
-                  without(small[2], vanish(v - v2, w - v1) | vanish(v + v2, w + v1));
+    const L bad = and_not(small[0], vanish(v1, v2) | vanish(v, w)) |
+                  and_not(small[1], vanish(v - v1, w + v2) | vanish(v + v1, w - v2)) |
+                  and_not(small[2], vanish(v - v2, w - v1) | vanish(v + v2, w + v1));
     return !any_of_three(bad);
   }
 };
@@ -277,3 +276,5 @@ struct BoxPairInLanes {
 
 }  // namespace detail
 }  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

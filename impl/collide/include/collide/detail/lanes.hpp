@@ -1,16 +1,18 @@
 /// Four machine numbers side by side, computed at once: what `Fast` computes short queries with, whose hits and
-/// misses nobody can predict. A text in lanes has no branches to mispredict: it selects.
+/// misses nobody can predict. A kernel in lanes has no branches to mispredict: it selects.
 #pragma once
 
 #include <array>
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
 
-#include <collide/number.hpp>
+#include <collide/detail/number.hpp>
 #include <collide/shapes.hpp>
 
-/// Defined where the machine has lanes. Elsewhere the texts in plain numbers serve, with the same contracts.
-#if defined(__SSE2__)
+/// Defined where the machine has lanes and the program does not refuse them by COLLIDE_NO_LANES. Elsewhere the kernels
+/// in plain numbers answer, with the same contracts.
+#if defined(__SSE2__) && !defined(COLLIDE_NO_LANES)
 #define COLLIDE_LANES 1
 #if defined(__GNUC__)  // for lambdas: as functions they would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
@@ -22,14 +24,16 @@
 #endif
 #endif
 
+#include <collide/detail/strict_begin.hpp>
+
 #if defined(COLLIDE_LANES)
 
 namespace collide::detail {
 
-/// `text`, called out of line.
-template <class Text>
-auto out_of_line(Text text) noexcept {
-  return [text](const auto&... arguments) COLLIDE_OUT_OF_LINE { return text(arguments...); };
+/// `kernel`, called out of line.
+template <class Kernel>
+auto out_of_line(Kernel kernel) noexcept {
+  return [kernel](const auto&... arguments) COLLIDE_OUT_OF_LINE { return kernel(arguments...); };
 }
 
 /// One register of a machine, or two where four numbers do not fit into one.
@@ -40,7 +44,7 @@ template <>
 struct Lanes<float> {
   __m128 v;
 
-  static Lanes all(float x) noexcept { return {_mm_set1_ps(x)}; }
+  static Lanes splat(float x) noexcept { return {_mm_set1_ps(x)}; }
   /// x, 0, 0, 0.
   static Lanes first_is(float x) noexcept { return {_mm_set_ss(x)}; }
   /// x, y, 0, 0.
@@ -70,7 +74,7 @@ struct Lanes<float> {
   friend Lanes operator|(Lanes a, Lanes b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
   friend Lanes operator^(Lanes a, Lanes b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
   /// a where `where` has no bits.
-  friend Lanes without(Lanes a, Lanes where) noexcept { return {_mm_andnot_ps(where.v, a.v)}; }
+  friend Lanes and_not(Lanes a, Lanes where) noexcept { return {_mm_andnot_ps(where.v, a.v)}; }
   /// Bit i: the sign bit of lane i.
   int bits() const noexcept { return _mm_movemask_ps(v); }
 
@@ -96,7 +100,7 @@ struct Lanes<float> {
 struct TwoDoubles {
   __m128d v;
 
-  static TwoDoubles all(double x) noexcept { return {_mm_set1_pd(x)}; }
+  static TwoDoubles splat(double x) noexcept { return {_mm_set1_pd(x)}; }
   static TwoDoubles first_is(double x) noexcept { return {_mm_set_sd(x)}; }
   static TwoDoubles two(double x, double y) noexcept { return {_mm_setr_pd(x, y)}; }
 
@@ -110,7 +114,7 @@ struct TwoDoubles {
   friend TwoDoubles operator&(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_and_pd(a.v, b.v)}; }
   friend TwoDoubles operator|(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_or_pd(a.v, b.v)}; }
   friend TwoDoubles operator^(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_xor_pd(a.v, b.v)}; }
-  friend TwoDoubles without(TwoDoubles a, TwoDoubles where) noexcept { return {_mm_andnot_pd(where.v, a.v)}; }
+  friend TwoDoubles and_not(TwoDoubles a, TwoDoubles where) noexcept { return {_mm_andnot_pd(where.v, a.v)}; }
   int bits() const noexcept { return _mm_movemask_pd(v); }
 
   friend TwoDoubles sqrt(TwoDoubles a) noexcept { return {_mm_sqrt_pd(a.v)}; }
@@ -128,7 +132,7 @@ template <>
 struct Lanes<double> {
   TwoDoubles low, high;
 
-  static Lanes all(double x) noexcept { return {TwoDoubles::all(x), TwoDoubles::all(x)}; }
+  static Lanes splat(double x) noexcept { return {TwoDoubles::splat(x), TwoDoubles::splat(x)}; }
   static Lanes of(double x, double y, double z, double w = 0) noexcept {
     return {{_mm_setr_pd(x, y)}, {_mm_setr_pd(z, w)}};
   }
@@ -159,8 +163,8 @@ struct Lanes<double> {
   friend Lanes operator&(Lanes a, Lanes b) noexcept { return {a.low & b.low, a.high & b.high}; }
   friend Lanes operator|(Lanes a, Lanes b) noexcept { return {a.low | b.low, a.high | b.high}; }
   friend Lanes operator^(Lanes a, Lanes b) noexcept { return {a.low ^ b.low, a.high ^ b.high}; }
-  friend Lanes without(Lanes a, Lanes where) noexcept {
-    return {without(a.low, where.low), without(a.high, where.high)};
+  friend Lanes and_not(Lanes a, Lanes where) noexcept {
+    return {and_not(a.low, where.low), and_not(a.high, where.high)};
   }
   int bits() const noexcept { return low.bits() | high.bits() << 2; }
 
@@ -216,12 +220,12 @@ inline Lanes<double> firsts(TwoDoubles x, TwoDoubles y, TwoDoubles z) noexcept {
 
 /// x, y, z and 0.
 inline Lanes<float> lanes(const Vec3<float>& a) noexcept {
-  static_assert(sizeof(Vec3<float>) == 12);
+  static_assert(sizeof(Vec3<float>) == 3 * sizeof(float));
   const __m128 z = _mm_load_ss(&a.z);
   return {_mm_movelh_ps(_mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(&a)), z)};
 }
 inline Lanes<double> lanes(const Vec3<double>& a) noexcept {
-  static_assert(sizeof(Vec3<double>) == 24);
+  static_assert(sizeof(Vec3<double>) == 3 * sizeof(double));
   return {{_mm_loadu_pd(reinterpret_cast<const double*>(&a))}, {_mm_load_sd(&a.z)}};
 }
 template <class T>
@@ -230,11 +234,11 @@ Vec3<T> first_three(const Lanes<T>& a) noexcept {
 }
 
 inline Lanes<float> lanes(const Quaternion<float>& q) noexcept {
-  static_assert(sizeof q == 16);
+  static_assert(sizeof q == 4 * sizeof(float));
   return {_mm_loadu_ps(reinterpret_cast<const float*>(&q))};
 }
 inline Lanes<double> lanes(const Quaternion<double>& q) noexcept {
-  static_assert(sizeof q == 32);
+  static_assert(sizeof q == 4 * sizeof(double));
   return {{_mm_loadu_pd(reinterpret_cast<const double*>(&q))}, {_mm_loadu_pd(&q.z)}};
 }
 
@@ -255,10 +259,11 @@ struct CornerLanes {
   Lanes<T> v0, v1, v2;
 };
 inline CornerLanes<float> corner_lanes(const Triangle<float>& triangle) noexcept {
-  static_assert(sizeof triangle == 36);
+  using S = Triangle<float>;
+  static_assert(offsetof(S, v2) + sizeof(Vec3<float>) == sizeof(S));
   const char* const numbers = reinterpret_cast<const char*>(&triangle);
-  return {Lanes<float>::load(numbers), Lanes<float>::load(numbers + 12),
-          Lanes<float>::load(numbers + 20).shuffled<1, 2, 3, 3>()};
+  return {Lanes<float>::load(numbers), Lanes<float>::load(numbers + offsetof(S, v1)),
+          Lanes<float>::load(numbers + offsetof(S, v2) - sizeof(float)).shuffled<1, 2, 3, 3>()};
 }
 inline CornerLanes<double> corner_lanes(const Triangle<double>& triangle) noexcept {
   return {lanes(triangle.v0), lanes(triangle.v1), lanes(triangle.v2)};
@@ -283,17 +288,17 @@ std::array<T, 4> four(const Lanes<T>& a) noexcept {
 /// a where `where` has all bits, b where it has none.
 template <class L>
 L select(const L& where, const L& a, const L& b) noexcept {
-  return (a & where) | without(b, where);
+  return (a & where) | and_not(b, where);
 }
 template <class T>
 Lanes<T> absolute(const Lanes<T>& a) noexcept {
-  return without(a, Lanes<T>::all(T(-0.0)));
+  return and_not(a, Lanes<T>::splat(T(-0.0)));
 }
 
 /// All bits in the lanes in which every argument is finite.
 template <class T, class... More>
 Lanes<T> are_finite(const Lanes<T>& a, const More&... more) noexcept {
-  return ((a - a) + ... + (more - more)) == Lanes<T>::all(T(0));
+  return ((a - a) + ... + (more - more)) == Lanes<T>::splat(T(0));
 }
 /// Whether the first three lanes of a mask have all bits.
 template <class T>
@@ -363,10 +368,10 @@ Columns<T> every_column(const Lanes<T>& a) noexcept {
 
 /// Whether a mask that is the same in every lane has all bits, or all four lanes of a are zero.
 inline bool holds_or_all_zero(const Lanes<float>& mask, const Lanes<float>& a) noexcept {
-  return (mask | (a == Lanes<float>::all(0))).bits() == 15;
+  return (mask | (a == Lanes<float>::splat(0))).bits() == 15;
 }
 inline bool holds_or_all_zero(const TwoDoubles& mask, const Lanes<double>& a) noexcept {
-  return (mask | ((a.low | a.high) == TwoDoubles::all(0))).bits() == 3;
+  return (mask | ((a.low | a.high) == TwoDoubles::splat(0))).bits() == 3;
 }
 
 /// The sums of the first three lanes of each.
@@ -414,9 +419,11 @@ template <class T>
 Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {
   const Lanes<T> three = mask & Lanes<T>::first_three();
   const Lanes<T> before_z = three.template shuffled<3, 3, 1, 3>();
-  return without(three, three.template shuffled<3, 0, 0, 3>() | before_z);
+  return and_not(three, three.template shuffled<3, 0, 0, 3>() | before_z);
 }
 
 }  // namespace collide::detail
 
 #endif
+
+#include <collide/detail/strict_end.hpp>

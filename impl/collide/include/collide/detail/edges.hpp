@@ -3,11 +3,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
 
@@ -18,11 +19,11 @@ struct EdgeFoot {
   T share{};  ///< of the way from start to end
   bool at_end = false;
 
-  Vec3<T> on(const Vec3<T>& start, const Vec3<T>& end) const noexcept { return at_end ? end : start + from_start; }
+  Vec3<T> on(const Vec3<T>& start, const Vec3<T>& end) const { return at_end ? end : start + from_start; }
 };
 
 template <class Tier, class T>
-EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>& point) noexcept {
+EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>& point) {
   const Vec3<T> along = end - start;
   const T length2 = Tier::dot(along, along);
   if (!(length2 > T(0))) return {};
@@ -34,27 +35,26 @@ EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>
 /// are near that vertex, as two feet on edges that meet there may be, this keeps what the difference of the
 /// two squares would lose.
 template <class Tier, class T>
-T further_by(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& w) noexcept {
+T further_by(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& w) {
   return Tier::dot(b - a, (a - w) + (b - w));
 }
 
 template <class T>
-bool is_finite(const Vec3<T>& v) noexcept {
-  using std::abs;
+bool is_finite(const Vec3<T>& v) {
+  using detail::abs;
   constexpr T most = std::numeric_limits<T>::max();
   return abs(v.x) <= most && abs(v.y) <= most && abs(v.z) <= most;
 }
 
 /// How much further the foot on the next edge is than the foot on this one: seen from the vertex between them.
 template <class Tier, class T>
-T next_further_by(const EdgeFoot<T>& foot, const EdgeFoot<T>& next, const Vec3<T>& w) noexcept {
+T next_further_by(const EdgeFoot<T>& foot, const EdgeFoot<T>& next, const Vec3<T>& w) {
   return further_by<Tier>(foot.from_end, next.from_start, w);
 }
 
 /// Which edge of the triangle, i from v[i] to v[(i + 1) % 3], is the nearest.
 template <class Tier, class T>
-int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 3>& foot,
-                 const Vec3<T>& point) noexcept {
+int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 3>& foot, const Vec3<T>& point) {
   const T by01 = next_further_by<Tier>(foot[0], foot[1], point - v[1]);
   const T by12 = next_further_by<Tier>(foot[1], foot[2], point - v[2]);
   const T by20 = next_further_by<Tier>(foot[2], foot[0], point - v[0]);
@@ -65,8 +65,7 @@ int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 
 /// Which of the four edges, i from v[i] to v[(i + 1) % 4], is the nearest. Opposite edges have no vertex in
 /// common and are compared from the point.
 template <class Tier, class T>
-int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 4>& foot,
-                 const Vec3<T>& point) noexcept {
+int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 4>& foot, const Vec3<T>& point) {
   std::array<T, 4> distance2, next_by;
   for (int i = 0; i < 4; ++i) {
     const Vec3<T> away = (point - v[i]) - foot[i].from_start;
@@ -83,8 +82,8 @@ int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 
 }
 
 template <class T>
-T largest_abs(const Vec3<T>& x) noexcept {
-  using std::abs;
+T largest_abs(const Vec3<T>& x) {
+  using detail::abs;
   return larger(larger(abs(x.x), abs(x.y)), abs(x.z));
 }
 
@@ -97,14 +96,14 @@ struct FaceFoot {
   Vec3<T> height{};     ///< from that line to the apex
   T base_weight{}, apex_weight{};
 
-  Vec3<T> from_start(const Vec3<T>& base) const noexcept { return base * base_share + height * apex_weight; }
-  Vec3<T> from_end(const Vec3<T>& base) const noexcept { return base * (base_share - T(1)) + height * apex_weight; }
+  Vec3<T> from_start(const Vec3<T>& base) const { return base * base_share + height * apex_weight; }
+  Vec3<T> from_end(const Vec3<T>& base) const { return base * (base_share - T(1)) + height * apex_weight; }
 };
 
 /// Source: orthogonalization of base and apex (Gram and Schmidt), and of w before it is measured along the
 /// height. So a thin triangle costs no accuracy: the foot is exact for an apex within a few eps of |apex|.
 template <class Tier, class T>
-FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>& w) noexcept {
+FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>& w) {
   FaceFoot<T> foot;
   const T base2 = Tier::dot(base, base);
   if (!(base2 > T(0))) return foot;
@@ -124,7 +123,7 @@ FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>
 /// another is good for.
 inline constexpr int thinness = 100;
 template <MachineNumber T>
-bool is_thin(T n2, T edge1_squared, T edge2_squared) noexcept {
+bool is_thin(T n2, T edge1_squared, T edge2_squared) {
   const T e2 = edge1_squared + edge2_squared;
   return T(thinness) * n2 < e2 * e2;
 }
@@ -132,7 +131,7 @@ bool is_thin(T n2, T edge1_squared, T edge2_squared) noexcept {
 /// edge1 x edge2, the normal of the triangle with these edges. Of a thin one rounding leaves the product a part along
 /// the edges, perhaps as large as itself, which is taken off where they are longest.
 template <class Tier, class T>
-Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
+Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) {
   const Vec3<T> n = Tier::cross(edge1, edge2);
   if constexpr (MachineNumber<T>) {
     Vec3<T> longest = edge1;
@@ -148,8 +147,10 @@ Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) noexcept {
 }
 
 template <class T>
-std::array<Vec3<T>, 3> corners(const Triangle<T>& t) noexcept {
+std::array<Vec3<T>, 3> corners(const Triangle<T>& t) {
   return {t.v0, t.v1, t.v2};
 }
 
 }  // namespace collide::detail
+
+#include <collide/detail/strict_end.hpp>

@@ -11,8 +11,10 @@
 #include <limits>
 #include <optional>
 
-#include <collide/constructible.hpp>
-#include <collide/number.hpp>
+#include <collide/detail/constructible.hpp>
+#include <collide/detail/number.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
 
@@ -336,3 +338,5 @@ struct std::numeric_limits<collide::Real<Scalar>> {
   static collide::Real<Scalar> quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
   static collide::Real<Scalar> max() { return double(std::numeric_limits<Scalar>::max()); }
 };
+
+#include <collide/detail/strict_end.hpp>

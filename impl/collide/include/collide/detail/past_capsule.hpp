@@ -1,10 +1,12 @@
 /// A ball that moves past a capsule: shared by the queries about points and spheres.
 #pragma once
 
-#include <collide/contact.hpp>
+#include <collide/detail/contact.hpp>
 #include <collide/shapes.hpp>
 
 #include <limits>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
 
@@ -14,8 +16,7 @@ namespace collide::detail {
 /// The center meets the capsule with both radii. It enters the endless tube around the axis between its ends,
 /// or the ball around the end on whose side it is in the tube.
 template <class Tier, class T>
-Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity,
-                       const Capsule<T>& capsule) noexcept {
+Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity, const Capsule<T>& capsule) {
   const T reach = radius + capsule.radius;
   const Vec3<T> from_p0 = center - capsule.p0, from_p1 = center - capsule.p1;
   const Vec3<T> between = capsule.p1 - capsule.p0;
@@ -78,3 +79,5 @@ Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& ve
 }
 
 }  // namespace collide::detail
+
+#include <collide/detail/strict_end.hpp>

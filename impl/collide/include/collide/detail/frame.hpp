@@ -2,12 +2,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 
-#include <collide/lanes.hpp>
+#include <collide/detail/lanes.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide {
 
@@ -17,7 +18,7 @@ using Axes = std::array<Vec3<T>, 3>;
 
 /// The axes of the rotation q / |q|, without a square root: the matrix is rational in q.
 template <class T>
-Axes<T> axes_of(const Quaternion<T>& q) noexcept {
+Axes<T> axes_of(const Quaternion<T>& q) {
   const T s = T(2) / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   const T xs = q.x * s, ys = q.y * s, zs = q.z * s;
   const T wx = q.w * xs, wy = q.w * ys, wz = q.w * zs;
@@ -30,23 +31,23 @@ Axes<T> axes_of(const Quaternion<T>& q) noexcept {
 
 /// World to box coordinates, and back. Both are directions: no translation.
 template <class Tier, class T>
-std::array<T, 3> into_frame(const Axes<T>& axes, const Vec3<T>& world) noexcept {
+std::array<T, 3> into_frame(const Axes<T>& axes, const Vec3<T>& world) {
   return {Tier::dot(axes[0], world), Tier::dot(axes[1], world), Tier::dot(axes[2], world)};
 }
 template <class T>
-Vec3<T> out_of_frame(const Axes<T>& axes, const std::array<T, 3>& local) noexcept {
+Vec3<T> out_of_frame(const Axes<T>& axes, const std::array<T, 3>& local) {
   return axes[0] * local[0] + axes[1] * local[1] + axes[2] * local[2];
 }
 
 template <class T>
-std::array<T, 3> components(const Vec3<T>& v) noexcept {
+std::array<T, 3> components(const Vec3<T>& v) {
   return {v.x, v.y, v.z};
 }
 
 /// The length of a vector; squares that underflow do not make it zero.
 template <class T>
-T length(const std::array<T, 3>& v) noexcept {
-  using std::abs, std::sqrt;
+T length(const std::array<T, 3>& v) {
+  using detail::abs, detail::sqrt;
   const T length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   if constexpr (MachineNumber<T>) {
     constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
@@ -62,7 +63,7 @@ T length(const std::array<T, 3>& v) noexcept {
 
 /// How far a coordinate lies beyond [-half, half]: signed, zero within, NaN where either is.
 template <class T>
-T excess(T coordinate, T half) noexcept {
+T excess(T coordinate, T half) {
   return larger(coordinate - half, T(0)) + smaller(coordinate + half, T(0));
 }
 
@@ -75,8 +76,8 @@ struct NearestFace {
 };
 
 template <class T>
-NearestFace<T> nearest_face(const std::array<T, 3>& local, const std::array<T, 3>& half) noexcept {
-  using std::abs;
+NearestFace<T> nearest_face(const std::array<T, 3>& local, const std::array<T, 3>& half) {
+  using detail::abs;
   NearestFace<T> best;
   for (int i = 0; i < 3; ++i) {
     const T distance = half[i] - abs(local[i]);
@@ -89,14 +90,14 @@ namespace detail {
 
 /// x, y, z, w of a quaternion, brought to a moderate length by a power of two: nothing is rounded.
 template <class T>
-std::array<T, 4> moderate(const Quaternion<T>& q) noexcept {
+std::array<T, 4> moderate(const Quaternion<T>& q) {
   if constexpr (MachineNumber<T>) {
-    using std::abs;
+    using detail::abs;
     const T largest = larger(larger(abs(q.x), abs(q.y)), larger(abs(q.z), abs(q.w)));
     const bool usable = largest > T(0) && largest <= std::numeric_limits<T>::max();
     if (usable && !(largest >= T(0.0625) && largest <= T(16))) {
-      const int down = -std::ilogb(largest);
-      return {std::ldexp(q.x, down), std::ldexp(q.y, down), std::ldexp(q.z, down), std::ldexp(q.w, down)};
+      const int down = -detail::ilogb(largest);
+      return {detail::ldexp(q.x, down), detail::ldexp(q.y, down), detail::ldexp(q.z, down), detail::ldexp(q.w, down)};
     }
   }
   return {q.x, q.y, q.z, q.w};
@@ -110,12 +111,12 @@ namespace detail {
 
 /// Whether `moderate` may leave a quaternion of that squared length as it is: false for NaN.
 template <class T>
-bool is_moderate(T norm2) noexcept {
+bool is_moderate(T norm2) {
   return norm2 >= T(0.00390625) && norm2 <= T(1024);
 }
 /// `moderate`, in lanes.
 template <class T>
-Lanes<T> of_moderate_length(const Quaternion<T>& q) noexcept {
+Lanes<T> of_moderate_length(const Quaternion<T>& q) {
   const auto [x, y, z, w] = moderate(q);
   return Lanes<T>::of(x, y, z, w);
 }
@@ -127,17 +128,17 @@ Lanes<T> of_moderate_length(const Quaternion<T>& q) noexcept {
 template <class T>
 class FrameInLanes {
  public:
-  explicit FrameInLanes(const Lanes<T>& q) noexcept {
-    const Lanes<T> scaled = q * (Lanes<T>::all(T(2)) / sum_of_four(q * q));
+  explicit FrameInLanes(const Lanes<T>& q) {
+    const Lanes<T> scaled = q * (Lanes<T>::splat(T(2)) / sum_of_four(q * q));
     const Lanes<T> squares = q * scaled;                        // xx, yy, zz
     const Lanes<T> products = yzx(q) * zxy(scaled);             // yz, zx, xy
     const Lanes<T> turns = q.template broadcast<3>() * scaled;  // wx, wy, wz
-    main_ = Lanes<T>::all(T(1)) - (yzx(squares) + zxy(squares));
+    main_ = Lanes<T>::splat(T(1)) - (yzx(squares) + zxy(squares));
     sums_ = products + turns;
     differences_ = products - turns;
   }
   /// Of the rotation q / |q|, all numbers times |q|^2, so that nothing is divided.
-  static FrameInLanes scaled(const Lanes<T>& q) noexcept {
+  static FrameInLanes scaled(const Lanes<T>& q) {
     const Lanes<T> squares = q * q, twice = q + q, w = q.template broadcast<3>();
     const Lanes<T> products = yzx(q) * zxy(twice), turns = w * twice;
     FrameInLanes frame;
@@ -147,21 +148,21 @@ class FrameInLanes {
     return frame;
   }
   /// Every number's magnitude: what it makes of half extents is how far they reach.
-  FrameInLanes magnitudes() const noexcept {
+  FrameInLanes magnitudes() const {
     FrameInLanes frame;
     frame.main_ = absolute(main_);
     frame.sums_ = absolute(sums_);
     frame.differences_ = absolute(differences_);
     return frame;
   }
-  Lanes<T> into(const Lanes<T>& world) const noexcept {
+  Lanes<T> into(const Lanes<T>& world) const {
     return main_ * world + zxy(sums_) * yzx(world) + yzx(differences_) * zxy(world);
   }
-  Lanes<T> out_of(const Lanes<T>& local) const noexcept {
+  Lanes<T> out_of(const Lanes<T>& local) const {
     return main_ * local + zxy(differences_) * yzx(local) + yzx(sums_) * zxy(local);
   }
   /// The columns: the axes in world coordinates.
-  std::array<Lanes<T>, 3> axes() const noexcept {
+  std::array<Lanes<T>, 3> axes() const {
     using L = Lanes<T>;
     const L x = L::only(0), y = L::only(1), z = L::only(2), s = yzx(sums_), d = zxy(differences_);
     const L mx = main_ & x, my = main_ & y, mz = main_ & z;
@@ -175,8 +176,8 @@ class FrameInLanes {
 
 /// The same, but that NaN of `half` alone is lost.
 template <class T>
-Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) noexcept {
-  return coordinate - smaller(larger(coordinate, Lanes<T>::all(T(0)) - half), half);
+Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) {
+  return coordinate - smaller(larger(coordinate, Lanes<T>::splat(T(0)) - half), half);
 }
 
 }  // namespace detail
@@ -184,3 +185,5 @@ Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) noexcept {
 #endif
 
 }  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

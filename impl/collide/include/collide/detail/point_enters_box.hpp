@@ -5,16 +5,18 @@
 #include <limits>
 
 #include <collide/answers.hpp>
-#include <collide/enter_box.hpp>
-#include <collide/frame.hpp>
+#include <collide/detail/enter_box.hpp>
+#include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
 
 /// As moving_point_box describes it.
 template <class Tier, class T>
-Impact<T> point_enters_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) noexcept {
-  using std::abs;
+Impact<T> point_enters_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
+  using detail::abs;
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half), low = components(-box.half);
   const std::array<T, 3> at = into_frame<Tier>(axes, point - box.center), step = into_frame<Tier>(axes, velocity);
@@ -37,3 +39,5 @@ Impact<T> point_enters_box(const Vec3<T>& point, const Vec3<T>& velocity, const 
 }
 
 }  // namespace collide::detail
+
+#include <collide/detail/strict_end.hpp>

@@ -1,9 +1,12 @@
 /// A number as the unevaluated sum of two: about twice the precision of its scalar.
 #pragma once
 
-#include <cmath>
 #include <limits>
 #include <type_traits>
+
+#include <collide/detail/machine_math.hpp>
+
+#include <collide/detail/strict_begin.hpp>
 
 namespace collide {
 
@@ -37,7 +40,7 @@ struct DoubleWord {
 #if defined(__FMA__)
     if (!std::is_constant_evaluated()) {
       const T product = a * b;
-      return {product, std::fma(a, b, -product)};
+      return {product, detail::fma(a, b, -product)};
     }
 #endif
     constexpr T splitter = T(1LL << ((std::numeric_limits<T>::digits + 1) / 2)) + T(1);
@@ -68,8 +71,8 @@ struct DoubleWord {
   }
   /// One step of Newton's iteration from the root of the high part: relative error below 2^7 u^2.
   friend DoubleWord sqrt(const DoubleWord& a) noexcept {
-    if (!(a.high > T(0))) return {std::sqrt(a.high), T(0)};
-    const T first = std::sqrt(a.high);
+    if (!(a.high > T(0))) return {detail::sqrt(a.high), T(0)};
+    const T first = detail::sqrt(a.high);
     const DoubleWord rest = a - two_product(first, first);
     return fast_two_sum(first, rest.high / (T(2) * first));
   }
@@ -106,3 +109,5 @@ template <class T>
 inline constexpr T wide_epsilon = WideOf<T>::epsilon;
 
 }  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,33 @@
+/// How collide/bounce_direction.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
+                              const Vec3<T>& normal) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::bounce_direction<decltype(arithmetic)>(a...); }, sphere,
+        velocity, time, location, normal);
+  } else {
+    const Vec3<T> to_center = (sphere.center - location) + velocity * time;
+    const bool apart = !(to_center == Vec3<T>{});
+    const Vec3<T> u = unit<Tier>(apart ? to_center : normal);
+    const Vec3<T> d = unit<Tier>(velocity);
+    return {of_length<T>(d - u * (T(2) * Tier::dot(d, u)))};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,67 @@
+/// How collide/box_box_conservative.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// |between| <= |half1| + |half2|, rounded to yes: never no where it holds in real numbers.
+template <class T>
+bool may_reach(const Vec3<T>& half1, const Vec3<T>& half2, const Vec3<T>& between) {
+  const std::array<T, 3> d = components(between), a = components(half1), b = components(half2);
+  T distance = length(d), reach = length(a) + length(b);
+  if constexpr (MachineNumber<T>) {
+    // To first order a length carries 1 eps for the difference of the centers, 1 + 2 for its squares and
+    // their sums, halved by the root, 1 for the root (as much again after a division that keeps squares from
+    // underflow), and the sum of the two 1: 4 ulps, 8 eps, are more than twice what the sides differ by.
+    constexpr T slack = T(4) * std::numeric_limits<T>::epsilon();
+    reach = reach + (reach * slack + std::numeric_limits<T>::denorm_min());
+    if (distance > std::numeric_limits<T>::max()) {  // the squares are beyond the largest number
+      using detail::abs;
+      const T largest = larger(larger(larger(abs(d[0]), abs(d[1])), abs(d[2])),
+                               larger(larger(larger(a[0], a[1]), a[2]), larger(larger(b[0], b[1]), b[2])));
+      if (!(largest <= std::numeric_limits<T>::max())) return false;
+      const T scale = detail::ldexp(T(1), -detail::ilogb(largest) - 1);
+      return may_reach(half1 * scale, half2 * scale, between * scale);
+    }
+  }
+  return distance <= reach;
+}
+
+}  // namespace detail
+
+namespace kernels {
+
+template <class Tier, class T>
+Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::box_box_conservative<decltype(arithmetic)>(a...); },
+        box1, box2);
+  } else {
+    return {detail::may_reach(box1.half, box2.half, box2.center - box1.center)};
+  }
+}
+
+template <class Tier, class T>
+Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::box_box_conservative<decltype(arithmetic)>(a...); },
+        info);
+  } else {
+    return {detail::may_reach(info.half1, info.half2, info.between)};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

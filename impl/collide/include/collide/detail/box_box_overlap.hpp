@@ -1,0 +1,93 @@
+/// How collide/box_box_overlap.hpp is computed.
+#pragma once
+
+#include <optional>
+
+#include <collide/answers.hpp>
+#include <collide/detail/box_pair.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// The answer; nothing where doubles may be wrong.
+///
+/// u = 2^-53, N = |q1|^2 |q2|^2, L the sum of |x| + |y| + |z| of both half extents and of the way between the centers.
+/// A number of `turn` is known to 3 u sqrt(N), a cosine to 16 u N, a number of a cross product to 46 u N, `between` to
+/// 8 u |q1|^2 L. So the gap of an axis of box 1 is known to 24 u N L, of another to less than 96 u N |q1|^2 L.
+template <class T>
+std::optional<BoxOverlap<T>> sure_overlap(const Box<T>& box1, const Box<T>& box2) {
+  using L = Lanes<double>;
+  const L way = wide_lanes(box2.center) - wide_lanes(box1.center);
+  const auto wide = [](const Quaternion<T>& q) { return Quaternion<double>{q.x, q.y, q.z, q.w}; };
+  const BoxPairInLanes<double> pair(wide(box1.orientation), wide(box2.orientation), way, wide_lanes(box1.half),
+                                    wide_lanes(box2.half));
+  const double lengths = sum_of_three(absolute(way) + absolute(pair.half1) + absolute(pair.half2)).first();
+  if (!(pair.is_usual() && lengths >= 0x1p-400 && lengths <= 0x1p400)) return std::nullopt;
+  const L bound = L::splat(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1,
+          zero = L::splat(0.0);
+  unsigned apart = 0, overlap = 0;
+  pair.for_each_axis([&](int n, const auto& s) {  // small cross products are within the bound as well
+    const L& least = n == 0 ? bound : of_others;
+    apart |= unsigned((least < s.gap).bits() & 7) << 3 * n;
+    overlap |= unsigned((s.gap < zero - least).bits() & 7) << 3 * n;
+  });
+  if (apart != 0) return BoxOverlap<T>{false, axis_of_bit(first_bit(apart))};
+  if (overlap == (1u << box_box_axes) - 1) return BoxOverlap<T>{true, -1};
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+#endif
+
+namespace kernels {
+
+template <class Tier, class T>
+BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint) {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) {  // all axes at once: a hint could save nothing
+    const detail::BoxPairInLanes<T> pair(box1, box2);
+    unsigned overlaps = 0;
+    const bool good = pair.for_each_axis([&](int n, const auto& s) {
+      overlaps |= unsigned((s.gap <= detail::Lanes<T>::splat(T(0))).bits() & 7) << 3 * n;
+    });
+    if (pair.is_usual() && good) {
+      const int axis = detail::axis_of_bit(detail::first_bit(~overlaps));
+      return {axis < 0, axis};
+    }
+  }
+  if constexpr (looks_first<Tier, T>) {
+    if (const auto sure = detail::sure_overlap(box1, box2)) return Tier::sure(*sure);
+  }
+#endif
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::box_box_overlap<decltype(arithmetic)>(a...); }, box1,
+        box2, hint);
+  } else {
+    const detail::BoxPair<T> pair(box1, box2);
+    if constexpr (MachineNumber<T>) {
+      if (!(pair.norm1 * pair.norm2 > T(0))) return {};  // no rotation, or NaN
+    }
+    const auto separates = [&](int axis) {  // so does NaN: it must not look like an overlap
+      return !(detail::separation(pair, axis).gap <= T(0));
+    };
+    if (hint >= 0 && hint < box_box_axes && separates(hint)) return {false, hint};
+    for (int axis = 0; axis < box_box_axes; ++axis) {
+      if (separates(axis)) return {false, axis};
+    }
+    return {true, -1};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,94 @@
+/// How collide/box_plane_penetration.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane) {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) {
+    using detail::lanes;
+    using L = detail::Lanes<T>;
+    using limits = std::numeric_limits<T>;
+    const L middle = lanes(box.center), half = lanes(box.half), q = lanes(box.orientation), n = lanes(plane.normal);
+    const L offset = L::splat(plane.offset), zero = L::splat(T(0));
+    const detail::FrameInLanes<T> frame(q);
+    const L norm2 = sum_of_three(n * n), norm = sqrt(norm2);
+    const L in_range = L::splat(limits::min() / limits::epsilon()) <= norm2;
+    if (all_three(in_range & are_finite(middle, half, q, n, offset))) {
+      const L reach = frame.into(n) * half, center = sum_of_three(n * middle) + offset;
+      const L reach_x = reach.template broadcast<0>(), reach_y = reach.template broadcast<1>();
+      const L reach_z = reach.template broadcast<2>();
+      const L odd = L::of(T(-0.0), T(0), T(-0.0), T(0)), low_half = L::of(T(-0.0), T(-0.0), T(0), T(0));
+      const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0 to 3 and 4 to 7, but for z
+      const L height_low = around - reach_z, height_high = around + reach_z;
+      const L lowest = smaller(height_low, height_high),
+              by_two = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
+      const L depth = (zero - smaller(by_two, by_two.template shuffled<1, 0, 3, 2>())) / norm, overlap = zero <= depth;
+      CornerContacts<T> contacts;
+      contacts.depth = depth.first();
+      contacts.normal = first_three((n / norm) & overlap);
+      const auto& [x, y, z] = frame.axes();
+      const L side_x = x * half.template broadcast<0>(), side_y = y * half.template broadcast<1>();
+      const L side_z = z * half.template broadcast<2>();
+      const L behind_low = (height_low <= zero) & overlap, behind_high = (height_high <= zero) & overlap;
+      const auto corner = [&](int i, const L& place, const L& behind) {
+        contacts.corners[i] = {(behind.bits() & 1) != 0, first_three(place & behind)};
+      };
+      const L left = middle - side_x, right = middle + side_x;
+      const auto around_z = [&](int i, const L& place, const L& low, const L& high) {
+        corner(i, place - side_z, low);
+        corner(i + 4, place + side_z, high);
+      };
+      around_z(0, left - side_y, behind_low.template broadcast<0>(), behind_high.template broadcast<0>());
+      around_z(1, right - side_y, behind_low.template broadcast<1>(), behind_high.template broadcast<1>());
+      around_z(2, left + side_y, behind_low.template broadcast<2>(), behind_high.template broadcast<2>());
+      around_z(3, right + side_y, behind_low.template broadcast<3>(), behind_high.template broadcast<3>());
+      return contacts;
+    }
+  }
+#endif
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::box_plane_penetration<decltype(arithmetic)>(a...); },
+        box, plane);
+  } else {
+    const Axes<T> axes = axes_of(box.orientation);
+    const std::array<Vec3<T>, 3> side{axes[0] * box.half.x, axes[1] * box.half.y, axes[2] * box.half.z};
+    const T center = Tier::dot(plane.normal, box.center) + plane.offset;
+    const std::array<T, 3> reach = into_frame<Tier>(side, plane.normal);
+    const auto signed_sum = [](int corner, const auto& middle, const auto& sides) {
+      const auto x = (corner & 1) != 0 ? middle + sides[0] : middle - sides[0];
+      const auto y = (corner & 2) != 0 ? x + sides[1] : x - sides[1];
+      return (corner & 4) != 0 ? y + sides[2] : y - sides[2];
+    };
+    std::array<T, 8> height;
+    for (int i = 0; i < 8; ++i) height[i] = signed_sum(i, center, reach);
+    T lowest = height[0];
+    for (int i = 1; i < 8; ++i) lowest = smaller(lowest, height[i]);
+
+    const T norm = length(components(plane.normal));
+    CornerContacts<T> contacts;
+    contacts.depth = -lowest / norm;
+    if (!(contacts.depth >= T(0))) return contacts;
+    contacts.normal = plane.normal / norm;
+    for (int i = 0; i < 8; ++i) {
+      if (height[i] <= T(0)) contacts.corners[i] = {typename Corner<T>::Flag(1), signed_sum(i, box.center, side)};
+    }
+    return contacts;
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

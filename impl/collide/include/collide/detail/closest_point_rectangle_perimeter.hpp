@@ -1,0 +1,38 @@
+/// How collide/closest_point_rectangle_perimeter.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/edges.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) {
+          return kernels::closest_point_rectangle_perimeter<decltype(arithmetic)>(a...);
+        },
+        rectangle, point);
+  } else {
+    const std::array<Vec3<T>, 4> v{rectangle.v0, rectangle.v1, rectangle.v2, rectangle.v3};
+    if constexpr (MachineNumber<T>) {
+      if (const Vec3<T> all = v[0] + v[1] + v[2] + v[3] + point; !detail::is_finite(all)) return {all};
+    }
+    std::array<detail::EdgeFoot<T>, 4> foot;
+    for (int i = 0; i < 4; ++i) foot[i] = detail::foot_on_edge<Tier>(v[i], v[(i + 1) % 4], point);
+    const int edge = detail::nearest_edge<Tier>(v, foot, point);
+    return {foot[edge].on(v[edge], v[(edge + 1) % 4])};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,33 @@
+/// How collide/closest_point_segment.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::closest_point_segment<decltype(arithmetic)>(a...); },
+        segment, point);
+  } else {
+    const Vec3<T> along = segment.v1 - segment.v0;
+    const T projection = Tier::dot(point - segment.v0, along);
+    const T length2 = Tier::dot(along, along);
+    if (projection <= T(0)) return {segment.v0};
+    if (projection >= length2) return {segment.v1};
+    return {segment.v0 + along * (projection / length2)};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

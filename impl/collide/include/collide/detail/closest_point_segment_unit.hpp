@@ -1,0 +1,35 @@
+/// How collide/closest_point_segment_unit.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/prepared.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point) {
+  if constexpr (!Tier::template keeps<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto& s, const auto& p) {
+          return kernels::closest_point_segment_unit<decltype(arithmetic)>(prepare_segment<decltype(arithmetic)>(s), p);
+        },
+        prepared.segment, point);
+  } else {
+    const T distance = Tier::dot(point - prepared.segment.v0, prepared.direction);
+    if (distance <= T(0)) return {prepared.segment.v0};
+    if (distance >= prepared.length) return {prepared.segment.v1};
+    return {prepared.segment.v0 + prepared.direction * distance};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,36 @@
+/// How collide/closest_points_lines.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::closest_points_lines<decltype(arithmetic)>(a...); },
+        line1, line2);
+  } else {
+    const Vec3<T> normal = Tier::cross(line1.direction, line2.direction);
+    const T normal2 = Tier::dot(normal, normal);
+    Vec3<T> point1 = line1.point;
+    if (!(normal2 <= T(0))) {
+      const Vec3<T> between = line2.point - line1.point;
+      point1 = point1 + line1.direction * (Tier::dot(Tier::cross(between, line2.direction), normal) / normal2);
+    }
+    const T along = Tier::dot(point1 - line2.point, line2.direction) / Tier::dot(line2.direction, line2.direction);
+    return {point1, line2.point + line2.direction * along};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

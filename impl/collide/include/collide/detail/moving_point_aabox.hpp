@@ -1,0 +1,64 @@
+/// How collide/moving_point_aabox.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/enter_box.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) {
+    using L = detail::Lanes<T>;
+    using detail::lanes;
+    const L step = lanes(velocity);
+    const auto entry = detail::enter_box(lanes(point), step, lanes(aabox.min), lanes(aabox.max),
+                                         [&](const L& gap) { return gap / step; });
+    const bool inside = entry.enters & entry.inside, enters = entry.enters & !inside;
+    const L normal = select(entry.below, L::splat(T(-1)), L::splat(T(1))) & first_of_three(entry.axis);
+    Entry<T> answer;
+    answer.inside = inside;
+    answer.location = first_three(entry.at & L::when(entry.enters));
+    answer.time = select(L::when(enters), entry.time, L::splat(std::numeric_limits<T>::infinity())).first();
+    answer.normal = first_three(normal & L::when(enters));
+    return answer;
+  }
+#endif
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::moving_point_aabox<decltype(arithmetic)>(a...); },
+        point, velocity, aabox);
+  } else {
+    const std::array<T, 3> at = components(point), step = components(velocity);
+    const std::array<T, 3> low = components(aabox.min), high = components(aabox.max);
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) inside = inside && low[i] <= at[i] && at[i] <= high[i];
+    Entry<T> answer;
+    if (inside) {
+      answer.inside = true;
+      answer.location = point;
+      return answer;
+    }
+    const auto entry = detail::enter_box(at, step, low, high, [&](const T& gap, int i) -> T { return gap / step[i]; });
+    if (entry.axis < 0 || !(entry.time <= std::numeric_limits<T>::max())) return Entry<T>::miss();
+    std::array<T, 3> normal{};
+    normal[entry.axis] = entry.side;
+    answer.location = {entry.at[0], entry.at[1], entry.at[2]};
+    answer.time = entry.time;
+    answer.normal = {normal[0], normal[1], normal[2]};
+    return answer;
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

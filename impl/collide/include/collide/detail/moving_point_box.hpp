@@ -1,0 +1,29 @@
+/// How collide/moving_point_box.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/point_enters_box.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::moving_point_box<decltype(arithmetic)>(a...); }, point,
+        velocity, box);
+  } else {
+    return detail::point_enters_box<Tier>(point, velocity, box);
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,186 @@
+/// How collide/moving_sphere_box.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/detail/point_enters_box.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// A point that moves past a box, both in the box's frame. The squared distance to the box is convex
+/// along the motion and quadratic between the times at which a coordinate crosses a face plane.
+template <class Tier, class T>
+struct PointPastBox {
+  std::array<T, 3> at, step, half;  // position, velocity, half extents
+
+  /// Moves on by `time`; a coordinate that reaches the face plane `exact` lands on it exactly.
+  void advance(T time, int exact, T plane) {
+    for (int i = 0; i < 3; ++i) at[i] += step[i] * time;
+    if (exact >= 0) at[exact] = plane;
+  }
+  /// Beyond the box along axis i, seen from the moving point: a coordinate on a face plane counts as
+  /// beyond when it is about to leave.
+  T beyond(int i) const {
+    if (at[i] > half[i] || (at[i] == half[i] && step[i] > T(0))) return at[i] - half[i];
+    if (at[i] < -half[i] || (at[i] == -half[i] && step[i] < T(0))) return at[i] + half[i];
+    return T(0);
+  }
+  bool is_beyond(int i) const {
+    return at[i] > half[i] || at[i] < -half[i] || (at[i] == half[i] && step[i] > T(0)) ||
+           (at[i] == -half[i] && step[i] < T(0));
+  }
+  /// The next face plane that the motion crosses: axis (-1: none), plane, time from now.
+  struct Crossing {
+    int axis = -1;
+    T plane{};
+    T time = std::numeric_limits<T>::infinity();
+  };
+  Crossing next_crossing() const {
+    Crossing next;
+    for (int i = 0; i < 3; ++i) {
+      if (step[i] == T(0)) continue;
+      const bool up = step[i] > T(0);
+      const T near = up ? -half[i] : half[i];
+      const T plane = (up ? near > at[i] : near < at[i]) ? near : -near;
+      if (!(up ? plane > at[i] : plane < at[i])) continue;
+      const T time = (plane - at[i]) / step[i];
+      if (time < next.time) next = {i, plane, time};
+    }
+    return next;
+  }
+  /// The first time at which the distance to the box, on the present piece, is `radius`; negative
+  /// when the piece never comes that near.
+  T time_at_distance(T radius) const {
+    using detail::abs, detail::sqrt;
+    T speed2(0), closing(0);
+    int axes = 0, last = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (!is_beyond(i)) continue;
+      const T e = beyond(i);
+      speed2 += step[i] * step[i];
+      closing -= step[i] * e;
+      ++axes, last = i;
+    }
+    if (!(closing > T(0))) return T(-1);
+    if (axes == 1) return not_negative((abs(beyond(last)) - radius) / abs(step[last]));
+    const T nearest = closing / speed2;
+    Vec3<T> offset{}, from_box{};
+    const auto set = [](Vec3<T>& v, int i, const T& x) { (i == 0 ? v.x : i == 1 ? v.y : v.z) = x; };
+    for (int i = 0; i < 3; ++i) {
+      if (!is_beyond(i)) continue;
+      set(from_box, i, beyond(i));
+      set(offset, i, beyond(i) + step[i] * nearest);
+    }
+    const T chord2 = -Tier::beyond_radius(offset, radius);
+    if (!(chord2 >= T(0))) return T(-1);
+    const T outside = Tier::beyond_radius(from_box, radius);
+    if (outside <= T(0)) return T(0);  // rounding put the contact just before this piece
+    return not_negative(nearest - sqrt(chord2 / speed2));
+  }
+  bool inside() const { return !is_beyond(0) && !is_beyond(1) && !is_beyond(2); }
+  /// The face nearest to a point in the box; of those on which it lies, one that it does not leave.
+  NearestFace<T> nearest_face_met() const {
+    for (int i = 0; i < 3; ++i) {
+      for (const T side : {T(-1), T(1)}) {
+        if (at[i] == side * half[i] && side * step[i] <= T(0)) return {i, side, T(0)};
+      }
+    }
+    return nearest_face(at, half);
+  }
+  /// True while the point comes no nearer: the distance is convex, so it never will.
+  bool receding() const {
+    T closing(0);
+    bool any = false;
+    for (int i = 0; i < 3; ++i) {
+      if (!is_beyond(i)) continue;
+      any = true;
+      closing -= step[i] * beyond(i);
+    }
+    return any && !(closing > T(0)) && !grazes();
+  }
+  /// A coordinate exactly on a face plane has no excess yet, though the piece ahead has one.
+  bool grazes() const {
+    for (int i = 0; i < 3; ++i) {
+      if (is_beyond(i) && beyond(i) == T(0)) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace detail
+
+namespace kernels {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_box<decltype(arithmetic)>(a...); },
+        sphere, velocity, box);
+  } else {
+    if (sphere.radius == T(0)) return detail::point_enters_box<Tier>(sphere.center, velocity, box);
+    const Axes<T> axes = axes_of(box.orientation);
+    const std::array<T, 3> half = components(box.half);
+    detail::PointPastBox<Tier, T> path{into_frame<Tier>(axes, sphere.center - box.center),
+                                       into_frame<Tier>(axes, velocity), half};
+    const auto contact = [&](T time, int face) -> Impact<T> {
+      if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
+      std::array<T, 3> nearest, away;
+      for (int i = 0; i < 3; ++i) {
+        nearest[i] = clamped(path.at[i], -half[i], half[i]);
+        away[i] = excess(path.at[i], half[i]);
+      }
+      if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
+        const NearestFace<T> at_face =
+            face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)} : path.nearest_face_met();
+        away = {};
+        away[at_face.axis] = at_face.side;
+        nearest[at_face.axis] = at_face.side * half[at_face.axis];
+      }
+      const Vec3<T> outward = unit<Tier>(Vec3<T>{away[0], away[1], away[2]});
+      return {time, box.center + out_of_frame(axes, nearest), out_of_frame(axes, components(outward))};
+    };
+
+    T closing(0);
+    std::array<T, 3> away;
+    for (int i = 0; i < 3; ++i) {
+      away[i] = excess(path.at[i], half[i]);
+      closing -= away[i] * path.step[i];
+    }
+    const Vec3<T> from_box{away[0], away[1], away[2]};
+    const T outside = Tier::beyond_radius(from_box, sphere.radius);
+    if (outside < T(0)) return contact(T(0), -1);
+    if (outside == T(0)) return closing >= T(0) ? contact(T(0), -1) : Impact<T>::miss();
+    if (!(outside > T(0)) || !(closing > T(0))) return Impact<T>::miss();
+
+    T elapsed(0);
+    for (int piece = 0; piece < 7; ++piece) {
+      const auto crossing = path.next_crossing();
+      const T time = path.time_at_distance(sphere.radius);
+      if (time >= T(0) && time <= crossing.time) {
+        int beyond = 0, face = -1;
+        for (int i = 0; i < 3; ++i) {
+          if (path.is_beyond(i)) ++beyond, face = i;
+        }
+        path.advance(time, -1, T(0));
+        return contact(elapsed + time, beyond == 1 ? face : -1);
+      }
+      if (crossing.axis < 0 || path.receding()) return Impact<T>::miss();
+      path.advance(crossing.time, crossing.axis, crossing.plane);
+      elapsed += crossing.time;
+      if (path.inside()) return contact(elapsed, crossing.axis);
+    }
+    return Impact<T>::miss();
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

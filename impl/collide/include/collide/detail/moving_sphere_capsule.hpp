@@ -1,0 +1,29 @@
+/// How collide/moving_sphere_capsule.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/past_capsule.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_capsule<decltype(arithmetic)>(a...); },
+        sphere, velocity, capsule);
+  } else {
+    return detail::past_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

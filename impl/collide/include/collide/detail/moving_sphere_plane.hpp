@@ -1,0 +1,89 @@
+/// How collide/moving_sphere_plane.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/contact.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
+template <class T, class Shared>
+inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane,
+                                              const Shared& shared) {
+  using L = Lanes<T>;
+  using P = Pair<T>;
+  using limits = std::numeric_limits<T>;
+  const L center = lanes(sphere), along = lanes(velocity), n = lanes(plane);
+  const P zero = P::splat(T(0)), radius = P::splat(sphere.radius), most = P::splat(limits::max());
+  const L sums = sums_of_three(n * along, n * center, n * n, n);
+  const P approach = zero - first_pair(sums), height = swapped(first_pair(sums)) + P::splat(plane.offset);
+  const P n2 = second_pair(sums), length = sqrt(n2), reach = radius * length;
+  const P starts = height <= reach, time = and_not((height - reach) / approach, starts);
+  const P down = select(starts, height / length, radius);
+  const P hit = (zero <= approach) & (zero - reach <= height) & (starts | ((zero < approach) & (time <= most)));
+  const L normal = n / every(length);
+  const L location = (center + along * every(time)) - normal * every(down);
+  const P in_range = (P::splat(limits::min() / limits::epsilon()) <= n2) & (n2 <= most) & (reach <= most);
+  if (!all_three(are_finite(location & every(hit)) & every(in_range))) return shared(sphere, velocity, plane);
+  return impact(hit, time, location, normal);
+}
+
+}  // namespace detail
+
+#endif
+
+namespace kernels {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
+  if constexpr (Tier::template lifts<T>) {
+    const auto shared = [](const auto&... inputs) {
+      return Tier::lift(
+          [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_plane<decltype(arithmetic)>(a...); },
+          inputs...);
+    };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, detail::out_of_line(shared));
+    }
+#endif
+    if constexpr (looks_first<Tier, T>) {
+      if (detail::surely_misses(detail::in_double(sphere.center), double(sphere.radius), detail::in_double(velocity),
+                                {detail::in_double(plane.normal), double(plane.offset)})) {
+        return Tier::sure(Impact<T>::miss());
+      }
+    }
+    return shared(sphere, velocity, plane);
+  } else {
+    Vec3<T> normal = plane.normal;
+    T length;
+    if constexpr (MachineNumber<T>) {
+      normal = unit<Tier>(plane.normal), length = Tier::dot(normal, plane.normal);
+    } else {  // one root, which need not be kept in range, makes both
+      using detail::sqrt;
+      length = sqrt(Tier::dot(normal, normal));
+      if (!(length == T(0))) normal = normal / length;
+    }
+    const T approach = -Tier::dot(plane.normal, velocity);
+    const T height = Tier::dot(plane.normal, sphere.center) + plane.offset;
+    const T reach = sphere.radius * length;
+    if (!(approach >= T(0) && height >= -reach)) return Impact<T>::miss();
+    if (height <= reach) return detail::contact(T(0), sphere.center - normal * (height / length), normal);
+    if (!(approach > T(0))) return Impact<T>::miss();
+    const T time = (height - reach) / approach;
+    return detail::contact(time, (sphere.center + velocity * time) - normal * sphere.radius, normal);
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,36 @@
+/// How collide/moving_sphere_rectangle.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/moving_sphere_triangle.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity, const Rectangle<T>& rectangle) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_rectangle<decltype(arithmetic)>(a...); },
+        sphere, velocity, rectangle);
+  } else {
+    const TriangleImpact<T> one =
+        kernels::moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
+    const TriangleImpact<T> two =
+        kernels::moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
+    // On the diagonal both are hit at the same time.
+    const bool both = one.yes() && two.yes() && one.weights.y == T(0) && two.weights.z == T(0);
+    const TriangleImpact<T>& first = !both && two.time < one.time ? two : one;
+    return {first.time, first.location, first.normal};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,487 @@
+/// How collide/moving_sphere_triangle.hpp is computed.
+#pragma once
+
+#include <limits>
+
+#include <collide/answers.hpp>
+#include <collide/detail/contact.hpp>
+#include <collide/detail/edges.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/detail/lanes.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// A place on a triangle: in its face (feature 0), on edge i from v[i] to v[i + 1] (1 + i), at vertex i
+/// (4 + i).
+template <class T>
+struct TrianglePlace {
+  int feature = 0;
+  Vec3<T> point{};
+  Vec3<T> weights{};
+};
+
+/// A sphere that moves past a triangle.
+template <class Tier, class T>
+struct SpherePastTriangle {
+  Vec3<T> center;
+  T radius;
+  Vec3<T> velocity;
+  std::array<Vec3<T>, 3> v, edge;  ///< edge i from v[i] to v[i + 1]
+  std::array<Vec3<T>, 3> inward;   ///< n x edge i
+  Vec3<T> n;
+  T n_length, height, approach;  ///< n . (center - v[0]), -n . velocity
+
+  SpherePastTriangle(const Sphere<T>& sphere, const Vec3<T>& along, const Triangle<T>& triangle)
+      : center(sphere.center), radius(sphere.radius), velocity(along), v{triangle.v0, triangle.v1, triangle.v2} {
+    for (int i = 0; i < 3; ++i) edge[i] = v[(i + 1) % 3] - v[i];
+    n = normal_of<Tier>(edge[0], -edge[2]);
+    n_length = length(components(n));
+    height = Tier::dot(n, center - v[0]);
+    approach = -Tier::dot(n, velocity);
+    for (int i = 0; i < 3; ++i) inward[i] = Tier::cross(n, edge[i]);
+  }
+
+  /// Coming from the front or along, and at the start not wholly behind.
+  bool passes_gate() const { return approach >= T(0) && height >= -(radius * n_length); }
+
+  /// n . (edge i x (point - its start)), from either end of the edge: from the nearer it is the more exact.
+  T beside(int i, const Vec3<T>& point, bool from_nearer) const {
+    const Vec3<T> w = point - v[i];
+    if constexpr (MachineNumber<T>) {
+      const Vec3<T> other = point - v[(i + 1) % 3];
+      if (from_nearer && Tier::dot(other, other) < Tier::dot(w, w)) return Tier::dot(inward[i], other);
+    }
+    return Tier::dot(inward[i], w);
+  }
+
+  /// The foot of a point on the triangle's plane, where it lies in the face: its weights are its distances
+  /// from the edges.
+  bool in_face(const Vec3<T>& point, TrianglePlace<T>& place, bool from_nearer = false) const {
+    if (!(n_length > T(0))) return false;
+    const T a = beside(1, point, from_nearer), b = beside(2, point, from_nearer), c = beside(0, point, from_nearer);
+    if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
+    const T sum = a + b + c;  // |n|^2
+    if (!(sum > T(0))) return false;
+    place.feature = 0;
+    if constexpr (MachineNumber<T>) {  // a sum off by as much as itself: so thin a triangle is all edges
+      const T n2 = n_length * n_length;
+      if (!(sum <= T(2) * n2 && sum >= n2 / T(2))) return false;
+      if (is_thin(n2, Tier::dot(edge[0], edge[0]), Tier::dot(edge[2], edge[2]))) {
+        const Vec3<T> w = point - v[0];
+        const Vec3<T> on_plane = w - n * (Tier::dot(n, w) / n2);
+        const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], on_plane);
+        const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
+        // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where
+        // the corners lie on a line. A place is taken for one on the face where its weights put it, but for 32 u (the
+        // unit roundoff) of the longest of two edges and the way to it: 64 u of the largest position, or of the
+        // center's where its velocity took it further, to which the velocity's own error is added. Half of what is
+        // promised.
+        const T longest = larger(larger(largest_abs(w), largest_abs(edge[0])), largest_abs(edge[2]));
+        const T most = T(16) * std::numeric_limits<T>::epsilon() * longest;
+        if (!(largest_abs(edge[0] * base - edge[2] * apex - on_plane) <= most)) return false;
+        place.weights = {T(1) - apex - base, base, apex};
+        return true;
+      }
+    }
+    place.weights = {a / sum, b / sum, c / sum};
+    return true;
+  }
+
+  TrianglePlace<T> on_edge(int i, const T& along) const {
+    TrianglePlace<T> place{1 + i, v[i] + edge[i] * along, {}};
+    const T rest = T(1) - along;
+    place.weights = i == 0   ? Vec3<T>{rest, along, T(0)}
+                    : i == 1 ? Vec3<T>{T(0), rest, along}
+                             : Vec3<T>{along, T(0), rest};
+    return place;
+  }
+  TrianglePlace<T> at_vertex(int i) const {
+    return {4 + i, v[i], {i == 0 ? T(1) : T(0), i == 1 ? T(1) : T(0), i == 2 ? T(1) : T(0)}};
+  }
+
+  /// The way from an edge to a point, found from w, carries 4 eps of w from `along` and 2 from the
+  /// difference. A part of it that is no larger and points inward, where the edge would not be nearest, is
+  /// nothing else; nor is a way that is no longer.
+  void take_off_rounding(int i, const Vec3<T>& w, const T& edge2, Vec3<T>& to_point) const {
+    constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
+    const T most2 = error * error * Tier::dot(w, w);
+    if (Tier::dot(to_point, to_point) <= most2) to_point = Vec3<T>{};
+    if (!(n_length > T(0))) return;
+    const Vec3<T> in = inward[i] / n_length;
+    const T behind = Tier::dot(to_point, in);
+    if (behind > T(0) && behind * behind <= most2 * edge2) to_point = to_point - in * (behind / edge2);
+  }
+
+  /// The nearest point of the triangle to the center at the start, and the way from there to the center.
+  TrianglePlace<T> nearest(Vec3<T>& away) const {
+    TrianglePlace<T> place;
+    if (in_face(center, place, true)) {
+      away = n * (height / (n_length * n_length));
+      place.point = center - away;
+      return place;
+    }
+    if (!nearest_on_boundary<true>(center, place, away)) nearest_on_boundary<false>(center, place, away);
+    if constexpr (MachineNumber<T>) {  // so near that the squares underflow: on the triangle
+      constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+      if (Tier::dot(away, away) < least) away = Vec3<T>{};
+    }
+    return place;
+  }
+
+  /// The nearest point of the edges and vertices to a point that is not over the face, and the way from there,
+  /// seen from the nearest corner, so that it is exact where it is short. `by_region`: of the features in
+  /// whose region the point lies, which two distances that differ by a square cannot tell; false where
+  /// rounding left it in none.
+  template <bool by_region>
+  bool nearest_on_boundary(const Vec3<T>& point, TrianglePlace<T>& best, Vec3<T>& away) const {
+    std::array<Vec3<T>, 3> from;
+    std::array<T, 3> after_start, before_end;
+    for (int i = 0; i < 3; ++i) from[i] = point - v[i];
+    for (int i = 0; i < 3; ++i) {
+      after_start[i] = Tier::dot(from[i], edge[i]);
+      before_end[i] = -Tier::dot(from[(i + 1) % 3], edge[i]);
+    }
+    T best2 = std::numeric_limits<T>::infinity();
+    const auto consider = [&](const TrianglePlace<T>& place, const Vec3<T>& to_point) {
+      const T distance2 = Tier::dot(to_point, to_point);
+      if (distance2 < best2) best = place, best2 = distance2, away = to_point;
+    };
+    for (int i = 0; i < 3; ++i) {
+      if (!by_region || (after_start[i] <= T(0) && before_end[(i + 2) % 3] <= T(0))) consider(at_vertex(i), from[i]);
+      if (!(after_start[i] > T(0) && before_end[i] > T(0))) continue;
+      if (by_region && !(beside(i, point, true) <= T(0))) continue;
+      const T edge2 = Tier::dot(edge[i], edge[i]);
+      const bool first_half = after_start[i] < before_end[i];
+      const T along = (first_half ? after_start[i] : before_end[i]) / edge2;
+      const Vec3<T>& w = first_half ? from[i] : from[(i + 1) % 3];
+      Vec3<T> to_point = first_half ? w - edge[i] * along : w + edge[i] * along;
+      if constexpr (MachineNumber<T>) take_off_rounding(i, w, edge2, to_point);
+      consider(on_edge(i, first_half ? along : T(1) - along), to_point);
+    }
+    return best2 < std::numeric_limits<T>::infinity();
+  }
+
+  /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
+  /// for a triangle without area, any at right angles to it that does not lead along the motion.
+  Vec3<T> normal_at(const TrianglePlace<T>& place, Vec3<T> away) const {
+    if (place.feature == 0) return height < T(0) ? -unit<Tier>(n) : unit<Tier>(n);
+    if (place.feature < 4) {  // what rounding left of a part along the edge counts where the rest is small
+      const Vec3<T>& e = edge[place.feature - 1];
+      away = away - e * (Tier::dot(away, e) / Tier::dot(e, e));
+    }
+    const bool apart = radius > T(0) && !(away == Vec3<T>{});
+    if (apart) return unit<Tier>(away);
+    if (n_length > T(0)) return unit<Tier>(n);
+    return turned_against<Tier>(across_longest_edge(), velocity);
+  }
+  /// A unit vector at right angles to a triangle without area.
+  Vec3<T> across_longest_edge() const {
+    using detail::abs;
+    Vec3<T> e = edge[0];
+    for (int i = 1; i < 3; ++i) {
+      if (Tier::dot(edge[i], edge[i]) > Tier::dot(e, e)) e = edge[i];
+    }
+    if (e == Vec3<T>{}) return {T(0), T(0), T(1)};
+    const bool along_x = abs(e.x) > abs(e.y) && abs(e.x) > abs(e.z);
+    return unit<Tier>(Tier::cross(e, along_x ? Vec3<T>{T(0), T(1), T(0)} : Vec3<T>{T(1), T(0), T(0)}));
+  }
+
+  TriangleImpact<T> contact(const T& time, const TrianglePlace<T>& place, const Vec3<T>& away) const {
+    if (!(time <= std::numeric_limits<T>::max())) return TriangleImpact<T>::miss();
+    return {time, place.point, normal_at(place, away), place.weights};
+  }
+
+  /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
+  /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
+  /// Squares of w, u and the radius are multiplied by `scale2`. `touches`: it is known that the radius is reached.
+  T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1),
+               [[maybe_unused]] bool touches = false) const {
+    using detail::sqrt;
+    const T closing = -Tier::dot(w, u);
+    if (!(closing > T(0))) return T(-1);
+    const T speed2 = Tier::dot(u, u);
+    const Vec3<T> moment = Tier::cross(w, u);
+    if constexpr (MachineNumber<T>) {
+      T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
+      if (touches && chord2 < T(0)) chord2 = T(0);
+      if (!(chord2 >= T(0))) return T(-1);
+      // No later than the time of the least distance, which counts where rounding is all that closes in.
+      return smaller(not_negative(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2)), closing / speed2);
+    } else {
+      const T radius2 = radius * radius * scale2;
+      const T chord2 = radius2 * speed2 - Tier::dot(moment, moment);
+      if (!(chord2 >= T(0))) return T(-1);
+      return not_negative(Tier::dot(w, w) - radius2) / (closing + sqrt(chord2));
+    }
+  }
+
+  bool nears_front() const { return n_length > T(0) && approach > T(0) && height > T(0); }
+  /// When the sphere touches the plane from its front.
+  T face_time() const { return not_negative(height - radius * n_length) / approach; }
+
+  /// Where face and edge meet, rounding may leave a contact to neither: at `first` the sphere is then deeper in the
+  /// face than it is apart from the boundary at the time of the plane. In that case, true with the latter contact.
+  bool passed_between(const T& first, T& time, TrianglePlace<T>& place, Vec3<T>& away) const {
+    if (!nears_front()) return false;
+    const T later = smaller(first, height / approach), left = (height - approach * later) / n_length;
+    if (!(left < radius) || !in_face(center + velocity * later, place)) return false;
+    time = face_time();
+    const Vec3<T> at = center + velocity * time;
+    if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
+    return Tier::dot(away, away) - radius * radius < radius * radius - left * left;
+  }
+
+  /// The first contact of a sphere that starts apart.
+  TriangleImpact<T> moving() const {
+    TrianglePlace<T> place;
+    if (nears_front()) {
+      const T time = face_time();
+      const Vec3<T> at = center + velocity * time;
+      if (in_face(at, place)) {
+        place.point = at - n * (radius / n_length);
+        return contact(time, place, n);
+      }
+    }
+    T first = std::numeric_limits<T>::infinity();
+    std::array<T, 3> at_vertex_time;
+    for (int i = 0; i < 3; ++i) {
+      at_vertex_time[i] = first_time(center - v[i], velocity);
+      if (at_vertex_time[i] >= T(0) && at_vertex_time[i] < first) first = at_vertex_time[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Vec3<T> w = center - v[i];
+      // A unit direction keeps float and double in range; where range is no matter, it would be one more root.
+      Vec3<T> along = edge[i];
+      T most;
+      if constexpr (MachineNumber<T>) {
+        along = unit<Tier>(edge[i]);  // also of a subnormal edge, whose length has few digits
+        most = Tier::dot(along, edge[i]);
+        if (!(most > T(0))) continue;
+      } else {
+        most = Tier::dot(along, along);
+        if (!(most > T(0))) continue;
+      }
+      // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
+      const bool touches = at_vertex_time[i] >= T(0) || at_vertex_time[(i + 1) % 3] >= T(0);
+      const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), most, touches);
+      if (!(time >= T(0) && time < first)) continue;
+      const T reach = Tier::dot(w + velocity * time, along);
+      if (reach >= T(0) && reach <= most) first = time;
+    }
+    Vec3<T> away;
+    if constexpr (MachineNumber<T>) {
+      if (T time; passed_between(first, time, place, away)) return contact(time, place, away);
+    }
+    if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
+    // Which feature is nearest then: times that differ by a square do not tell.
+    const Vec3<T> at = center + velocity * first;
+    if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
+    return contact(first, place, away);
+  }
+
+  TriangleImpact<T> impact() const {
+    if (!passes_gate()) return TriangleImpact<T>::miss();
+    if (height > radius * n_length && approach == T(0)) return TriangleImpact<T>::miss();
+    if (height > radius * n_length) return moving();  // the whole sphere is in front of the plane
+    Vec3<T> away;
+    const TrianglePlace<T> start = nearest(away);
+    const T outside = Tier::beyond_radius(away, radius);
+    if (outside < T(0)) return contact(T(0), start, away);
+    if (outside == T(0)) {
+      return Tier::dot(away, velocity) <= T(0) ? contact(T(0), start, away) : TriangleImpact<T>::miss();
+    }
+    return outside > T(0) ? moving() : TriangleImpact<T>::miss();
+  }
+};
+
+#if defined(COLLIDE_LANES)
+
+/// An impact with its weights, stored as registers.
+inline TriangleImpact<float> stored(float time, Lanes<float> location, Lanes<float> normal, Lanes<float> weights) {
+  using A = TriangleImpact<float>;
+  static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<float>));
+  static_assert(offsetof(A, weights) == offsetof(A, normal) + sizeof(Vec3<float>));
+  TriangleImpact<float> answer;
+  char* const numbers = reinterpret_cast<char*>(&answer);
+  answer.time = time;
+  location.store(
+      reinterpret_cast<float*>(numbers + offsetof(A, location)));  // and a fourth number, which the next replaces
+  normal.store(reinterpret_cast<float*>(numbers + offsetof(A, normal)));
+  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + offsetof(A, weights)), weights.v);
+  _mm_store_ss(&answer.weights.z, _mm_movehl_ps(weights.v, weights.v));
+  return answer;
+}
+inline TriangleImpact<double> stored(double time, Lanes<double> location, Lanes<double> normal, Lanes<double> weights) {
+  using A = TriangleImpact<double>;
+  static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<double>));
+  static_assert(offsetof(A, weights) == offsetof(A, normal) + sizeof(Vec3<double>));
+  TriangleImpact<double> answer;
+  char* const numbers = reinterpret_cast<char*>(&answer);
+  answer.time = time;
+  location.store(reinterpret_cast<double*>(numbers + offsetof(A, location)));
+  normal.store(reinterpret_cast<double*>(numbers + offsetof(A, normal)));
+  _mm_storeu_pd(reinterpret_cast<double*>(numbers + offsetof(A, weights)), weights.low.v);
+  _mm_store_sd(&answer.weights.z, weights.high.v);
+  return answer;
+}
+
+/// Of four things that a sphere nears, the times at which it first touches them; +infinity: never. A thing's distance,
+/// squared, is beyond the radius, squared, by speed2 t^2 - 2 closing t + outside; `chord2` is closing^2 - speed2
+/// outside.
+///
+/// No later than the time of the least distance, which counts where rounding is all that closes in.
+template <class T>
+Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const Lanes<T>& outside,
+                        const Lanes<T>& chord2) {
+  using L = Lanes<T>;
+  const L zero = L::splat(T(0)), never = L::splat(std::numeric_limits<T>::infinity());
+  const L time = smaller(larger(outside, zero) / (closing + sqrt(chord2)), closing / speed2);
+  const L at_start = (outside < zero) | ((outside == zero) & (closing == zero));
+  return and_not(select((zero < closing) & (zero <= chord2), time, never), at_start);
+}
+
+/// What `Fast` answers; of what is extreme, and where rounding leaves the nearest feature open, what `shared` does.
+/// Lane i is edge i, from corner i to the next, or corner i. What decides on which side of an edge the center is, or
+/// how far along it, is linear in time: the triangle is looked at once.
+///
+/// Rounding, u the unit roundoff. The normal as in moving_point_triangle: corners move by 30 u of G, the largest
+/// position. Let w be a corner seen from the center at the start, d the way to the contact, w + d the corner seen from
+/// there. Where the center is beside an edge is known to 5 u of |w + d| and 4 u of |w| and of |d|; |w| and |w + d| are
+/// at most 3.5 G: 60 u. Where two edges meet in a tip both may be wrong far beyond it: a contact on the face is within
+/// the corners' bounds, or no farther from them than rounding takes it. The time on the face takes 7 u of |w| and 3 u
+/// of the velocity, the location 3 u of the center and of d: 128 u together. The way to an edge's line, at right angles
+/// to the edge, is known as well as the velocity is, whose part across the edge takes 3 u of the whole: of a motion
+/// along the edge, that is 16 times as much of the part, and more is left open. An edge or a corner counts where the
+/// center is beyond it by 7 times what rounding makes of that: then no direction from there to the center is nothing
+/// but rounding.
+template <class T, class Shared>
+inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                         const Triangle<T>& triangle, const Shared& shared) {
+  using L = Lanes<T>;
+  using limits = std::numeric_limits<T>;
+  // Of lengths: products of eight of them stay in range. Of a normal, squared, in units of the edges' squares: below it
+  // is nothing but rounding.
+  constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120),
+              most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
+  constexpr T shortest = limits::epsilon() * limits::epsilon();
+  constexpr T least2 = least * least, most2 = most * most, known = T(64) * limits::epsilon();
+  const L center = lanes(sphere), along = lanes(velocity), zero = L::splat(T(0));
+  const CornerLanes<T> t = corner_lanes(triangle);
+  const T radius = sphere.radius, radius2 = radius * radius;
+  const auto sums_with = [&](const L& n) {
+    return sums_of_three(n * along, n * (center - t.v0), n * n, along * along);
+  };
+  L n = cross(t.v1 - t.v0, t.v2 - t.v0), sums = sums_with(n);
+  const Columns<T> corner = columns(t.v0, t.v1, t.v2, t.v0), edge = yzx(corner) - corner,
+                   from = every_column(center) - corner;
+  const L edge2 = dot(edge, edge), from2 = dot(from, from);
+  if (!all_three((L::splat(least2) <= edge2) & (edge2 <= L::splat(most2)) & (from2 <= L::splat(most2)))) {
+    return shared(sphere, velocity, triangle);
+  }
+  const bool thin = is_thin(second_pair(sums).first(), edge2.first(), edge2.template broadcast<2>().first());
+  if (thin) {
+    n = lanes(out_of_line([](const Triangle<T>& x) { return normal_of<Plain>(x.v1 - x.v0, x.v2 - x.v0); })(triangle));
+    sums = sums_with(n);
+  }
+  const auto [receding, height, n2, speed2] = four(sums);
+  const T both2 = edge2.first() + edge2.template broadcast<2>().first();
+  const bool in_range =
+      n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
+  if (!in_range) return shared(sphere, velocity, triangle);
+  // Behind the plane: overlaps it, or touches it and does not leave.
+  const T height2 = height * height, reach2 = radius2 * n2;
+  const bool passes = height >= T(0) || height2 < reach2 || (height2 == reach2 && receding == T(0));
+  if (!(receding <= T(0) && passes)) return TriangleImpact<T>::miss();
+  const T n_length = detail::sqrt(n2), reach = radius * n_length;
+  if (height > reach && receding == T(0)) return TriangleImpact<T>::miss();
+
+  const Columns<T> u = every_column(along), inward = cross(every_column(n), edge);
+  const L beside = dot(inward, from), moves_in = dot(inward, u);
+  const T face_time = height > reach ? (reach - height) / receding : T(0);
+  if (const L weights = beside + moves_in * L::splat(face_time); all_three(zero <= weights)) {
+    const L at = center + along * L::splat(face_time), location = at - n * L::splat(smaller(height, reach) / n2);
+    const L corners = larger(absolute(t.v0), larger(absolute(t.v1), absolute(t.v2)));
+    const L rounding = L::splat(T(16) * limits::epsilon()) * largest_of_three(larger(absolute(center), corners));
+    const L low = smaller(t.v0, smaller(t.v1, t.v2)) - rounding, high = larger(t.v0, larger(t.v1, t.v2)) + rounding;
+    if (thin || !all_three((low <= location) & (location <= high))) return shared(sphere, velocity, triangle);
+    return stored(face_time, location, n / L::splat(height < T(0) ? -n_length : n_length),
+                  yzx(weights) / sum_of_three(weights));
+  }
+
+  // Each line's distances are multiplied by its edge's length.
+  const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across),
+                   moment = cross(from, u);
+  const L r2 = L::splat(radius2), u2 = L::splat(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
+  if (any_of_three(across2 * L::splat(T(256)) < edge2 * u2)) return shared(sphere, velocity, triangle);
+  const L corner_chord2 = r2 * u2 - dot(moment, moment),
+          line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
+  // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
+  const L at_ends = (zero <= corner_chord2) | (zero <= yzx(corner_chord2));
+  const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2,
+                                      select(at_ends, larger(line_chord2, zero), line_chord2));
+  const L corner_times = touching_times(zero - dot(from, u), u2, from2 - r2, corner_chord2);
+  const L along_edge = dot(from, edge), moves_along = dot(u, edge);
+  const L reached = along_edge + moves_along * line_times;
+  const L on_line = (zero <= reached) & (reached <= edge2);
+  const T time = smallest_of(smaller(corner_times, select(on_line, line_times, corner_times))).first();
+  if (time == limits::infinity()) return TriangleImpact<T>::miss();
+
+  // Which feature is nearest then: times that differ by a square do not tell.
+  const T speed = detail::sqrt(speed2), least_way = known * speed * time;
+  const L passed = L::splat(time), moved_along = moves_along * passed, scale = L::splat(known * n_length);
+  const L doubt = scale * (from2 + edge2) + scale * sqrt(edge2) * L::splat(speed * time);
+  const L after_start = along_edge + moved_along, after_end = dot(yzx(from), edge) + moved_along;
+  const L at_corner = (after_start <= zero) & (zero <= zxy(after_end));
+  const L at_edge = (zero < after_start) & (after_end < zero) & (beside + moves_in * passed < zero - doubt);
+  const int features = (at_corner | at_edge).bits() & 7, i = features >> 1;
+  if (!(features == 1 || features == 2 || features == 4)) return shared(sphere, velocity, triangle);
+  static constexpr std::array<std::array<T, 4>, 4> unit{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}}};
+  const auto unit_at = [](int k) { return L::load(reinterpret_cast<const char*>(&unit[k])); };
+  const std::array<L, 4> v{t.v0, t.v1, t.v2, t.v0};
+  const T per_edge2 = four((L::splat(T(1)) / edge2) & at_edge)[i],
+          share = smaller(four(after_start)[i] * per_edge2, T(1));
+  const L e = v[i + 1] - v[i], way = e * L::splat(share), seen = (center + along * passed - v[i]) - way;
+  // What rounding left of a part along the edge counts where the rest is small.
+  const L away = seen - e * (sum_of_three(seen * e) * L::splat(per_edge2)), away2 = sum_of_three(away * away);
+  const T away2_least = limits::min() / limits::epsilon() + least_way * least_way;
+  if (!(away2.first() >= away2_least)) return shared(sphere, velocity, triangle);
+  return stored(time, v[i] + way, away / sqrt(away2),
+                unit_at(i) * L::splat(T(1) - share) + unit_at(i + 1) * L::splat(share));
+}
+
+#endif
+
+}  // namespace detail
+
+namespace kernels {
+
+template <class Tier, class T>
+TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                         const Triangle<T>& triangle) {
+  if constexpr (Tier::template lifts<T>) {
+    const auto shared = [](const auto&... inputs) {
+      return Tier::lift(
+          [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_triangle<decltype(arithmetic)>(a...); },
+          inputs...);
+    };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(shared));
+    }
+#endif
+    return shared(sphere, velocity, triangle);
+  } else {
+    return detail::SpherePastTriangle<Tier, T>(sphere, velocity, triangle).impact();
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

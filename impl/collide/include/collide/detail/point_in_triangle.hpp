@@ -1,0 +1,150 @@
+/// How collide/point_in_triangle.hpp is computed.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include <collide/answers.hpp>
+#include <collide/detail/edges.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// The axis 0..2 of the component of largest magnitude; the first of several.
+template <class T>
+int largest_component(const Vec3<T>& v) {
+  using detail::abs;
+  const T x = abs(v.x), y = abs(v.y), z = abs(v.z);
+  if (x >= y && x >= z) return 0;
+  return y >= z ? 1 : 2;
+}
+
+/// `v` without its component along the axis.
+template <class T>
+Vec3<T> seen_along(int axis, const Vec3<T>& v) {
+  return {axis == 0 ? T(0) : v.x, axis == 1 ? T(0) : v.y, axis == 2 ? T(0) : v.z};
+}
+
+/// Whether the point lies in the closed triangle, both seen along the axis; a triangle without area is a
+/// segment or a point. The point is on one side of all three edges, and within the triangle's bounds: that
+/// rules out what lies on the line of a flat triangle, or beyond the tip of a thin one by rounding.
+///
+/// Two triangles that share an edge see the point on opposite sides of it by the same number.
+template <class Tier, class T>
+bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) {
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  std::array<std::array<T, 3>, 3> from;
+  for (int i = 0; i < 3; ++i) from[i] = components(v[i] - point);
+  for (const int k : {a, b}) {
+    if (!(smaller(smaller(from[0][k], from[1][k]), from[2][k]) <= T(0))) return false;
+    if (!(larger(larger(from[0][k], from[1][k]), from[2][k]) >= T(0))) return false;
+  }
+  bool left = true, right = true;
+  for (int i = 0; i < 3; ++i) {
+    const std::array<T, 3>&start = from[i], &end = from[(i + 1) % 3];
+    const T turn = Tier::difference_of_products(start[a], end[b], start[b], end[a]);
+    left = left && turn >= T(0);
+    right = right && turn <= T(0);
+  }
+  if constexpr (MachineNumber<T>) {  // what is not looked at
+    if (!(detail::abs(from[0][axis] + from[1][axis] + from[2][axis]) <= std::numeric_limits<T>::max())) return false;
+  }
+  return left || right;
+}
+
+/// The answer where it is sure, computed in the next wider type: the sides of the edges, whose shares of their sum are
+/// the weights. Nothing where the point may lie on an edge's line, the triangle has no area, or an input is not finite.
+///
+/// In the wider type nothing overflows or underflows. A side is known to 4 u of the sum of its terms' magnitudes, u its
+/// unit roundoff, and the weights to 11 u of all terms' magnitudes over the sum of the sides; 16 u are allowed to be a
+/// quarter of the scalar's epsilon, one unit in the last place of the largest weight.
+template <class T>
+std::optional<Containment<T>> surely(const Triangle<T>& triangle, int axis, const Vec3<T>& point) {
+  if constexpr (has_wider<T>) {
+    using W = Wider<T>;
+    constexpr W u = std::numeric_limits<W>::epsilon() / 2;
+    const std::size_t a = std::size_t(axis + 1) % 3, b = std::size_t(axis + 2) % 3;
+    const std::array<T, 3> at = components(point);
+    std::array<W, 3> from_a, from_b;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<T, 3> corner = components(corners(triangle)[i]);
+      from_a[i] = W(corner[a]) - W(at[a]), from_b[i] = W(corner[b]) - W(at[b]);
+    }
+    std::array<W, 3> side;
+    W magnitudes = 0;
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t next = (i + 1) % 3;
+      const W p = from_a[i] * from_b[next], q = from_a[next] * from_b[i], size = detail::abs(p) + detail::abs(q);
+      side[i] = p - q;
+      magnitudes += size;
+      left += int(side[i] > 8 * u * size), right += int(-side[i] > 8 * u * size);
+    }
+    if (left > 0 && right > 0) return Containment<T>{};
+    if (!(left == 3 || right == 3) || !all_finite(triangle, point)) return std::nullopt;
+    const W sum = side[0] + side[1] + side[2];
+    if (!(16 * u * magnitudes <= detail::abs(sum) * (std::numeric_limits<T>::epsilon() / 4))) return std::nullopt;
+    return Containment<T>{{T(side[1] / sum), T(side[2] / sum), T(side[0] / sum)}, true};
+  }
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+namespace kernels {
+
+template <class Tier, class T>
+Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis, const Vec3<T>& point) {
+  if constexpr (Tier::template lifts<T>) {
+    if constexpr (looks_first<Tier, T>) {
+      if (detail::is_finite(normal)) {
+        const int along = axis >= 0 && axis <= 2 ? axis : detail::largest_component(normal);
+        if (const auto answer = detail::surely(triangle, along, point)) return Tier::sure(*answer);
+      }
+    }
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::point_in_triangle<decltype(arithmetic)>(a...); },
+        triangle, normal, axis, point);
+  } else {
+    if constexpr (MachineNumber<T>) {
+      if (!detail::is_finite(normal)) return {};
+    }
+    const int along = axis >= 0 && axis <= 2 ? axis : detail::largest_component(normal);
+    std::array<Vec3<T>, 3> v = detail::corners(triangle);
+    if (!detail::is_inside<Tier>(v, along, point)) return {};
+
+    for (Vec3<T>& x : v) x = detail::seen_along(along, x);
+    const Vec3<T> p = detail::seen_along(along, point);
+    const detail::FaceFoot<T> face = detail::foot_on_face<Tier>(v[1] - v[0], v[2] - v[0], p - v[0]);
+    if (face.inside) {
+      const T rest = not_negative(T(1) - face.base_weight - face.apex_weight);
+      return {{rest, face.base_weight, face.apex_weight}, true};
+    }
+    // No area, or on an edge but for rounding: the weights of the nearest edge's ends.
+    std::array<T, 3> weights{};
+    T nearest(0);
+    for (int i = 0; i < 3; ++i) {
+      const detail::EdgeFoot<T> foot = detail::foot_on_edge<Tier>(v[i], v[(i + 1) % 3], p);
+      const Vec3<T> away = p - v[i] - foot.from_start;
+      const T distance2 = Tier::dot(away, away);
+      if (i > 0 && !(distance2 < nearest)) continue;
+      nearest = distance2;
+      weights = {};
+      weights[i] = T(1) - foot.share;
+      weights[(i + 1) % 3] = foot.share;
+    }
+    return {{weights[0], weights[1], weights[2]}, true};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

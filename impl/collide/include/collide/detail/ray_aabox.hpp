@@ -1,0 +1,100 @@
+/// How collide/ray_aabox.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/detail/enter_box.hpp>
+#include <collide/detail/frame.hpp>
+#include <collide/prepared.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// Three numbers of a prepared thing, with any number in the fourth lane: `other` has one behind them, `last` before
+/// them.
+template <class Prepared>
+Lanes<float> three_of(const Prepared& prepared, const Vec3<float>& other) {
+  const char* const whole = reinterpret_cast<const char*>(&prepared);
+  return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&other) - whole));
+}
+template <class Prepared>
+Lanes<float> last_three_of(const Prepared& prepared, const Vec3<float>& last) {
+  const char* const whole = reinterpret_cast<const char*>(&prepared);
+  return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&last) - whole) - sizeof(float))
+      .shuffled<1, 2, 3, 3>();
+}
+template <class Prepared>
+Lanes<double> three_of(const Prepared&, const Vec3<double>& other) {
+  return lanes(other);
+}
+template <class Prepared>
+Lanes<double> last_three_of(const Prepared&, const Vec3<double>& last) {
+  return lanes(last);
+}
+
+/// The ray is in the box from the last entry of a pair of faces to the first exit. A pair that it is parallel to it
+/// enters and leaves at an infinite time, of the one sign where it starts beside the pair, of both where it starts
+/// between; the time to a face that it lies in is NaN, and does not count.
+///
+/// Every time is off by 3 eps of itself, as if the gap were: faces and origin explain that.
+template <class T>
+inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
+  using L = Lanes<T>;
+  using P = Pair<T>;
+  const L origin = three_of(prepared, prepared.ray.origin), direction = three_of(prepared, prepared.ray.direction);
+  const L inverse = last_three_of(prepared, prepared.inverse);
+  const L low = three_of(box, box.aabox.min), high = last_three_of(box, box.aabox.max);
+  const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
+  // Of two numbers of which one is NaN, the first. No exit is infinite, so that no infinite entry comes before it.
+  const L entries = larger(L::splat(T(0)), smaller(to_low, to_high));
+  const L exits = smaller(L::splat(std::numeric_limits<T>::max()), larger(to_high, to_low));
+  const P time = largest_of(entries), exit = smallest_of(exits);
+  const bool hit = time.first() <= exit.first();
+  const L location = smaller(larger(origin + direction * every(time), low), high) & every(time <= exit);
+  return {first_three(location), hit, (int(hit) & int(time.first() == T(0))) != 0};
+}
+
+}  // namespace detail
+
+#endif
+
+namespace kernels {
+
+template <class Tier, class T>
+RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
+#if defined(COLLIDE_LANES)
+  if constexpr (in_lanes<Tier, T>) return detail::ray_aabox_in_lanes(ray, box);
+#endif
+  if constexpr (Tier::template lifts<T>) {
+    const auto kernel = [&](auto arithmetic, const auto& r, const auto& b) {
+      if constexpr (Tier::template keeps<T>)
+        return kernels::ray_aabox<decltype(arithmetic)>(ray, box);
+      else
+        return kernels::ray_aabox<decltype(arithmetic)>(prepare_ray<decltype(arithmetic)>(r),
+                                                        prepare_aabox<decltype(arithmetic)>(b));
+    };
+    return Tier::lift(kernel, ray.ray, box.aabox);
+  } else {
+    const std::array<T, 3> at = components(ray.ray.origin), step = components(ray.ray.direction);
+    const std::array<T, 3> low = components(box.aabox.min), high = components(box.aabox.max);
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) inside = inside && low[i] <= at[i] && at[i] <= high[i];
+    if (inside) return {ray.ray.origin, true, true};
+    const std::array<T, 3> inverse = components(ray.inverse);
+    const auto entry =
+        detail::enter_box(at, step, low, high, [&](const T& gap, int i) -> T { return gap * inverse[i]; });
+    if (entry.axis < 0) return {};
+    return {{entry.at[0], entry.at[1], entry.at[2]}, true, false};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

@@ -1,0 +1,36 @@
+/// How collide/slide_direction.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::slide_direction<decltype(arithmetic)>(a...); }, sphere,
+        velocity, time, location);
+  } else {
+    const Vec3<T> to_center = (sphere.center - location) + velocity * time;
+    const Vec3<T> d = unit<Tier>(velocity);
+    if (to_center == Vec3<T>{}) return {of_length(d)};
+    const Vec3<T> u = unit<Tier>(to_center), slid = Tier::cross(u, Tier::cross(d, u));
+    if constexpr (MachineNumber<T>) {
+      const T cosine = Tier::dot(d, u), cosine2 = cosine * cosine;
+      return {cosine2 <= T(0.25) ? of_length(slid, cosine2) : slid};
+    }
+    return {slid};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

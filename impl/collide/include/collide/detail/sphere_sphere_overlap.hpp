@@ -1,0 +1,33 @@
+/// How collide/sphere_sphere_overlap.hpp is computed.
+#pragma once
+
+#include <collide/answers.hpp>
+#include <collide/shapes.hpp>
+#include <collide/tiers.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace kernels {
+
+template <class Tier, class T>
+Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
+  if constexpr (Tier::template lifts<T>) {
+    return Tier::lift(
+        [](auto arithmetic, const auto&... a) { return kernels::sphere_sphere_overlap<decltype(arithmetic)>(a...); },
+        sphere1, sphere2);
+  } else {
+    const Vec3<T> between = sphere2.center - sphere1.center;
+    const T reach = sphere1.radius + sphere2.radius;
+    if constexpr (MachineNumber<T>) {
+      if (!(reach <= std::numeric_limits<T>::max())) return {false};
+    }
+    return {Tier::beyond_radius(between, reach) <= T(0)};
+  }
+}
+
+}  // namespace kernels
+}  // namespace collide
+
+#include <collide/detail/strict_end.hpp>

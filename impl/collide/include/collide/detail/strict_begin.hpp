@@ -1,0 +1,27 @@
+// Strict IEEE 754 arithmetic from here to detail/strict_end.hpp: every operation rounds by itself. Each header of
+// collide with arithmetic includes the pair around its functions, so there is no include guard here.
+//
+// A contraction (a * b + c in one rounding) or a reassociation breaks the error-free transformations and the error
+// bounds of the tiers Accurate and Certified, and it makes the answers of Fast depend on the compiler.
+
+// Options that no pragma undoes.
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__NO_SIGNED_ZEROS__) || defined(_M_FP_FAST)
+#error "collide needs IEEE 754 arithmetic: compile without -ffast-math, -Ofast and the options that they imply"
+#endif
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
+#error "collide needs operations that round to their own type: on 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
+
+// Contraction is turned off by pragmas. GCC then keeps these functions out of line where their callers may contract:
+// -ffp-contract=off for the whole program gets the calls back.
+#if defined(__clang__)
+#pragma float_control(push)
+#pragma clang fp contract(off)
+#elif defined(__GNUC__) && defined(__FP_FAST_FMA)
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma float_control(push)
+#pragma fp_contract(off)
+#endif
