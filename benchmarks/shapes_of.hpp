@@ -6,7 +6,6 @@
 #include <string_view>
 #include <tuple>
 
-#include <collide/frame.hpp>
 #include <collide/shapes.hpp>
 
 namespace nearmiss::benchmarks {

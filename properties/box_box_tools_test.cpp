@@ -56,8 +56,8 @@ TYPED_TEST(BoxBoxTools, FindTheSameParallelAxesFromTheInfo) {
     for (const TypeParam epsilon : {TypeParam(0), TypeParam(0.5), TypeParam(1)}) {
       const auto from_boxes = collide::box_box_parallel_axis(box1, box2, epsilon);
       const auto from_info = collide::box_box_parallel_axis(info, epsilon);
-      EXPECT_TRUE(from_boxes.parallel);
-      EXPECT_EQ(from_info.parallel, from_boxes.parallel);
+      EXPECT_TRUE(from_boxes.yes());
+      EXPECT_EQ(from_info.yes(), from_boxes.yes());
       EXPECT_EQ(from_info.axis1, from_boxes.axis1);
       EXPECT_EQ(from_info.axis2, from_boxes.axis2);
     }
@@ -67,8 +67,8 @@ TYPED_TEST(BoxBoxTools, FindTheSameParallelAxesFromTheInfo) {
 TYPED_TEST(BoxBoxTools, AreConservativeAlikeFromTheInfo) {
   int near = 0, far = 0;
   this->for_each_pair([&](const auto& box1, const auto& box2) {
-    const bool from_boxes = collide::box_box_conservative(box1, box2).answer;
-    EXPECT_EQ(collide::box_box_conservative(collide::box_box_info(box1, box2)).answer, from_boxes);
+    const bool from_boxes = collide::box_box_conservative(box1, box2).yes();
+    EXPECT_EQ(collide::box_box_conservative(collide::box_box_info(box1, box2)).yes(), from_boxes);
     (from_boxes ? near : far)++;
   });
   EXPECT_GT(near, 10);

@@ -102,7 +102,8 @@ TEST(Structure, IncludesPointToTheLeft) {
 
 /// What an oracle may know of the library: the words in which questions and answers are written.
 TEST(Structure, NoOracleSeesTheImplementation) {
-  const std::set<std::string> vocabulary{"answers.hpp", "members.hpp", "shapes.hpp", "vec3.hpp"};
+  const std::set<std::string> vocabulary{"answers.hpp",      "members.hpp",    "shapes.hpp",
+                                         "strict_begin.hpp", "strict_end.hpp", "vec3.hpp"};
   for (const std::string& file : sources()) {
     if (!file.starts_with("oracles/exact/") && !file.starts_with("oracles/algorithms/")) continue;
     std::vector<std::string> reached{file};
@@ -130,6 +131,42 @@ TEST(Structure, TheLibraryKnowsNothingOfItsExaminers) {
     }
     for (const std::string& other : includes_of(file)) EXPECT_TRUE(other.starts_with("impl/collide/")) << file;
   }
+}
+
+/// The umbrella header includes every public header but itself and the one that needs more than the standard library.
+TEST(Structure, TheUmbrellaHeaderIncludesEveryPublicHeader) {
+  const std::string folder = std::string(collide_headers) + "collide/";
+  std::set<std::string> expected, included;
+  for (const std::string& file : sources()) {
+    if (fs::path(file).parent_path() == fs::path(folder).parent_path()) expected.insert(file);
+  }
+  for (const char* other : {"collide.hpp", "certified.hpp"}) ASSERT_EQ(expected.erase(folder + other), 1u) << other;
+  for (const std::string& file : includes_of(folder + "collide.hpp")) included.insert(file);
+  EXPECT_EQ(included, expected);
+}
+
+/// Only the library and the tests of its parts include what may change without notice.
+TEST(Structure, DetailsOfTheLibraryStayInside) {
+  const std::set<std::string> tests_of_details{"properties/numbers_test.cpp"};
+  for (const std::string& file : sources()) {
+    if (file.starts_with("impl/collide/") || tests_of_details.contains(file)) continue;
+    for (const std::string& other : includes_of(file)) EXPECT_EQ(other.find("/detail/"), std::string::npos) << file;
+  }
+}
+
+/// Each header with arithmetic turns contraction off around it.
+TEST(Structure, EveryKernelIsCompiledStrictly) {
+  const std::string detail = std::string(collide_headers) + "collide/detail/";
+  std::size_t kernels = 0;
+  for (const std::string& file : sources()) {
+    if (!file.starts_with(detail) || file.find("/strict_") != std::string::npos) continue;
+    const std::vector<std::string> included = includes_of(file);
+    EXPECT_EQ(std::count(included.begin(), included.end(), detail + "strict_begin.hpp"), 1) << file;
+    ASSERT_FALSE(included.empty());
+    EXPECT_EQ(included.back(), detail + "strict_end.hpp") << file;
+    ++kernels;
+  }
+  EXPECT_GT(kernels, 43u);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct BulletInDoubles {
   static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
   static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
   static auto answer(const in::box_box_overlap<double>& q) {
-    return only(collide::BoxOverlap<double>{decided(q.box1, q.box2).answer, -1}, {});
+    return only(collide::BoxOverlap<double>{decided(q.box1, q.box2).yes(), -1}, {});
   }
   static auto answer(const in::sphere_triangle_overlap<double>& q) {
     btSphereShape ball(btScalar(q.sphere.radius));
@@ -254,7 +254,7 @@ struct BulletInDoubles {
   template <class B>
   static Reply<Impact> sweep(const collide::Sphere<double>& sphere, const Vec3d& velocity, const B& fixed) {
     // Its sweeps do not see a shape that they start in: that is asked of its algorithms first.
-    if (decided(sphere, fixed).answer) return only(Impact{0.0, {}, {}}, {"time"});
+    if (decided(sphere, fixed).yes()) return only(Impact{0.0, {}, {}}, {"time"});
     Body<B> b(fixed);
     btSphereShape ball(btScalar(sphere.radius));
     btVoronoiSimplexSolver simplex;

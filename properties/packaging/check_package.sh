@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs collide alone, and uses it as others would.
-# Usage: check_package.sh COLLIDE_FOLDER EXAMPLE_FOLDER COMPILER installed|fetched|certified
+# Usage: check_package.sh COLLIDE_FOLDER EXAMPLE_FOLDER COMPILER installed|fetched|certified|readme|version|lines
 #        check_package.sh COLLIDE_FOLDER EXAMPLE_FOLDER COMPILER includes QUERY ...
 set -euo pipefail
 
@@ -63,6 +63,28 @@ case $what in
     printf 'collide/%s.hpp\n' "$@" | sort -u >"$scratch/queries"
     [[ $(comm -12 "$scratch/named" "$scratch/queries" | wc -l) == 3 ]] || fail "the example does not name three queries"
     comm -12 "$scratch/read" "$scratch/queries" | diff "$scratch/named" - || fail "the example reads other queries than it names"
+    ;;
+  readme)
+    # The first program of the README, and what the README says that it prints.
+    sed -n '/^```cpp$/,/^```$/p' "$collide/README.md" | grep -v '^```' >"$scratch/first.cpp"
+    [[ -s $scratch/first.cpp ]] || fail "the README has no program"
+    quietly "$compiler" -std=c++20 -Wall -Wextra -Werror -I "$collide/include" "$scratch/first.cpp" -o "$scratch/first"
+    "$scratch/first" >"$scratch/said"
+    grep -qFxf "$scratch/said" "$collide/README.md" || { cat "$scratch/said"; fail "the README says something else"; }
+    ;;
+  version)
+    install_collide
+    printf '#include <collide/version.hpp>\nCOLLIDE_VERSION_MAJOR.COLLIDE_VERSION_MINOR.COLLIDE_VERSION_PATCH\n' >"$scratch/version.cpp"
+    header=$("$compiler" -E -P -I "$collide/include" "$scratch/version.cpp" | tr -d ' ' | tail -n 1)
+    grep -qF "set(PACKAGE_VERSION \"$header\")" "$scratch"/moved/share/cmake/collide/collideConfigVersion.cmake ||
+      fail "CMake's version is not $header, that of the header"
+    grep -q "^## $header$" "$collide/CHANGELOG.md" || fail "CHANGELOG.md has no section $header"
+    ;;
+  lines)
+    # Version 0.1 read 41,800 lines for this query; half of them were <cmath>, <algorithm> and <string>.
+    count=$(echo '#include <collide/sphere_sphere_overlap.hpp>' |
+      "$compiler" -std=c++20 -E -P -I "$collide/include" -x c++ - | wc -l)
+    ((count > 1000 && count <= 20900)) || fail "a query reads $count lines"
     ;;
   *) fail "there is no check called $what" ;;
 esac

@@ -4,6 +4,7 @@
 #include <collide/answers.hpp>
 #include <collide/checked.hpp>
 #include <collide/contract.hpp>
+#include <collide/members.hpp>
 #include <collide/prepared.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>

@@ -13,14 +13,15 @@
 #error "collide needs operations that round to their own type: on 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 
-// Contraction is turned off by pragmas. GCC then keeps these functions out of line where their callers may contract:
-// -ffp-contract=off for the whole program gets the calls back.
+// Contraction is turned off by pragmas. GCC then keeps these functions out of line where the options of their callers
+// differ: -ffp-contract=off -fno-tree-slp-vectorize for the whole program gets the calls inlined again. The second
+// option is there because GCC 12 contracts in that optimization whatever -ffp-contract says.
 #if defined(__clang__)
 #pragma float_control(push)
 #pragma clang fp contract(off)
 #elif defined(__GNUC__) && defined(__FP_FAST_FMA)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-tree-slp-vectorize")
 #elif defined(_MSC_VER)
 #pragma float_control(push)
 #pragma fp_contract(off)

@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
+#include <collide/detail/sphere_contains_point.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -10,13 +11,9 @@ namespace collide {
 
 /// Whether `point` lies in the closed ball `sphere`.
 template <class Tier = Fast, class T>
-Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point) noexcept {
-  if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto by, const auto&... a) { return sphere_contains_point<decltype(by)>(a...); }, sphere,
-                      point);
-  }
-  const Vec3<T> m = point - sphere.center;
-  return {Tier::dot(m, m) <= sphere.radius * sphere.radius};
+[[nodiscard]] Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point) noexcept(
+    Tier::never_throws) {
+  return kernels::sphere_contains_point<Tier>(sphere, point);
 }
 
 namespace contracts {
