@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 #include "corpus/families.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/lies.hpp"

@@ -211,7 +211,7 @@ void Reader::origin(const json& j, Case& c) const {
   if (!j.contains("moves")) return;
   if (!j["moves"].is_array()) fail("origin.moves", j["moves"], "an array");
   for (const json& name : j["moves"]) {
-    c.moves.push_back(known_move(text(name, "origin.moves")));
+    c.moves.push_back(known_mutator(text(name, "origin.moves")));
     if (c.moves.back().empty()) fail("origin.moves", name, "the name of a move");
   }
 }
@@ -413,7 +413,7 @@ Case read_case(const std::filesystem::path& file) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+  if (error) throw IoError(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
 }
 
 void write_file(const std::filesystem::path& file, std::string_view text) {
@@ -422,7 +422,7 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw BadInput(fmt::format("{}: cannot be written: {}", file.string(), why));
+    throw IoError(fmt::format("{}: cannot be written: {}", file.string(), why));
   };
   std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
   if (!out) fail(std::strerror(errno));

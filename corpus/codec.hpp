@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "impl/catalogue/case.hpp"
 
 namespace nearmiss {

@@ -5,13 +5,13 @@
 #include <deque>
 #include <stdexcept>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Numbers = Draft::Numbers;
+using Numbers = CaseBuilder::Numbers;
 
 /// a + (b - a) * share
 Numbers between(const Numbers& a, const Numbers& b, double share) {
@@ -19,61 +19,61 @@ Numbers between(const Numbers& a, const Numbers& b, double share) {
 }
 
 /// How much smaller a small thing is.
-double small_factor(Draft& d) { return d.random.power_of_two(-d.orders(10, 40), -2); }
+double small_factor(CaseBuilder& d) { return d.random.power_of_two(-d.orders(10, 40), -2); }
 
-void shrink_thing(Draft& d, const Thing& thing, double factor) {
-  for (std::size_t v : thing.positions) d.set_vector(v, between(d.vector(thing.positions[0]), d.vector(v), factor));
-  for (std::size_t i : thing.sizes) d.scale(i, factor);
+void shrink_operand(CaseBuilder& d, const Operand& operand, double factor) {
+  for (std::size_t v : operand.positions) d.set_vector(v, between(d.vector(operand.positions[0]), d.vector(v), factor));
+  for (std::size_t i : operand.sizes) d.scale(i, factor);
 }
 
-void make_tiny(Draft& d) {
-  const std::size_t chosen = d.random.below(d.plan.things.size() + 1);  // beyond the last: all
+void make_tiny(CaseBuilder& d) {
+  const std::size_t chosen = d.random.below(d.plan.operands.size() + 1);  // beyond the last: all
   const double factor = small_factor(d);
-  for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
-    if (i == chosen || chosen == d.plan.things.size()) shrink_thing(d, d.plan.things[i], factor);
+  for (std::size_t i = 0; i < d.plan.operands.size(); ++i) {
+    if (i == chosen || chosen == d.plan.operands.size()) shrink_operand(d, d.plan.operands[i], factor);
   }
 }
 
 /// Corners: one moves onto the line through two others, but for `share` of its distance.
-void flatten_corners(Draft& d, const Thing& thing, double share) {
-  const std::size_t n = thing.positions.size(), at = d.random.below(n);
-  const auto corner = [&](std::size_t k) { return d.vector(thing.positions[(at + k) % n]); };
+void flatten_corners(CaseBuilder& d, const Operand& operand, double share) {
+  const std::size_t n = operand.positions.size(), at = d.random.below(n);
+  const auto corner = [&](std::size_t k) { return d.vector(operand.positions[(at + k) % n]); };
   const Numbers on_line = between(corner(1), corner(2), 0.125 * d.random.between(-2, 10));
-  d.set_vector(thing.positions[at], between(on_line, corner(0), share));
+  d.set_vector(operand.positions[at], between(on_line, corner(0), share));
 }
 
-bool is_upright_box(const Draft& d, const Thing& thing) {
-  return thing.positions.size() == 2 && thing.sizes.empty() &&
-         std::find(d.plan.upper.begin(), d.plan.upper.end(), d.plan.vectors[thing.positions[1]].begin) !=
+bool is_upright_box(const CaseBuilder& d, const Operand& operand) {
+  return operand.positions.size() == 2 && operand.sizes.empty() &&
+         std::find(d.plan.upper.begin(), d.plan.upper.end(), d.plan.vectors[operand.positions[1]].begin) !=
              d.plan.upper.end();
 }
 
-void flatten_upright_box(Draft& d, const Thing& thing, double share) {
-  Numbers high = d.vector(thing.positions[1]);
-  const Numbers low = d.vector(thing.positions[0]);
+void flatten_upright_box(CaseBuilder& d, const Operand& operand, double share) {
+  Numbers high = d.vector(operand.positions[1]);
+  const Numbers low = d.vector(operand.positions[0]);
   const std::size_t only = d.random.below(4);  // 3: every side
   for (std::size_t k = 0; k < 3; ++k) {
     if (k == only || only == 3) high[k] = low[k] + (high[k] - low[k]) * share;
   }
-  d.set_vector(thing.positions[1], high);
+  d.set_vector(operand.positions[1], high);
 }
 
-void flatten_thing(Draft& d, const Thing& thing, double share) {
-  if (is_upright_box(d, thing)) {
-    flatten_upright_box(d, thing, share);
-  } else if (thing.positions.size() >= 3) {
+void flatten_operand(CaseBuilder& d, const Operand& operand, double share) {
+  if (is_upright_box(d, operand)) {
+    flatten_upright_box(d, operand, share);
+  } else if (operand.positions.size() >= 3) {
     const int corners = d.random.one_in(3) ? 2 : 1;
-    for (int i = 0; i < corners; ++i) flatten_corners(d, thing, share);
-  } else if (thing.positions.size() == 2 && !d.random.one_in(3)) {
-    d.set_vector(thing.positions[1], between(d.vector(thing.positions[0]), d.vector(thing.positions[1]), share));
+    for (int i = 0; i < corners; ++i) flatten_corners(d, operand, share);
+  } else if (operand.positions.size() == 2 && !d.random.one_in(3)) {
+    d.set_vector(operand.positions[1], between(d.vector(operand.positions[0]), d.vector(operand.positions[1]), share));
   }
-  for (std::size_t i : thing.sizes) {
+  for (std::size_t i : operand.sizes) {
     if (d.random.one_in(2)) d.scale(i, share);
   }
 }
 
 /// A direction like another one, a rotation like another one, but for `share` of their difference.
-void make_parallel(Draft& d, double share) {
+void make_parallel(CaseBuilder& d, double share) {
   if (d.plan.directions.size() > 1 && d.random.one_in(2)) {
     const auto [to, from] = d.two_of(d.plan.directions);
     d.set_vector(to, between(d.vector(from), d.vector(to), share));
@@ -84,17 +84,17 @@ void make_parallel(Draft& d, double share) {
   }
 }
 
-void make_thin(Draft& d) {
+void make_thin(CaseBuilder& d) {
   const double share = small_factor(d);
-  const std::size_t chosen = d.random.below(d.plan.things.size());
-  for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
-    if (i == chosen || d.random.one_in(2)) flatten_thing(d, d.plan.things[i], share);
+  const std::size_t chosen = d.random.below(d.plan.operands.size());
+  for (std::size_t i = 0; i < d.plan.operands.size(); ++i) {
+    if (i == chosen || d.random.one_in(2)) flatten_operand(d, d.plan.operands[i], share);
   }
   make_parallel(d, share);
 }
 
 /// Onto a grid, where corners on a line are so exactly.
-void round_positions(Draft& d) {
+void round_positions(CaseBuilder& d) {
   const double cell = 0.125 * d.unit;
   for (Role role : {Role::position, Role::size}) {
     for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.set(i, std::nearbyint(d[i] / cell) * cell);
@@ -102,10 +102,10 @@ void round_positions(Draft& d) {
 }
 
 /// The centers of two things, or a corner of one and the center of another, become one point.
-void make_concentric(Draft& d) {
-  if (d.plan.things.size() < 2) return;
-  const Numbers at = d.vector(d.random.pick(d.plan.things[0].positions));
-  const Thing& other = d.plan.things[1];
+void make_concentric(CaseBuilder& d) {
+  if (d.plan.operands.size() < 2) return;
+  const Numbers at = d.vector(d.random.pick(d.plan.operands[0].positions));
+  const Operand& other = d.plan.operands[1];
   const Numbers from = d.vector(d.random.pick(other.positions));
   for (std::size_t v : other.positions) {
     Numbers x = d.vector(v);
@@ -114,25 +114,25 @@ void make_concentric(Draft& d) {
   }
 }
 
-void make_degenerate(Draft& d) {
+void make_degenerate(CaseBuilder& d) {
   if (d.random.one_in(2)) round_positions(d);
-  const std::size_t chosen = d.random.below(d.plan.things.size());
-  for (std::size_t i = 0; i < d.plan.things.size(); ++i) {
-    const Thing& thing = d.plan.things[i];
+  const std::size_t chosen = d.random.below(d.plan.operands.size());
+  for (std::size_t i = 0; i < d.plan.operands.size(); ++i) {
+    const Operand& operand = d.plan.operands[i];
     if (i != chosen && !d.random.one_in(3)) continue;
     if (d.random.one_in(4))
-      shrink_thing(d, thing, 0);
-    else if (thing.positions.size() >= 3 && d.random.one_in(2))
-      d.set_vector(thing.positions[0], d.vector(thing.positions[d.random.between(1, 2)]));
+      shrink_operand(d, operand, 0);
+    else if (operand.positions.size() >= 3 && d.random.one_in(2))
+      d.set_vector(operand.positions[0], d.vector(operand.positions[d.random.between(1, 2)]));
     else
-      flatten_thing(d, thing, 0);
+      flatten_operand(d, operand, 0);
   }
   make_parallel(d, 0);
   if (d.random.one_in(4)) make_concentric(d);
   if (!d.plan.velocities.empty() && d.random.one_in(8)) d.set_vector(d.plan.velocities[0], {0, 0, 0});
 }
 
-void make_far_out(Draft& d) {
+void make_far_out(CaseBuilder& d) {
   Numbers offset;
   for (double& x : offset) x = d.random.uniform(-1, 1) * d.random.power_of_two(3, d.orders(8, 30));
   for (std::size_t v : d.plan.positions) {
@@ -146,7 +146,7 @@ void make_far_out(Draft& d) {
 }
 
 /// Scales by powers of two: lengths and velocities together or apart, now and then a direction and a rotation too.
-void make_scaled(Draft& d, int low, int high) {
+void make_scaled(CaseBuilder& d, int low, int high) {
   const int of_lengths = d.random.between(low, high);
   const int of_velocities = d.random.one_in(2) ? of_lengths : d.random.one_in(2) ? 0 : d.random.between(low, high);
   const int of_directions = d.random.one_in(4) ? d.random.between(low, high) / 2 : 0;
@@ -163,7 +163,7 @@ void make_scaled(Draft& d, int low, int high) {
   scale(Role::time, of_lengths - of_velocities);
 }
 
-void apply(Draft& d, Family family) {
+void apply(CaseBuilder& d, Family family) {
   switch (family) {
     case Family::scene: return;
     case Family::tiny: return make_tiny(d);
@@ -206,10 +206,10 @@ Case case_of(Family family, const Query& query, Scalar scalar, std::uint64_t see
   Case c{&query, scalar, std::vector<double>(query.inputs.size()), "family", seed, index, {}};
   constexpr int attempts = 1000;
   for (int i = 0; i < attempts; ++i) {
-    Draft draft(plan, scalar, random, c.values);
-    draw_scene(draft);
-    apply(draft, family);
-    draft.repair();
+    CaseBuilder builder(plan, scalar, random, c.values);
+    draw_scene(builder);
+    apply(builder, family);
+    builder.repair();
     const bool finite = std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); });
     if (finite && !query.broken(c.values)) return c;
   }

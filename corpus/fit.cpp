@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 #include "corpus/generator.hpp"
 #include "oracles/requirements.hpp"
 

@@ -5,13 +5,13 @@
 #include <deque>
 #include <stdexcept>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_moves = 64;
+constexpr std::size_t most_mutators = 64;
 
 std::string_view parent(std::string_view name) { return name.substr(0, name.rfind('.')); }
 std::string_view last(std::string_view name) { return name.substr(name.rfind('.') + 1); }
@@ -34,12 +34,12 @@ std::uint64_t hash(std::string_view text) {  // FNV-1a
   return h;
 }
 
-Thing& thing_of(std::vector<Thing>& things, std::string_view name) {
-  for (Thing& t : things) {
+Operand& operand_of(std::vector<Operand>& operands, std::string_view name) {
+  for (Operand& t : operands) {
     if (t.name == name) return t;
   }
-  things.push_back({std::string(name), {}, {}});
-  return things.back();
+  operands.push_back({std::string(name), {}, {}});
+  return operands.back();
 }
 
 bool is_movable(Role role) { return role == Role::position || role == Role::velocity || role == Role::direction; }
@@ -54,7 +54,7 @@ const Plan& plan_of(const Query& query) {
 }
 
 /// Within the magnitudes that the generator promises.
-bool moderate(const Draft& d) {
+bool moderate(const CaseBuilder& d) {
   const double largest = std::ldexp(1.0, d.orders(18, 60)), smallest = 1 / largest;
   for (const auto& group : d.plan.numbers) {
     double m = 0;
@@ -64,49 +64,49 @@ bool moderate(const Draft& d) {
   return true;
 }
 
-void apply(Draft& d, const std::bitset<most_moves>& chosen, std::vector<std::string_view>& names) {
-  const std::span<const Move> table = moves();
+void apply(CaseBuilder& d, const std::bitset<most_mutators>& chosen, std::vector<std::string_view>& names) {
+  const std::span<const Mutator> table = mutators();
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (chosen[i] && table[i].apply(d)) names.push_back(table[i].name);
   }
 }
 
-std::size_t count_of_ordinary_moves() {
+std::size_t count_of_ordinary_mutators() {
   static const auto count =
-      std::size_t(std::count_if(moves().begin(), moves().end(), [](const Move& m) { return !m.extreme; }));
+      std::size_t(std::count_if(mutators().begin(), mutators().end(), [](const Mutator& m) { return !m.extreme; }));
   return count;
 }
 
-std::bitset<most_moves> choose(Random& random, int count, std::size_t among) {
-  std::bitset<most_moves> chosen;
+std::bitset<most_mutators> choose(Random& random, int count, std::size_t among) {
+  std::bitset<most_mutators> chosen;
   for (; count > 0; --count) chosen.set(random.below(among));
   return chosen;
 }
 
 /// One of those that leave moderate magnitudes.
-std::bitset<most_moves> choose_extreme(Random& random) {
-  std::bitset<most_moves> chosen;
-  const std::size_t ordinary = count_of_ordinary_moves();
-  chosen.set(ordinary + random.below(moves().size() - ordinary));
+std::bitset<most_mutators> choose_extreme(Random& random) {
+  std::bitset<most_mutators> chosen;
+  const std::size_t ordinary = count_of_ordinary_mutators();
+  chosen.set(ordinary + random.below(mutators().size() - ordinary));
   return chosen;
 }
 
 /// Half of the cases that are not scenes start on a grid, where touches and ties are exact.
-std::bitset<most_moves> choose_for_new_case(Random& random) {
+std::bitset<most_mutators> choose_for_new_case(Random& random) {
   constexpr std::size_t small_lattice = 0, dyadic_grid = 1;
-  auto chosen = choose(random, random.between(1, 4), count_of_ordinary_moves());
+  auto chosen = choose(random, random.between(1, 4), count_of_ordinary_mutators());
   if (random.one_in(2)) chosen.set(random.one_in(3) ? dyadic_grid : small_lattice);
   return chosen;
 }
 
 bool attempt(Case& c, const Plan& plan, Random& random) {
   c.moves.clear();
-  Draft draft(plan, c.scalar, random, c.values);
-  draw_scene(draft);
-  if (random.one_in(2)) apply(draft, choose_for_new_case(random), c.moves);
-  if (!moderate(draft)) return false;
+  CaseBuilder builder(plan, c.scalar, random, c.values);
+  draw_scene(builder);
+  if (random.one_in(2)) apply(builder, choose_for_new_case(random), c.moves);
+  if (!moderate(builder)) return false;
   constexpr std::size_t one_extreme_in = 40;
-  if (random.one_in(one_extreme_in)) apply(draft, choose_extreme(random), c.moves);
+  if (random.one_in(one_extreme_in)) apply(builder, choose_extreme(random), c.moves);
   const bool finite = std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); });
   return finite && !c.query->broken(c.values);
 }
@@ -115,18 +115,18 @@ bool attempt(Case& c, const Plan& plan, Random& random) {
 
 Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
   const std::vector<Field>& fields = q.inputs;
-  std::vector<Thing> all;
+  std::vector<Operand> all;
   for (std::size_t i = 0; i < fields.size(); ++i) numbers[std::size_t(fields[i].role)].push_back(i);
   for (std::size_t i = 0; i < fields.size();) {
     const Role role = fields[i].role;
-    Thing& thing = thing_of(all, first(fields[i].name));
+    Operand& operand = operand_of(all, first(fields[i].name));
     const std::size_t n = components_at(fields, i);
     if (n == 4 && role == Role::rotation) {
       rotations.push_back(i);
     } else if (role == Role::size) {
       for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) {
         sizes.push_back(k);
-        thing.sizes.push_back(k);
+        operand.sizes.push_back(k);
       }
     } else if (n == 3 && is_movable(role)) {
       if (role == Role::position && fields[i].name.ends_with(".max.x")) upper.insert(upper.end(), {i, i + 1, i + 2});
@@ -134,20 +134,20 @@ Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
       vectors.push_back({i, role});
       movable.push_back(v);
       (role == Role::position ? positions : role == Role::velocity ? velocities : directions).push_back(v);
-      if (role == Role::position) thing.positions.push_back(v);
+      if (role == Role::position) operand.positions.push_back(v);
     } else {
       for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) lone.push_back(k);
     }
     i += std::max<std::size_t>(n, 1);
   }
-  std::copy_if(all.begin(), all.end(), std::back_inserter(things), [](const Thing& t) { return !t.positions.empty(); });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(operands), [](const Operand& t) { return !t.positions.empty(); });
 }
 
 [[gnu::noinline]] double rounded_to(Scalar scalar, double x) {
   return scalar == Scalar::float32 ? double(float(x)) : x;
 }
 
-void Draft::step_ulps(std::size_t i, int ulps) {
+void CaseBuilder::step_ulps(std::size_t i, int ulps) {
   const double toward = ulps > 0 ? HUGE_VAL : -HUGE_VAL;
   for (int k = std::abs(ulps); k > 0; --k) {
     values_[i] =
@@ -155,7 +155,7 @@ void Draft::step_ulps(std::size_t i, int ulps) {
   }
 }
 
-void Draft::repair() {
+void CaseBuilder::repair() {
   const auto all_zero = [&](std::size_t begin, std::size_t n) {
     return std::all_of(&values_[begin], &values_[begin] + n, [](double x) { return x == 0; });
   };
@@ -202,31 +202,31 @@ void mutate(Case& c, std::uint64_t seed) {
   const std::size_t moves_before = c.moves.size();
   constexpr int attempts = 16;
   for (int i = 0; i < attempts; ++i) {
-    Draft draft(plan_of(*c.query), c.scalar, random, c.values);
-    apply(draft, choose(random, random.between(1, 3), moves().size()), c.moves);
+    CaseBuilder builder(plan_of(*c.query), c.scalar, random, c.values);
+    apply(builder, choose(random, random.between(1, 3), mutators().size()), c.moves);
     if (c.moves.size() > moves_before && !c.query->broken(c.values)) return;
     c.values = before;
     c.moves.resize(moves_before);
   }
 }
 
-std::span<const MoveName> move_names() {
-  static const std::vector<MoveName> names = [] {
-    std::vector<MoveName> all;
-    for (const Move& m : moves()) all.push_back({m.name, m.what, m.extreme});
+std::span<const MutatorName> mutator_names() {
+  static const std::vector<MutatorName> names = [] {
+    std::vector<MutatorName> all;
+    for (const Mutator& m : mutators()) all.push_back({m.name, m.what, m.extreme});
     return all;
   }();
   return names;
 }
 
-bool has_extreme_move(const Case& c) {
-  return std::any_of(moves().begin(), moves().end(), [&](const Move& m) {
+bool has_extreme_mutator(const Case& c) {
+  return std::any_of(mutators().begin(), mutators().end(), [&](const Mutator& m) {
     return m.extreme && std::find(c.moves.begin(), c.moves.end(), m.name) != c.moves.end();
   });
 }
 
-std::string_view known_move(std::string_view name) {
-  for (const Move& m : moves()) {
+std::string_view known_mutator(std::string_view name) {
+  for (const Mutator& m : mutators()) {
     if (m.name == name) return m.name;
   }
   return {};

@@ -22,18 +22,18 @@ Case generate(const Query& query, Scalar scalar, std::uint64_t seed, std::uint64
 void generate(Case& into, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index);
 
 /// One entry of the closed table of moves.
-struct MoveName {
+struct MutatorName {
   std::string_view name;  ///< "far-offset"
   std::string_view what;  ///< one line for people
   bool extreme = false;   ///< numbers of any magnitude come of it
 };
 /// Every move, in the order in which they are applied when several are.
-std::span<const MoveName> move_names();
+std::span<const MutatorName> mutator_names();
 /// The table's own copy of the name; empty when there is no such move.
-std::string_view known_move(std::string_view name);
+std::string_view known_mutator(std::string_view name);
 
 /// Whether one of the case's moves is an extreme one.
-bool has_extreme_move(const Case& c);
+bool has_extreme_mutator(const Case& c);
 
 /// Changes the case by 1 to 3 moves, drawn by `seed`: for fuzzers. It stays valid and exact in its
 /// scalar; its moves are appended.

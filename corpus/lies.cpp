@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "corpus/bodies.hpp"
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 

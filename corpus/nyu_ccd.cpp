@@ -18,7 +18,7 @@ namespace {
 using Point = std::array<mpq_class, 3>;
 
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point outer(const Point& a, const Point& b) {
+Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 mpq_class inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -142,7 +142,7 @@ std::optional<GroundTruth> fit(const Rows& rows) {
   const Point moved = minus(at(5), at(1));
   if (minus(at(6), at(2)) != moved || minus(at(7), at(3)) != moved) return std::nullopt;
   const Point velocity = minus(minus(at(4), at(0)), moved);
-  const mpq_class along_normal = inner(outer(minus(at(2), at(1)), minus(at(3), at(1))), velocity);
+  const mpq_class along_normal = inner(cross(minus(at(2), at(1)), minus(at(3), at(1))), velocity);
   const bool from_behind = along_normal > 0;
   GroundTruth g{{&query_of(QueryId::moving_point_triangle), Scalar::float64, {}, {}, 0, 0, {}},
                 rows[0].truth,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "impl/catalogue/case.hpp"
 
 namespace nearmiss {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 #include "corpus/generator.hpp"
 
 namespace nearmiss {

@@ -1,12 +1,12 @@
 #include <cmath>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Numbers = Draft::Numbers;
+using Numbers = CaseBuilder::Numbers;
 
 Numbers plus(const Numbers& a, const Numbers& b, double factor = 1) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
@@ -18,25 +18,25 @@ struct Placed {
   double reach = 0;
 };
 
-double draw_sizes(Draft& d, const Thing& thing) {
-  if (thing.sizes.empty()) return thing.positions.size() > 1 ? d.unit : 0.0;
+double draw_sizes(CaseBuilder& d, const Operand& operand) {
+  if (operand.sizes.empty()) return operand.positions.size() > 1 ? d.unit : 0.0;
   double sum = 0;
-  for (std::size_t i : thing.sizes) {
+  for (std::size_t i : operand.sizes) {
     d.set(i, d.unit * d.random.uniform(0.25, 2));
     sum += d[i];
   }
-  return sum / double(thing.sizes.size());
+  return sum / double(operand.sizes.size());
 }
 
-void put(Draft& d, const Thing& thing, const Placed& at) {
-  const bool single = thing.positions.size() == 1;
-  for (std::size_t v : thing.positions) {
+void put(CaseBuilder& d, const Operand& operand, const Placed& at) {
+  const bool single = operand.positions.size() == 1;
+  for (std::size_t v : operand.positions) {
     d.set_vector(v, single ? at.center : plus(at.center, d.random_vector(1.5 * d.unit)));
   }
 }
 
 /// A vector of about unit length.
-Numbers draw_direction(Draft& d) {
+Numbers draw_direction(CaseBuilder& d) {
   Numbers x = d.random_vector(1);
   const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
   if (length < 0.125) return {0, 0, 1};
@@ -45,14 +45,14 @@ Numbers draw_direction(Draft& d) {
 }
 
 /// The first thing anywhere near the origin, the others at distances comparable with both reaches.
-std::vector<Placed>& place_things(Draft& d) {
+std::vector<Placed>& place_operands(CaseBuilder& d) {
   static thread_local std::vector<Placed> placed;
   placed.clear();
   // Things without a size hardly meet by chance.
   const bool chance = d.plan.sizes.empty() && decides(d.plan.query->kind);
   const double furthest = !d.plan.velocities.empty() ? 4 : chance ? 1 : 2;
-  for (const Thing& thing : d.plan.things) {
-    Placed p{{}, draw_sizes(d, thing)};
+  for (const Operand& operand : d.plan.operands) {
+    Placed p{{}, draw_sizes(d, operand)};
     if (placed.empty()) {
       p.center = d.random_vector(4 * d.unit);
     } else {
@@ -61,17 +61,17 @@ std::vector<Placed>& place_things(Draft& d) {
       const Numbers towards = draw_direction(d);
       p.center = plus(first.center, towards, together * d.random.uniform(0, furthest));
     }
-    put(d, thing, p);
+    put(d, operand, p);
     placed.push_back(p);
   }
   return placed;
 }
 
 /// A point of the thing, or between its points.
-Numbers point_of(Draft& d, const Thing& thing) {
+Numbers point_of(CaseBuilder& d, const Operand& operand) {
   Numbers sum{};
   double weights = 0;
-  for (std::size_t v : thing.positions) {
+  for (std::size_t v : operand.positions) {
     const double w = d.random.uniform(0.01, 1);
     sum = plus(sum, d.vector(v), w);
     weights += w;
@@ -80,12 +80,12 @@ Numbers point_of(Draft& d, const Thing& thing) {
   return sum;
 }
 
-void aim(Draft& d, std::size_t velocity, const std::vector<Placed>& placed) {
+void aim(CaseBuilder& d, std::size_t velocity, const std::vector<Placed>& placed) {
   if (placed.size() < 2 || d.random.one_in(8)) return d.set_vector(velocity, d.random_vector(2 * d.unit));
   const std::size_t target = 1 + d.random.below(placed.size() - 1);
-  const bool single = d.plan.things[target].positions.size() == 1;
+  const bool single = d.plan.operands[target].positions.size() == 1;
   const double around = (single ? 1.5 : 0.25) * (placed[0].reach + placed[target].reach);
-  const Numbers target_point = point_of(d, d.plan.things[target]);
+  const Numbers target_point = point_of(d, d.plan.operands[target]);
   const Numbers to = plus(target_point, d.random_vector(around));
   Numbers along = plus(to, placed[0].center, -1);
   const double per_time = d.random.uniform(0.25, 2);
@@ -93,7 +93,7 @@ void aim(Draft& d, std::size_t velocity, const std::vector<Placed>& placed) {
   d.set_vector(velocity, along);
 }
 
-void draw_rotation(Draft& d, std::size_t begin) {
+void draw_rotation(CaseBuilder& d, std::size_t begin) {
   std::array<double, 4> q;
   double length2 = 0;
   for (double& x : q) {
@@ -104,20 +104,20 @@ void draw_rotation(Draft& d, std::size_t begin) {
   for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, q[k] * scale);
 }
 
-double draw_index(Draft& d) {
+double draw_index(CaseBuilder& d) {
   if (d.random.one_in(4)) return -1;
   const std::size_t choices = d.random.one_in(3) ? 3 : 15;
   return double(d.random.below(choices));
 }
 
 /// Of a plane, whose normal are the three numbers before: it passes near a position of the scene.
-double draw_offset(Draft& d, std::size_t i) {
+double draw_offset(CaseBuilder& d, std::size_t i) {
   Numbers near = d.random_vector(3 * d.unit);
   if (!d.plan.positions.empty()) near = plus(near, d.vector(d.random.pick(d.plan.positions)));
   return -(d[i - 3] * near[0] + d[i - 2] * near[1] + d[i - 1] * near[2]);
 }
 
-double draw_lone(Draft& d, std::size_t i) {
+double draw_lone(CaseBuilder& d, std::size_t i) {
   switch (d.plan.query->inputs[i].role) {
     case Role::flag: return double(d.random.below(2));
     case Role::index: return draw_index(d);
@@ -130,9 +130,9 @@ double draw_lone(Draft& d, std::size_t i) {
 
 }  // namespace
 
-void draw_scene(Draft& d) {
+void draw_scene(CaseBuilder& d) {
   d.unit = d.random.one_in(4) ? d.random.power_of_two(-4, 4) : 1.0;
-  const std::vector<Placed>& placed = place_things(d);
+  const std::vector<Placed>& placed = place_operands(d);
   for (std::size_t v : d.plan.velocities) aim(d, v, placed);
   for (std::size_t v : d.plan.directions) d.set_vector(v, d.random.one_in(2) ? draw_direction(d) : d.random_vector(2));
   for (std::size_t begin : d.plan.rotations) draw_rotation(d, begin);

@@ -122,7 +122,7 @@ void store(const std::filesystem::path& folder, const Case& c, const Subject& su
   const std::string name = fmt::format("{}-{}-{:016x}.json", query().name, subject.name, content_hash(c));
   try {
     write_file(folder / name, case_file(c, description(subject, f)));
-  } catch (const BadInput& e) {
+  } catch (const IoError& e) {
     cannot_run(e.what());
   }
 }

@@ -12,7 +12,7 @@
 
 #include "impl/subject/floating_point.hpp"
 #include "oracles/exact/arithmetic.hpp"
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 #if defined(__FAST_MATH__) || defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "Nearmiss needs IEEE 754 arithmetic: compile without -ffast-math"

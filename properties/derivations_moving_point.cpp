@@ -164,6 +164,65 @@ Reference contact_at_start(const V& p, const V& v, const RefBox& box, const Choi
   return hit(0, add(p, normal, inside), normal);
 }
 
+/// A sphere of positive radius on its way to a box, in the box's frame: the center at time t is start + velocity t.
+struct SphereTowardBox {
+  const RefBox& box;
+  V start, velocity;
+  Q radius;
+
+  /// The contact at time t of a center that is then beyond these sides of the box.
+  Reference contact(const R& t, const std::array<int, 3>& sides) const {
+    VR on_box, away;
+    for (int i = 0; i < 3; ++i) {
+      const R x = real(start[i]) + real(velocity[i]) * t;
+      on_box[i] = sides[i] == 0 ? x : real(sides[i] * box.half[i]);
+      away[i] = R(x - on_box[i]) / real(radius);
+    }
+    VR place = box.world(on_box);
+    for (int i = 0; i < 3; ++i) place[i] += real(box.center[i]);
+    return yes(t, place, box.world(away));
+  }
+
+  /// 0 and the positive times at which the center crosses a face plane, in ascending order.
+  std::vector<Q> crossings() const {
+    std::vector<Q> times{0};
+    for (int i = 0; i < 3; ++i) {
+      if (velocity[i] == 0) continue;
+      for (const int side : {-1, 1}) {
+        if (const Q t = (side * box.half[i] - start[i]) / velocity[i]; t > 0) times.push_back(t);
+      }
+    }
+    std::sort(times.begin(), times.end());
+    return times;
+  }
+
+  /// The first contact between two successive crossings; `to` is empty after the last one.
+  std::optional<Reference> contact_between(const Q& from, const std::optional<Q>& to) const {
+    // 1. The nearest feature of the box at the middle, and the excess a t^2 + 2 b t + c of its squared distance.
+    const Q middle = to ? Q((from + *to) / 2) : Q(from + 1);
+    Q a = 0, b = 0, c = -radius * radius;
+    std::array<int, 3> sides{0, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+      const Q x = start[i] + velocity[i] * middle;
+      if (abs(x) <= box.half[i]) continue;
+      const Q e = x > 0 ? Q(start[i] - box.half[i]) : Q(start[i] + box.half[i]);
+      sides[i] = sgn(x);
+      a += velocity[i] * velocity[i], b += velocity[i] * e, c += e * e;
+    }
+    // 2. A constant distance.
+    if (a == 0) return c <= 0 ? std::optional(contact(real(from), sides)) : std::nullopt;
+    // 3. The earlier root, where it lies in [from, to]: (-b - a t)^2 against d while the distance decreases.
+    const Q d = b * b - a * c;
+    if (d < 0) return std::nullopt;
+    const auto root_beyond = [&](const Q& t) {
+      const Q x = -b - a * t;
+      return x >= 0 ? cmp(Q(x * x), d) : -1;
+    };
+    if (root_beyond(from) < 0 || (to && root_beyond(*to) > 0)) return std::nullopt;
+    return contact(root_of(a, b, d), sides);
+  }
+};
+
 /// Time of impact, piece by piece between the crossings of the face planes.
 Reference reference_moving_sphere_box(Reader r) {
   const V p = r.vector();
@@ -171,61 +230,19 @@ Reference reference_moving_sphere_box(Reader r) {
   const V v = r.vector();
   const RefBox box(r);
   if (radius == 0) return point_meets_box(p, v, box, r.choose);
-  const V s = box.local(sub(p, box.center)), w = box.local(v);
+  const SphereTowardBox motion{box, box.local(sub(p, box.center)), box.local(v), radius};
   Q outside = -radius * radius, slope = 0;
   for (int i = 0; i < 3; ++i) {
-    const Q e = excess(s[i], box.half[i]);
+    const Q e = excess(motion.start[i], box.half[i]);
     outside += e * e;
-    slope += e * w[i];
+    slope += e * motion.velocity[i];
   }
   if (outside < 0 || (outside == 0 && slope <= 0)) return contact_at_start(p, v, box, r.choose);
   if (outside == 0) return no();
-  /// With the sides of the box beyond which the center is then.
-  const auto contact = [&](const R& t, const std::array<int, 3>& sides) {
-    VR on_box, away;
-    for (int i = 0; i < 3; ++i) {
-      const R x = real(s[i]) + real(w[i]) * t;
-      on_box[i] = sides[i] == 0 ? x : real(sides[i] * box.half[i]);
-      away[i] = R(x - on_box[i]) / real(radius);
-    }
-    VR place = box.world(on_box);
-    for (int i = 0; i < 3; ++i) place[i] += real(box.center[i]);
-    return yes(t, place, box.world(away));
-  };
-  std::vector<Q> crossings{0};
-  for (int i = 0; i < 3; ++i) {
-    if (w[i] == 0) continue;
-    for (const int side : {-1, 1}) {
-      if (const Q t = (side * box.half[i] - s[i]) / w[i]; t > 0) crossings.push_back(t);
-    }
-  }
-  std::sort(crossings.begin(), crossings.end());
+  const std::vector<Q> crossings = motion.crossings();
   for (std::size_t k = 0; k < crossings.size(); ++k) {
-    const bool last = k + 1 == crossings.size();
-    const Q from = crossings[k], middle = last ? Q(from + 1) : Q((from + crossings[k + 1]) / 2);
-    Q a = 0, b = 0, c = -radius * radius;
-    std::array<int, 3> sides{0, 0, 0};
-    for (int i = 0; i < 3; ++i) {
-      const Q x = s[i] + w[i] * middle;
-      if (abs(x) <= box.half[i]) continue;
-      const Q e = x > 0 ? Q(s[i] - box.half[i]) : Q(s[i] + box.half[i]);
-      sides[i] = sgn(x);
-      a += w[i] * w[i], b += w[i] * e, c += e * e;
-    }
-    if (a == 0) {
-      if (c <= 0) return contact(real(from), sides);
-      continue;
-    }
-    const Q d = b * b - a * c;
-    if (d < 0) continue;
-    // Is the root within [from, to]? (-b - a t)^2 against d, on the falling branch.
-    const auto root_beyond = [&](const Q& t) {
-      const Q x = -b - a * t;
-      return x >= 0 ? cmp(Q(x * x), d) : -1;
-    };
-    if (root_beyond(from) >= 0 && (last || root_beyond(crossings[k + 1]) <= 0)) {
-      return contact(root_of(a, b, d), sides);
-    }
+    const std::optional<Q> to = k + 1 < crossings.size() ? std::optional(crossings[k + 1]) : std::nullopt;
+    if (const std::optional<Reference> contact = motion.contact_between(crossings[k], to)) return *contact;
   }
   return no();
 }

@@ -56,7 +56,7 @@ TEST_P(Generator, KeepsToModerateMagnitudes) {
     const double largest = scalar == Scalar::float32 ? 0x1p18 : 0x1p60;
     for (std::uint64_t i = 0; i < 20000; ++i) {
       const Case c = generate(query, scalar, 7, i);
-      if (has_extreme_move(c)) continue;
+      if (has_extreme_mutator(c)) continue;
       for (double x : c.values) ASSERT_LE(std::abs(x), largest) << "case " << i;
     }
   }
@@ -156,12 +156,12 @@ TEST(GeneratorOfAnyQuery, TriesAgainUntilTheRulesHold) {
 
 TEST(Moves, AreNamedOnceAndKnownByTheirNames) {
   std::set<std::string_view> names;
-  for (const MoveName& m : move_names()) {
+  for (const MutatorName& m : mutator_names()) {
     EXPECT_TRUE(names.insert(m.name).second) << m.name;
-    EXPECT_EQ(known_move(m.name), m.name);
+    EXPECT_EQ(known_mutator(m.name), m.name);
     EXPECT_FALSE(m.what.empty());
   }
-  EXPECT_TRUE(known_move("no-such-move").empty());
+  EXPECT_TRUE(known_mutator("no-such-move").empty());
 }
 
 TEST(Moves, AreEachUsedForSomeQuery) {
@@ -174,7 +174,7 @@ TEST(Moves, AreEachUsedForSomeQuery) {
     }
     for (const auto& [name, count] : here) used[name] = std::max(used[name], count);
   }
-  for (const MoveName& m : move_names()) EXPECT_GE(used[m.name], cases / 100) << m.name;
+  for (const MutatorName& m : mutator_names()) EXPECT_GE(used[m.name], cases / 100) << m.name;
 }
 
 /// properties/streams.txt: query, scalar and the hash of the first 1000 cases of seed 1. Written anew
@@ -217,7 +217,7 @@ std::vector<std::string> moves_of_the_triage_page() {
 TEST(TriagePage, NamesMovesThatThereAre) {
   const std::vector<std::string> names = moves_of_the_triage_page();
   EXPECT_GE(names.size(), 2u);
-  for (const std::string& name : names) EXPECT_EQ(known_move(name), name);
+  for (const std::string& name : names) EXPECT_EQ(known_mutator(name), name);
 }
 
 }  // namespace

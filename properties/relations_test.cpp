@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/store.hpp"
 #include "oracles/confirmed.hpp"

@@ -46,7 +46,7 @@ TEST_P(Response, HasTheLengthOfADirection) {
   int moving = 0;
   for (std::uint64_t i = 0; i < 100000; ++i) {
     const Case c = generate(*query, subject->scalar, stream(21), i);
-    if (has_extreme_move(c)) continue;
+    if (has_extreme_mutator(c)) continue;
     moving += length(answer(c)) > 0;
     ASSERT_EQ(fault(c, answer(c)), "") << told(c, *subject,
                                                [&](const Case& other) { return fault(other, answer(other)); });

@@ -70,7 +70,7 @@ Work largest_work(const Query& query, Scalar scalar, std::uint64_t raw_cases, co
     if (s.question.scalar == scalar) watch(s.question);
   }
   for (std::uint64_t i = 0; i < 40 * raw_cases; ++i) {
-    if (const Case c = generate(query, scalar, stream(9), i); has_extreme_move(c)) watch(c);
+    if (const Case c = generate(query, scalar, stream(9), i); has_extreme_mutator(c)) watch(c);
   }
   return largest;
 }

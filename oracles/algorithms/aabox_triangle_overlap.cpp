@@ -51,7 +51,7 @@ struct BoxAndTriangle {
   /// Edge i across itself, seen along axis k: or one of its corners is in the box's shadow.
   bool surely_meets_across(int i, int k) const {
     if (surely_in_shadow(i, k) || surely_in_shadow((i + 1) % 3, k)) return true;
-    const Vector<N> axis = outer(unit(k), edge[i]);
+    const Vector<N> axis = cross(unit(k), edge[i]);
     const Shadow<N> of_box = shadow(axis, box);
     const N at = inner(axis, corner[i]);
     return !may_be_less(at, of_box.low) && !may_be_less(of_box.high, at);
@@ -102,10 +102,10 @@ void aabox_triangle_overlap(const inputs::aabox_triangle_overlap<N>& q, Out& out
   for (int k = 0; k < 3; ++k) {
     surely = surely || separated(both.unit(k), [] { return false; });
     for (int i = 0; i < 3 && !surely; ++i) {
-      surely = separated(outer(both.unit(k), both.edge[i]), [&] { return both.surely_meet_seen_along(k); });
+      surely = separated(cross(both.unit(k), both.edge[i]), [&] { return both.surely_meet_seen_along(k); });
     }
   }
-  surely = surely || separated(outer(both.edge[0], both.edge[1]), [&] { return both.surely_meet_at_an_edge(); });
+  surely = surely || separated(cross(both.edge[0], both.edge[1]), [&] { return both.surely_meet_at_an_edge(); });
   if (may_separate) out.no();
   if (!surely) out.yes({true});
 }

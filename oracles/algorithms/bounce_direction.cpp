@@ -1,7 +1,7 @@
 /// Truth: the Householder reflection of the velocity's direction; rational but for one root.
 #include "impl/catalogue/queries/bounce_direction.hpp"
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

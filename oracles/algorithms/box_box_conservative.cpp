@@ -1,7 +1,7 @@
 /// Truth: |D| <= |a| + |b| squared, which leaves one root: |D|^2 - |a|^2 - |b|^2 <= 2 |a| |b|.
 #include "impl/catalogue/queries/box_box_conservative.hpp"
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

@@ -199,9 +199,9 @@ class Penetration {
     const Vector<N>&a = boxes_.axes1[i], &b = boxes_.axes2[j];
     const N &half1 = boxes_.half1[i], &half2 = boxes_.half2[j];
     const Vector<N> d = minus(on2, on1);
-    const Vector<N>& cross = axis_[k].direction;
-    const N length2 = norm2(cross), da = inner(d, a), db = inner(d, b), cosine = boxes_.cosine(i, j);
-    const N along1 = inner(d, outer(b, cross)) / length2, along2 = inner(d, outer(a, cross)) / length2;
+    const Vector<N>& product = axis_[k].direction;
+    const N length2 = norm2(product), da = inner(d, a), db = inner(d, b), cosine = boxes_.cosine(i, j);
+    const N along1 = inner(d, cross(b, product)) / length2, along2 = inner(d, cross(a, product)) / length2;
     const N over1 = magnitude(along1) - half1, over2 = magnitude(along2) - half2;
     std::vector<Places> places;
     const auto add = [&](const N& x, const N& y, bool always) {

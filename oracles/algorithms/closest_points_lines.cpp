@@ -12,7 +12,7 @@ std::vector<Form> forms_of(const collide::Line<Interval>& line) {
   for (int i = 0; i < 3; ++i) {
     Vector<Interval> axis{Interval(0), Interval(0), Interval(0)};
     axis[i] = Interval(1);
-    forms.push_back({outer(vector(line.direction), axis), vector(line.point), Interval(0)});
+    forms.push_back({cross(vector(line.direction), axis), vector(line.point), Interval(0)});
   }
   return forms;
 }
@@ -23,7 +23,7 @@ void points_on_lines(const inputs::closest_points_lines<Interval>& q, const coll
                      Out& out) {
   constexpr std::size_t point1 = 0, point2 = 3;
   const Bounds on1 = ulps_from(forms_of(q.line1), point1, out), on2 = ulps_from(forms_of(q.line2), point2, out);
-  out.yes(points, FromSet{{{point1, on1}, {point2, on2}}, {std::max(on1.low, on2.low), HUGE_VAL}});
+  out.yes(points, SetDistance{{{point1, on1}, {point2, on2}}, {std::max(on1.low, on2.low), HUGE_VAL}});
 }
 template <class Out>
 void any_points(const inputs::closest_points_lines<Interval>& q, Out& out) {
@@ -37,7 +37,7 @@ void closest_points_lines(const inputs::closest_points_lines<N>& q, Out& out) {
   const Vector<N> p1 = vector(q.line1.point), d1 = vector(q.line1.direction);
   const Vector<N> p2 = vector(q.line2.point), d2 = vector(q.line2.direction);
   const Vector<N> between = minus(p2, p1);
-  const N length1 = norm2(d1), length2 = norm2(d2), determinant = norm2(outer(d1, d2));
+  const N length1 = norm2(d1), length2 = norm2(d2), determinant = norm2(cross(d1, d2));
   if (may_be_zero(determinant)) {
     if constexpr (is_enclosure<N>) {
       if (!surely_zero(determinant) || may_be_zero(length2)) return any_points(q, out);
@@ -47,9 +47,9 @@ void closest_points_lines(const inputs::closest_points_lines<N>& q, Out& out) {
   }
   const N along1 = inner(between, d1), along2 = inner(between, d2), cosine = inner(d1, d2);
   // The same numerators with their cancellation done beforehand: (between x d2) . (d1 x d2), and with d1.
-  const Vector<N> normal = outer(d1, d2);
-  const N numerator1 = meet(N(inner(outer(between, d2), normal)), N(along1 * length2 - along2 * cosine));
-  const N numerator2 = meet(N(inner(outer(between, d1), normal)), N(along1 * cosine - along2 * length1));
+  const Vector<N> normal = cross(d1, d2);
+  const N numerator1 = meet(N(inner(cross(between, d2), normal)), N(along1 * length2 - along2 * cosine));
+  const N numerator2 = meet(N(inner(cross(between, d1), normal)), N(along1 * cosine - along2 * length1));
   const collide::ClosestPoints<N> points{answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
                                          answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))};
   if constexpr (is_enclosure<N>) {  // more is known of a place that is little known along its line

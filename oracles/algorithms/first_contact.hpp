@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

@@ -2,7 +2,7 @@
 #include "impl/catalogue/queries/moving_point_sphere.hpp"
 
 #include "oracles/algorithms/surface.hpp"
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 
@@ -37,7 +37,7 @@ void moving_point_sphere(const inputs::moving_point_sphere<N>& q, Out& out) {
   if (may_be_zero(speed2)) return out.everything();
 
   // speed2 t^2 - 2 closing t + outside = 0
-  const N discriminant = speed2 * square(radius) - norm2(outer(m, v));
+  const N discriminant = speed2 * square(radius) - norm2(cross(m, v));
   const auto at = [&](const N& time, const Vector<N>& along, const Normals<N>& of_a_point) {
     // On the surface by definition, so the normal needs no root of its own; radius 0 has many normals.
     if (may_be_zero(radius)) {

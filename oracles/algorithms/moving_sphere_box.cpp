@@ -96,7 +96,7 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
     if (!may_be_positive(speed)) return;
     crossing = time_within(w, N(gap - m.radius), speed);
   } else {
-    const N discriminant = norm2(v) * square(m.radius) - norm2(outer(e, v));
+    const N discriminant = norm2(v) * square(m.radius) - norm2(cross(e, v));
     if (!may_be_at_least_zero(discriminant)) return;
     const N far = assume_at_least_zero(closing) + root(discriminant);
     crossing = time_within(w, N(norm2(e) - square(m.radius)), far);

@@ -1,7 +1,7 @@
 /// Truth: the first contact with the tube or one of the balls at its ends.
 #include "impl/catalogue/queries/moving_sphere_capsule.hpp"
 
-#include "oracles/algorithms/past_round.hpp"
+#include "oracles/algorithms/moving_sphere_and_capsule.hpp"
 #include "oracles/algorithms/surface.hpp"
 
 namespace nearmiss::oracle {

@@ -2,7 +2,7 @@
 /// discriminant.
 #include "impl/catalogue/queries/moving_sphere_passes_sphere.hpp"
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 
@@ -13,7 +13,7 @@ void moving_sphere_passes_sphere(const inputs::moving_sphere_passes_sphere<N>& q
   const N limit = assume_at_least_zero(q.limit);
   const N outside = norm2(m) - reach2;                         // at the start
   const N closing = -inner(m, v);                              // half of minus the derivative there
-  const N clearance = norm2(outer(m, v)) - norm2(v) * reach2;  // <= 0: the line of motion comes near enough
+  const N clearance = norm2(cross(m, v)) - norm2(v) * reach2;  // <= 0: the line of motion comes near enough
   bool may_meet = may_be_at_most_zero(outside), may_miss = may_be_positive(outside);
   bool may_end_later = true, may_end_earlier = false;  // than the closest approach
   bool may_come_near = true;

@@ -1,7 +1,7 @@
 /// Truth: the quadratic of the distance between the centers.
 #include "impl/catalogue/queries/moving_sphere_sphere.hpp"
 
-#include "oracles/algorithms/past_round.hpp"
+#include "oracles/algorithms/moving_sphere_and_capsule.hpp"
 #include "oracles/algorithms/surface.hpp"
 
 namespace nearmiss::oracle {

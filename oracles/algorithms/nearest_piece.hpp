@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 
@@ -80,7 +80,7 @@ Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const 
     for (int k = 0; k < 3; ++k) {
       foot[k] = meet(meet(N(a[k] + along[k] * share), N(b[k] - along[k] * rest)), foot[k]);
     }
-    distance2 = meet(N(norm2(outer(from_a, along)) / length2), distance2);
+    distance2 = meet(N(norm2(cross(from_a, along)) / length2), distance2);
     gain_a = meet(N(square(x) / length2), gain_a);
     gain_b = meet(N(square(y) / length2), gain_b);
   }
@@ -113,7 +113,7 @@ std::optional<Place<N>> thin_face(const std::array<Vector<N>, 3>& v, const N& no
     N share = inner(from, along) / length2;
     if (!narrow(share, join(join(N(0), N(1)), third))) return std::nullopt;
     for (int k = 0; k < 3; ++k) place.point[k] = meet(N(v[i][k] + along[k] * share + around), place.point[k]);
-    const N distance = assume_at_least_zero(N(root(N(norm2(outer(from, along)) / length2)) + around));
+    const N distance = assume_at_least_zero(N(root(N(norm2(cross(from, along)) / length2)) + around));
     place.distance2 = meet(square(distance), place.distance2);
   }
   place.distance2 = meet(norm2(minus(p, place.point)), place.distance2);
@@ -125,7 +125,7 @@ template <class N, std::size_t n>
 FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array<int, 3>& c, bool line,
                         const Vector<N>& p) {
   const std::array<Vector<N>, 3> v{corner[c[0]], corner[c[1]], corner[c[2]]};
-  const Vector<N> base = minus(v[1], v[0]), normal = outer(base, minus(v[2], v[0]));
+  const Vector<N> base = minus(v[1], v[0]), normal = cross(base, minus(v[2], v[0]));
   const N normal2 = norm2(normal);
   FacePiece<N> face;
   Piece<N>& piece = face.piece;
@@ -134,7 +134,7 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
   const bool has_area = !may_be_zero(normal2);
   piece.surely = face.surely_within = has_area;
   for (int i = 0; i < 3; ++i) {
-    const N side = inner(outer(minus(v[(i + 1) % 3], v[i]), minus(p, v[i])), normal);
+    const N side = inner(cross(minus(v[(i + 1) % 3], v[i]), minus(p, v[i])), normal);
     if (!may_be_at_least_zero(side)) return piece.surely = face.surely_within = false, face;
     piece.surely = piece.surely && !may_be_negative(side);
     face.surely_within = face.surely_within && !may_be_at_most_zero(side);
@@ -160,13 +160,13 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
     N& gain = place.gain[c[i]];
     if (is_enclosure<N>) gain = assume_at_least_zero(N(norm2(from) - place.distance2));
     if (!has_area) continue;
-    const N in_plane = norm2(outer(normal, from)) / normal2;
+    const N in_plane = norm2(cross(normal, from)) / normal2;
     gain = is_enclosure<N> ? meet(in_plane, gain) : in_plane;
   }
   if (line) {
     const N length2 = norm2(base);
     place.gain[diagonal] = has_area && !may_be_zero(length2)
-                               ? N(square(inner(w, outer(normal, base))) / (normal2 * length2))
+                               ? N(square(inner(w, cross(normal, base))) / (normal2 * length2))
                                : N(join(N(0), norm2(w)));
   }
   piece.add(place);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

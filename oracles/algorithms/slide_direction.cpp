@@ -1,7 +1,7 @@
 /// Truth: the velocity less its projection; rational but for one root.
 #include "impl/catalogue/queries/slide_direction.hpp"
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

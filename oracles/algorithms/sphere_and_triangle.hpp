@@ -41,9 +41,9 @@ class SphereAndTriangle {
       e_[i] = minus(corner_[(i + 1) % 3], corner_[i]);
       e2_[i] = norm2(e_[i]);
     }
-    n_ = outer(e_[0], minus(corner_[2], corner_[0]));
+    n_ = cross(e_[0], minus(corner_[2], corner_[0]));
     n2_ = norm2(n_);
-    for (int i = 0; i < 3; ++i) out_[i] = outer(e_[i], n_);
+    for (int i = 0; i < 3; ++i) out_[i] = cross(e_[i], n_);
   }
 
   TriangleContacts<N> contacts() {
@@ -249,7 +249,7 @@ class SphereAndTriangle {
       if (!may_be_at_edge(i, p_)) continue;
       const Place place = on_edge(i, from_corner(i));
       N tighter2 = norm2(minus(p_, place.point));
-      if (!may_be_zero(e2_[i])) tighter2 = meet(tighter2, N(norm2(outer(from_corner(i), e_[i])) / e2_[i]));
+      if (!may_be_zero(e2_[i])) tighter2 = meet(tighter2, N(norm2(cross(from_corner(i), e_[i])) / e2_[i]));
       from(place, tighter2, false);
     }
     const std::optional<Place> foot = may_be_over_face(p_) ? in_face(p_) : std::nullopt;
@@ -279,9 +279,9 @@ class SphereAndTriangle {
     surely = !may_be_negative(chord2) && !may_be_at_most_zero(closing) && !may_be_negative(*time);
     return N(assume_at_least_zero(*time));
   }
-  N moment2(const Vector<N>& w) const { return norm2(outer(w, v_)); }
+  N moment2(const Vector<N>& w) const { return norm2(cross(w, v_)); }
   /// |(w x e) x (v x e)|^2 = |e|^2 (e . (w x v))^2.
-  N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(inner(e_[i], outer(w, v_))); }
+  N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(inner(e_[i], cross(w, v_))); }
 
   /// `away` leads from the place to the center.
   void add_root(const N& time, const Place& place, const Vector<N>& away, bool surely) {
@@ -330,7 +330,7 @@ class SphereAndTriangle {
     if constexpr (is_enclosure<N>) window.clip(times_near_edge(i, r_));
     if (window.empty()) return;
     const auto of_line =
-        root_time(outer(w, e_[i]), outer(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), Window{}, surely);
+        root_time(cross(w, e_[i]), cross(v_, e_[i]), N(square(r_) * e2_[i]), moment2_about(i, w), Window{}, surely);
     if (!of_line) return;
     N time = *of_line;
     if constexpr (is_enclosure<N>) {
@@ -396,7 +396,7 @@ class SphereAndTriangle {
       const Vector<N> middle = combined(corner_, weight), from = minus(p_, middle);
       // The squared height is the squared distance less that within the plane, which is about zero.
       const Vector<N> at_t0 = plus(from, times(v_, N(t0))), at_any = plus(from, times(v_, join(time, N(t0))));
-      const N beyond = norm2(at_t0) - norm2(outer(n_, at_t0)) / n2_ - square(r_);
+      const N beyond = norm2(at_t0) - norm2(cross(n_, at_t0)) / n2_ - square(r_);
       const N slope = inner(n_, v_) * inner(n_, at_any) / n2_;
       if (!may_be_zero(slope) && is_moderate(beyond)) {
         if (!narrow(time, N(N(t0) - beyond / (N(2) * slope)))) return false;
@@ -480,7 +480,7 @@ class SphereAndTriangle {
       if (may_be_zero(e2_[l])) return times_near_edge(l, reach);
       times = times_within(w, v_, square(reach), moment2(w));
       times.include(times_within(other, v_, square(reach), moment2(other)));
-      Window beside = times_within(outer(w, e_[l]), outer(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
+      Window beside = times_within(cross(w, e_[l]), cross(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
       beside.clip(times_not_positive(N(-inner(w, e_[l])), N(-inner(v_, e_[l]))));
       beside.clip(times_not_positive(N(inner(w, e_[l]) - e2_[l]), N(inner(v_, e_[l]))));
       beside.clip(times_near_edge(l, reach));
@@ -497,7 +497,7 @@ class SphereAndTriangle {
       if (may_be_zero(e2_[l])) return true;
       const double off = reach_from_longest_edge();
       const Vector<N> w = minus(corner_[l], x);
-      Window along = times_within(w, e_[l], square(N(r_ + N(off))), norm2(outer(w, e_[l])));
+      Window along = times_within(w, e_[l], square(N(r_ + N(off))), norm2(cross(w, e_[l])));
       along.clip({0, 1});
       if (along.empty()) return false;
       for (int k = 0; k < 3; ++k) {
@@ -554,7 +554,7 @@ class SphereAndTriangle {
     if (may_be_at_least_zero(N(inner(n_, v_))) || may_be_at_most_zero(N(inner(n_, from_corner(0))))) return false;
     bool within = true;
     for (int i = 0; i < 3; ++i) {
-      const N moment = -inner(v_, outer(from_corner(i), from_corner((i + 1) % 3)));
+      const N moment = -inner(v_, cross(from_corner(i), from_corner((i + 1) % 3)));
       within = within && !may_be_negative(moment);
     }
     return within;

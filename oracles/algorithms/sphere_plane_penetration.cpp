@@ -2,7 +2,7 @@
 #include "impl/catalogue/queries/sphere_plane_penetration.hpp"
 
 #include "oracles/algorithms/surface.hpp"
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

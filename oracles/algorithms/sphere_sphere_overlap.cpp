@@ -1,7 +1,7 @@
 /// Truth: the sign of |c2 - c1|^2 - (r1 + r2)^2.
 #include "impl/catalogue/queries/sphere_sphere_overlap.hpp"
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

@@ -48,7 +48,7 @@ bool may_be_on_rectangle(const GivenPlace<N>& g, const R& r) {
 template <class N, class L>
 bool may_be_on_line(const GivenPlace<N>& g, const L& l) {
   const Vector<N> along = vector(l.direction);
-  return may_be_at_most(norm2(outer(minus(g.at, vector(l.point)), along)), N(square(g.slack) * norm2(along)));
+  return may_be_at_most(norm2(cross(minus(g.at, vector(l.point)), along)), N(square(g.slack) * norm2(along)));
 }
 
 template <class N, class P>

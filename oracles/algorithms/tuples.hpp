@@ -3,7 +3,7 @@
 /// them.
 #pragma once
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 
@@ -18,7 +18,7 @@ struct NormalWithPlace {
 };
 
 /// The given normal in whichever form both together are nearest.
-inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, const Cone& cone, const Lever& lever) {
+inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, const Cone& cone, const NormalOffset& lever) {
   NearestNormal nearest = nearest_normal(normal.front(), cone, lever);
   for (std::size_t i = 1; i < normal.size() && nearest.ulps.low > 0; ++i) {
     const NearestNormal other = nearest_normal(normal[i], cone, lever);
@@ -40,9 +40,9 @@ void yes_to_any(const NormalWithPlace<Exact>& set, Out& out, Make make) {
   if (surely_zero(set.reach)) return out.yes(make(of_cone, set.base), set.normals);
   if (!out.compares_yes()) return out.yes(answer(some_normal(cone)), set.normals);
   const std::vector<GivenVector> normal = out.given_vector(set.normal);
-  const Lever lever{out.given_vector(set.place).front(), rational(set.base), rational(set.reach)};
+  const NormalOffset lever{out.given_vector(set.place).front(), rational(set.base), rational(set.reach)};
   const NearestNormal both = nearest_together(normal, cone, lever);
-  FromSet from{{{set.normal, {0, both.ulps.high}}, {set.place, {0, both.ulps.high}}}, both.ulps};
+  SetDistance from{{{set.normal, {0, both.ulps.high}}, {set.place, {0, both.ulps.high}}}, both.ulps};
   if (both.ulps.low > 0) {  // by themselves they may be right
     GivenVector nothing;
     nothing.scalar = normal.front().scalar;
@@ -62,7 +62,7 @@ void yes_to_any(const NormalWithPlace<Interval>& set, Out& out, Make make) {
   double both = HUGE_VAL;
   for (const GivenVector& g : given) both = std::min(both, least_ulps_together(g, place, set.base, set.reach));
   out.yes(make(normal, plus(set.base, times(normal, set.reach))),
-          FromSet{{{set.normal, ulps_from(given, set.normals)},
+          SetDistance{{{set.normal, ulps_from(given, set.normals)},
                    {set.place, {least_ulps(place, set.base, set.reach), HUGE_VAL}}},
                   {both, HUGE_VAL}});
 }
@@ -76,7 +76,7 @@ void yes_to_any_of(const std::vector<Vector<Exact>>& corners, std::size_t point,
   for (const Vector<Exact>& corner : corners) polygon.push_back(rational(corner));
   const NearestPoint nearest = nearest_in_polygon(out.given_vector(point).front(), polygon);
   const RationalVector& x = nearest.member ? *nearest.member : polygon.front();
-  out.yes(make(Vector<Exact>{Exact(x[0]), Exact(x[1]), Exact(x[2])}), FromSet{{{point, nearest.ulps}}, nearest.ulps});
+  out.yes(make(Vector<Exact>{Exact(x[0]), Exact(x[1]), Exact(x[2])}), SetDistance{{{point, nearest.ulps}}, nearest.ulps});
 }
 /// Of the given point, from the nearest that is on all the forms.
 template <class Out>
@@ -89,7 +89,7 @@ Bounds ulps_from(const std::vector<Form>& forms, std::size_t point, const Out& o
 template <class Out, class A>
 void yes_to_all_on(const std::vector<Form>& forms, std::size_t point, Out& out, const A& a) {
   const Bounds ulps = ulps_from(forms, point, out);
-  out.yes(a, FromSet{{{point, ulps}}, ulps});
+  out.yes(a, SetDistance{{{point, ulps}}, ulps});
 }
 
 }  // namespace nearmiss::oracle

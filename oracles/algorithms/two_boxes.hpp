@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 
@@ -37,9 +37,9 @@ struct TwoBoxes {
   Vector<N> axis(int k) const {
     if (k < 3) return axes1[k];
     if (k < 6) return axes2[k - 3];
-    Vector<N> cross = outer(axes1[(k - 6) / 3], axes2[(k - 6) % 3]);
-    for (N& x : cross) x = assume_within(x, -1.0, 1.0);
-    return cross;
+    Vector<N> product = cross(axes1[(k - 6) / 3], axes2[(k - 6) % 3]);
+    for (N& x : product) x = assume_within(x, -1.0, 1.0);
+    return product;
   }
   N cosine(int i, int j) const { return assume_within(inner(axes1[i], axes2[j]), -1.0, 1.0); }
 

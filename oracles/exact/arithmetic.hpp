@@ -203,7 +203,7 @@ N norm2(const Vector<N>& a) {
   return square(a[0]) + square(a[1]) + square(a[2]);
 }
 template <class N>
-Vector<N> outer(const Vector<N>& a, const Vector<N>& b) {
+Vector<N> cross(const Vector<N>& a, const Vector<N>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 

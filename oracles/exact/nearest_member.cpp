@@ -45,12 +45,12 @@ RationalBox common(const RationalBox& a, const RationalBox& b) {
 double largest_of(const GivenVector& g) {
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
-    if (g.told[i] && !std::isnan(g.high[i])) largest = std::max(largest, std::abs(g.high[i]));
+    if (g.given[i] && !std::isnan(g.high[i])) largest = std::max(largest, std::abs(g.high[i]));
   }
   return largest;
 }
 
-bool all_told(const GivenVector& g) { return g.told[0] && g.told[1] && g.told[2]; }
+bool all_given(const GivenVector& g) { return g.given[0] && g.given[1] && g.given[2]; }
 
 /// Every vector within `reach` of the given one, in each number; no member has a number beyond `bound`.
 RationalBox around(const GivenVector& g, const Rational& reach, const Rational& bound) {
@@ -58,7 +58,7 @@ RationalBox around(const GivenVector& g, const Rational& reach, const Rational& 
   RationalBox box;
   for (int i = 0; i < 3; ++i) {
     box.low[i] = -bound, box.high[i] = bound;
-    if (!g.told[i] || std::isnan(g.high[i])) continue;
+    if (!g.given[i] || std::isnan(g.high[i])) continue;
     if (std::isinf(g.high[i])) {
       (g.high[i] > 0 ? box.low[i] : box.high[i]) =
           g.high[i] > 0 ? Rational(largest - reach) : Rational(reach - largest);
@@ -75,7 +75,7 @@ RationalBox around(const GivenVector& g, const Rational& reach, const Rational& 
 /// may.
 std::vector<RationalBox> within(const GivenVector& g, double ulps, const Rational& bound) {
   double largest = largest_of(g);
-  if (!all_told(g)) largest = std::max(largest, CGAL::to_interval(bound).second);
+  if (!all_given(g)) largest = std::max(largest, CGAL::to_interval(bound).second);
   const auto reach = [&](double unit) -> Rational { return Rational(ulps) * Rational(unit) + Rational(g.slack); };
   const double unit = unit_of(largest, g.scalar);
   std::vector<RationalBox> boxes{around(g, reach(unit), bound)};
@@ -284,7 +284,7 @@ NearestNormal nearest_normal(const GivenVector& given, const Cone& cone) {
   return with_slack(nearest<NearestNormal>(given.scalar, find), given);
 }
 
-NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const Lever& lever) {
+NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const NormalOffset& lever) {
   if (lever.reach == 0) throw std::logic_error("oracle: a place that does not depend on the normal");
   Rational bound(0);
   for (const Rational& x : lever.base) bound = std::max(bound, CGAL::abs(x));
@@ -330,7 +330,7 @@ double far_ulps(Scalar scalar) { return std::ldexp(1.0, digits(scalar) - 10); }
 namespace {
 
 bool all_finite(const GivenVector& g) {
-  return all_told(g) && std::isfinite(g.high[0]) && std::isfinite(g.high[1]) && std::isfinite(g.high[2]);
+  return all_given(g) && std::isfinite(g.high[0]) && std::isfinite(g.high[1]) && std::isfinite(g.high[2]);
 }
 double near_unit(const GivenVector& g) { return unit_of(largest_of(g) * (1 + 0x1p-8), g.scalar); }
 Vector<Interval> enclosed(const GivenVector& g) {

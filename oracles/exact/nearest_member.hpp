@@ -20,7 +20,7 @@ namespace nearmiss::oracle {
 /// answer does not have may be anything; an infinite one stands for every number beyond the largest finite one.
 struct GivenVector {
   std::array<double, 3> high{}, low{};
-  std::array<bool, 3> told{};
+  std::array<bool, 3> given{};
   double slack = 0;
   Scalar scalar = Scalar::float64;
 };
@@ -39,7 +39,7 @@ struct Side {
 using Cone = std::vector<Side>;
 
 /// base + reach n is the right place beside the normal n; the reach is not negative.
-struct Lever {
+struct NormalOffset {
   GivenVector place;
   RationalVector base;
   Rational reach;
@@ -61,7 +61,7 @@ Vector<Exact> some_normal(const Cone& cone);
 /// Among the unit vectors of the cone, which has some.
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone);
 /// The same together with the place.
-NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const Lever& lever);
+NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const NormalOffset& lever);
 /// Among the points of a convex polygon; one of two corners is a segment, one of one corner a point.
 NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<RationalVector>& corners);
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/extremes.hpp"

@@ -11,7 +11,7 @@
 #include <limits>
 #include <new>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/environment.hpp"

@@ -174,7 +174,7 @@ Json examine_fuzzed(Run& run) {
     try {
       if (const std::optional<Case> c = fuzzed_case(f)) run.examine_by_all(*c);
       ++examined;
-    } catch (const BadInput& e) {
+    } catch (const ReportedError& e) {
       unreadable.push_back(e.what());
     }
   }

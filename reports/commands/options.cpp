@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "impl/host/hosts.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/text.hpp"

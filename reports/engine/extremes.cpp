@@ -9,7 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "corpus/codec.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
@@ -136,7 +136,7 @@ Extremes::Extremes(ExtremesSettings settings)
                 {place_.get()}) {
   make_folder(settings_.folder);
   if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
-    throw BadInput(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
+    throw IoError(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
   }
   for (const Query* q : settings_.queries) {
     for (const SweepPlane& plane : planes_of(*q)) {

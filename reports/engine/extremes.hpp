@@ -55,7 +55,7 @@ struct ExtremesMap {
 
 class Extremes {
  public:
-  /// Makes the folder. Throws BadInput where it cannot.
+  /// Makes the folder. Throws IoError where it cannot.
   explicit Extremes(ExtremesSettings settings);
   ~Extremes();
 

@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 
 namespace nearmiss {
 

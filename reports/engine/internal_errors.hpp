@@ -22,7 +22,7 @@ class InternalErrors {
   std::optional<Finding> judged(const Case& question, const Subject& subject, const Answer& answer,
                                 const Standard& standard, Detail detail);
   /// Counts it. Of the first few one line on standard error has both words, and the case is a file that 'nearmiss
-  /// replay' takes. Throws BadInput where it cannot be written.
+  /// replay' takes. Throws IoError where it cannot be written.
   void add(const Subject& subject, const InternalError& error);
 
   std::uint64_t count() const { return count_; }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "corpus/codec.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/schedule.hpp"

@@ -46,7 +46,7 @@ class RelationsRun {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Throws BadInput where the folder cannot be made.
+  /// Throws IoError where the folder cannot be made.
   explicit RelationsRun(RelationsSettings settings);
 
   /// `cases` of each query, subject and relation, or as many as there is time for. Queries take turns. Stops early

@@ -172,9 +172,9 @@ void Run::write(const std::filesystem::path& below, const std::string& text) con
   try {
     make_folder((settings_.folder / below).parent_path());
     write_file(settings_.folder / below, text);
-  } catch (const BadInput& e) {
+  } catch (const IoError& e) {
     if (counts_.cases() == 0) throw;
-    throw BadInput(fmt::format("{}; the run ends after {}, {}", e.what(), plural_text(counts_.cases(), "answer"),
+    throw IoError(fmt::format("{}; the run ends after {}, {}", e.what(), plural_text(counts_.cases(), "answer"),
                                counts_.violated_text()));
   }
 }

@@ -48,7 +48,8 @@ class Run {
  public:
   using Clock = Campaign::Clock;
 
-  /// Makes the folder and writes the first index. Throws BadInput where it cannot, or where another run has the folder.
+  /// Makes the folder and writes the first index. Throws IoError where it cannot, and
+  /// BadInput where another run has locked the folder.
   /// The same goes for whatever is written later: the line says how far the run came.
   explicit Run(RunSettings settings);
   /// Without finish() the run has failed, and its index says so, even where no other byte can be written.

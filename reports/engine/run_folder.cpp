@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/bad_input.hpp"
+#include "corpus/errors.hpp"
 #include "corpus/codec.hpp"
 #include "reports/engine/folder_lock.hpp"
 #include "reports/engine/run.hpp"
@@ -123,7 +123,7 @@ bool settle_run(const fs::path& folder) try {
   complete(index, folder);
   write_file(folder / index_name, pretty_json(index));
   return true;
-} catch (const BadInput&) {  // somebody has it, or it cannot be read or written: whoever needs it will say so
+} catch (const ReportedError&) {  // locked, unreadable or not writable: the next command that needs it reports why
   return false;
 } catch (const Json::exception&) {  // an index of another version, or none
   return false;

@@ -1,7 +1,7 @@
 /// Truth: the sign of |p - c|^2 - r^2.
 #include "impl/catalogue/queries/sphere_contains_point.hpp"
 
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 

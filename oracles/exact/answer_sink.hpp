@@ -27,20 +27,20 @@ struct Errors {
 };
 
 /// How far the given answer is from the nearest of a set of right ones, in ulps.
-struct FromSet {
+struct SetDistance {
   /// One vector by itself, whatever is beside it; `begin` is its first number.
-  struct Of {
+  struct Part {
     std::size_t begin;
     Bounds ulps;
   };
-  std::vector<Of> vectors;
+  std::vector<Part> vectors;
   Bounds together{0, 0};  ///< all of them, each with the same member of the set
 };
 
 /// The part of Outcomes that does not depend on the answer's type.
-class Tally {
+class EnclosureAccumulator {
  public:
-  Tally(const Answer& about, Scalar scalar, const Layout& layout);
+  EnclosureAccumulator(const Answer& about, Scalar scalar, const Layout& layout);
 
   const Enclosure& result() const { return result_; }
   /// True where a yes is held against the given answer; else it is but a decision.
@@ -55,12 +55,12 @@ class Tally {
  protected:
   /// One possible answer, of which the first `given` numbers are held against the given one. Where it stands for a set,
   /// the distances of the vectors that belong to it are those from the set.
-  void count(bool yes, const Errors& errors, std::size_t given, const FromSet& set);
+  void count(bool yes, const Errors& errors, std::size_t given, const SetDistance& set);
   void count_everything();
   /// What is known of the distances where the given places are in other units than the set: those of normals.
-  FromSet without_units(FromSet set) const;
+  SetDistance without_units(SetDistance set) const;
   /// Every member's places are enclosed as well: what is further from the enclosure is further from each of them.
-  void include_enclosure(const Errors& errors, FromSet& set) const;
+  void include_enclosure(const Errors& errors, SetDistance& set) const;
 
   const Answer& about_;
   Scalar scalar_;
@@ -92,9 +92,9 @@ class Tally {
 
 /// A is the answer type over N.
 template <class N, class A>
-class Outcomes : public Tally {
+class AnswerSink : public EnclosureAccumulator {
  public:
-  using Tally::Tally;
+  using EnclosureAccumulator::EnclosureAccumulator;
 
   /// A right answer is "no", with nothing else to it.
   void no() { put(false, A{}, {}, 0); }
@@ -104,12 +104,12 @@ class Outcomes : public Tally {
   /// The same; of its leaves only the first `leaves` are held against an answer, the others may be anything.
   void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { put(true, a, normals, leaves); }
   /// Every answer of a set is right: `a` is one of them or, of intervals, encloses them all.
-  void yes(const A& a, const FromSet& set) { put(true, a, Normals<N>::as_given(), Answer::capacity, set); }
+  void yes(const A& a, const SetDistance& set) { put(true, a, Normals<N>::as_given(), Answer::capacity, set); }
   /// Nothing is known: a division by what may be zero.
   void everything() { count_everything(); }
 
  private:
-  void put(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const FromSet& set = {}) {
+  void put(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set = {}) {
     if (scaling_ == nullptr) return add(yes, a, normals, leaves, set);
     add(yes, in_units_of_the_input(a, leaves), normals, leaves, without_units(set));
   }
@@ -124,10 +124,10 @@ class Outcomes : public Tally {
     });
     return a;
   }
-  void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const FromSet& set);
+  void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set);
   /// Exact - given for the first `leaves` leaves, or the exact values themselves; tells how many.
   std::size_t errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero, Errors& errors) const;
-  FromSet from(const Normals<N>& normals) const;
+  SetDistance from(const Normals<N>& normals) const;
   /// What a hit that comes too late for the scalar says beside its miss: that it starts outside.
   static constexpr std::size_t leaves_of_late_hit = requires(A a) { a.inside; } ? 1 : 0;
 };
@@ -143,7 +143,7 @@ Bounds error_of(const N& exact, double given, Scalar scalar) {
 }
 
 template <class N, class A>
-std::size_t Outcomes<N, A>::errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero,
+std::size_t AnswerSink<N, A>::errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero,
                                       Errors& errors) const {
   std::size_t i = 0, component = 0;
   collide::for_each_leaf(a, [&](const auto& leaf, Role role) {
@@ -172,8 +172,8 @@ std::size_t Outcomes<N, A>::errors_of(const A& a, bool many_normals, std::size_t
 }
 
 template <class N, class A>
-FromSet Outcomes<N, A>::from(const Normals<N>& normals) const {
-  FromSet set;
+SetDistance AnswerSink<N, A>::from(const Normals<N>& normals) const {
+  SetDistance set;
   for (const Layout::Part& part : layout_.parts) {
     if (part.role == Role::normal) set.vectors.push_back({part.begin, ulps_from(given_vector(part.begin), normals)});
   }
@@ -181,7 +181,7 @@ FromSet Outcomes<N, A>::from(const Normals<N>& normals) const {
 }
 
 template <class N, class A>
-void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const FromSet& set) {
+void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set) {
   if constexpr (kind_of<A> == Kind::impact) {
     if (yes) {  // a time beyond the largest finite number is a miss
       const N beyond = a.time - N(largest_finite(scalar_));
@@ -204,7 +204,7 @@ void Outcomes<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::s
   }
   if (yes != about_.yes) return count(yes, errors, 0, {});
   const std::size_t given = errors_of(a, normals.many, leaves, false, errors);
-  FromSet nearest = normals.many ? from(normals) : set;
+  SetDistance nearest = normals.many ? from(normals) : set;
   if constexpr (is_enclosure<N>) include_enclosure(errors, nearest);
   count(yes, errors, given, nearest);
 }
@@ -304,7 +304,7 @@ struct Stages {
   template <class N>
   using A = typename Inputs<N>::Answer;
 
-  [[gnu::noinline]] static void run(const Inputs<Interval>& q, Outcomes<Interval, A<Interval>>& out) {
+  [[gnu::noinline]] static void run(const Inputs<Interval>& q, AnswerSink<Interval, A<Interval>>& out) {
     Algorithm::run(q, out);
   }
   static const Layout& layout() {
@@ -320,7 +320,7 @@ struct Stages {
     const Scaling scaling = Scaling::of(roles(), values);
     const IntervalScope scope;
     arithmetic_barrier();
-    Outcomes<Interval, A<Interval>> out(about, scalar, layout());
+    AnswerSink<Interval, A<Interval>> out(about, scalar, layout());
     out.measure_in(scaling);
     run(widened<Inputs<Interval>>(values, widening, scaling), out);
     arithmetic_barrier();
@@ -330,7 +330,7 @@ struct Stages {
   static Enclosure exact(std::span<const double> values, const Answer& about, Scalar scalar,
                          std::vector<Alternative>* list) {
     const FloatingPointScope standard_modes;
-    Outcomes<Exact, A<Exact>> out(about, scalar, layout());
+    AnswerSink<Exact, A<Exact>> out(about, scalar, layout());
     out.list_in(list);
     Algorithm::run(exact_inputs<Inputs<Exact>>(values), out);
     return out.result();
@@ -338,7 +338,7 @@ struct Stages {
   static bool exact_decision(std::span<const double> values, std::span<const double> by, int exponent) {
     const FloatingPointScope standard_modes;
     const Answer none{};
-    Outcomes<Exact, A<Exact>> out(none, Scalar::float64, layout());
+    AnswerSink<Exact, A<Exact>> out(none, Scalar::float64, layout());
     Algorithm::run(exact_inputs<Inputs<Exact>>(values, by, exponent), out);
     return out.result().may_be_yes;
   }

@@ -17,7 +17,7 @@ namespace nearmiss::oracle {
 
 /// The moving ball, and all points within `radius` of the segment between two ends.
 template <class N>
-struct RoundMotion {
+struct SphereAndCapsule {
   Vector<N> at, step;  // of the moving center
   N own;               // its radius
   std::array<Vector<N>, 2> end;
@@ -33,15 +33,15 @@ enum class Part { first_end, second_end, tube };
 
 /// A contact: the nearest point of the axis and what leads from there to the moving center.
 template <class N>
-struct RoundContact {
+struct CapsuleContact {
   N time;
   Vector<N> on_axis, away;
   Part part;
 };
 
 template <class N>
-struct RoundPast {
-  const RoundMotion<N>& m;
+struct CapsuleContacts {
+  const SphereAndCapsule<N>& m;
   const Vector<N> d = m.axis();
   const N length2 = norm2(d);
 
@@ -71,7 +71,7 @@ struct RoundPast {
   /// Where the center lies on the axis every normal out of it is right, with the place that it leads to. Of a fixed
   /// thing that is but its axis, all surface, only those against the motion.
   template <class Out>
-  void yes_on_axis(const RoundContact<N>& c, Normals<N> normals, Out& out) const {
+  void yes_on_axis(const CapsuleContact<N>& c, Normals<N> normals, Out& out) const {
     constexpr std::size_t location = 1, normal = 4;
     yes_to_any(NormalWithPlace<N>{std::move(normals), c.on_axis, m.radius, normal, location}, out,
                [&](const Vector<N>& n, const Vector<N>& place) -> collide::Impact<N> {
@@ -82,7 +82,7 @@ struct RoundPast {
   /// Where `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does
   /// not start there, meets no normal that leads along its motion.
   template <class Out>
-  void yes(const RoundContact<N>& c, const N& distance, bool arrives, Out& out) const {
+  void yes(const CapsuleContact<N>& c, const N& distance, bool arrives, Out& out) const {
     if (may_be_zero(distance)) {
       const bool only_against = arrives || (all_surely_zero(c.away) && surely_zero(m.radius));
       const Normals<N> out_of_axis = normals_of_axis(c.part);
@@ -110,7 +110,7 @@ struct RoundPast {
 
   /// A contact at time 0 of that part; tells whether the ball may start apart.
   template <class Out>
-  bool start(const RoundContact<N>& c, const N& distance2, Out& out) const {
+  bool start(const CapsuleContact<N>& c, const N& distance2, Out& out) const {
     const N outside = distance2 - square(m.reach());
     if (!may_be_at_most_zero(outside)) return true;
     const N leaving = inner(c.away, m.step);
@@ -137,8 +137,8 @@ struct RoundPast {
     const N s = share(from[0]);
     const Vector<N> away = minus(from[0], times(d, s));
     N distance2 = norm2(away);
-    if (!may_be_zero(length2)) distance2 = meet(distance2, N(norm2(outer(from[0], d)) / length2));
-    const RoundContact<N> c{N(0), plus(m.end[0], times(d, s)), away, Part::tube};
+    if (!may_be_zero(length2)) distance2 = meet(distance2, N(norm2(cross(from[0], d)) / length2));
+    const CapsuleContact<N> c{N(0), plus(m.end[0], times(d, s)), away, Part::tube};
     return start(c, distance2, out) || may_start_apart;
   }
 
@@ -172,7 +172,7 @@ struct RoundPast {
 
   /// The contacts that may be the first, and a time by which the ball surely reaches the fixed thing.
   struct Roots {
-    std::vector<RoundContact<N>> list;
+    std::vector<CapsuleContact<N>> list;
     double surely_by = std::numeric_limits<double>::infinity();
   };
 
@@ -180,7 +180,7 @@ struct RoundPast {
     const Vector<N> from = minus(m.at, m.end[i]);
     const N closing = -inner(from, m.step), speed2 = norm2(m.step);
     if (!may_be_positive(closing)) return;
-    const N discriminant = speed2 * square(m.reach()) - norm2(outer(from, m.step));
+    const N discriminant = speed2 * square(m.reach()) - norm2(cross(from, m.step));
     const N outside = norm2(from) - square(m.reach());
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     if (!earlier_root(speed2, closing, outside, root(discriminant), time)) return;
@@ -193,13 +193,13 @@ struct RoundPast {
     const Vector<N> from = minus(m.at, m.end[0]);
     if constexpr (is_enclosure<N>) {  // the tube lies in a ball about an end; tells something of short ones alone
       const N reach = m.reach() + root(length2);
-      const Window near = times_within(from, m.step, square(reach), norm2(outer(from, m.step)));
+      const Window near = times_within(from, m.step, square(reach), norm2(cross(from, m.step)));
       if (near.empty() || !narrow(time, N(near.from, near.to))) return;
     }
-    const Vector<N> from_d = outer(from, d), step_d = outer(m.step, d);
+    const Vector<N> from_d = cross(from, d), step_d = cross(m.step, d);
     const N closing = -inner(from_d, step_d), a = norm2(step_d);
     if (!may_be_positive(closing)) return;
-    const N discriminant = length2 * (a * square(m.reach()) - square(inner(d, outer(from, m.step))));
+    const N discriminant = length2 * (a * square(m.reach()) - square(inner(d, cross(from, m.step))));
     const N outside = norm2(from_d) - square(m.reach()) * length2;
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     const N half = root(discriminant);
@@ -214,7 +214,7 @@ struct RoundPast {
     if (!place_of(time, from, center)) return;
     if (!may_belong_to_tube(center, minus(center, d))) return;
     const N s = share(center);
-    RoundContact<N> c{time, plus(m.end[0], times(d, s)), minus(center, times(d, s)), Part::tube};
+    CapsuleContact<N> c{time, plus(m.end[0], times(d, s)), minus(center, times(d, s)), Part::tube};
     if (!narrow_to_reach(c.away)) return;
     if constexpr (is_enclosure<N>) {
       if (!may_be_zero(length2) && !narrow_about_middle(c, s)) return;
@@ -235,7 +235,7 @@ struct RoundPast {
   }
 
   /// The same about a fixed time and a fixed share of the second end; false where nothing is left.
-  bool narrow_about_middle(RoundContact<N>& c, const N& s) const {
+  bool narrow_about_middle(CapsuleContact<N>& c, const N& s) const {
     if constexpr (is_enclosure<N>) {
       if (!is_moderate(m.at) || !is_moderate(m.step) || !is_moderate(m.end[0]) || !is_moderate(m.end[1])) return true;
       if (!is_moderate(c.time) || !is_moderate(N(N(1) / length2))) return true;
@@ -275,7 +275,7 @@ struct RoundPast {
   }
 
   template <class Belongs>
-  void add(RoundContact<N> c, const Vector<N>& step, std::vector<RoundContact<N>>& roots, Belongs belongs) const {
+  void add(CapsuleContact<N> c, const Vector<N>& step, std::vector<CapsuleContact<N>>& roots, Belongs belongs) const {
     if constexpr (is_enclosure<N>) {
       if (c.time.sup() < std::numeric_limits<double>::infinity()) {
         c.away = plus(c.away, times(step, c.time));
@@ -298,8 +298,8 @@ struct RoundPast {
     root_of_end(1, Part::second_end, time, found);
     if (may_be_positive(length2)) root_of_tube(time, found);
     if constexpr (is_enclosure<N>) {
-      std::erase_if(found.list, [&](const RoundContact<N>& c) { return c.time.inf() > found.surely_by; });
-      for (RoundContact<N>& c : found.list) c.time = N(c.time.inf(), std::min(c.time.sup(), found.surely_by));
+      std::erase_if(found.list, [&](const CapsuleContact<N>& c) { return c.time.inf() > found.surely_by; });
+      for (CapsuleContact<N>& c : found.list) c.time = N(c.time.inf(), std::min(c.time.sup(), found.surely_by));
     }
     return found;
   }
@@ -338,13 +338,13 @@ struct RoundPast {
 
 /// All right answers about the ball and the fixed thing.
 template <class N, class Out>
-void report_first_contact(const RoundMotion<N>& m, Out& out) {
-  const RoundPast<N> past{m};
+void report_first_contact(const SphereAndCapsule<N>& m, Out& out) {
+  const CapsuleContacts<N> past{m};
   if (!past.start(out)) return;
   const auto roots = past.roots();
-  for (const RoundContact<N>& c : roots.list) {
+  for (const CapsuleContact<N>& c : roots.list) {
     const bool later = std::any_of(roots.list.begin(), roots.list.end(),
-                                   [&](const RoundContact<N>& other) { return may_be_less(other.time, c.time); });
+                                   [&](const CapsuleContact<N>& other) { return may_be_less(other.time, c.time); });
     if (is_enclosure<N> || !later) past.yes(c, m.reach(), true, out);
   }
   if (!out.result().may_be_yes) return out.no();

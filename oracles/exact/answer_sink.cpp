@@ -1,4 +1,4 @@
-#include "oracles/exact/outcomes.hpp"
+#include "oracles/exact/answer_sink.hpp"
 
 #include <mpfr.h>
 
@@ -93,7 +93,7 @@ Bounds bounds(const Exact& x) {
   return value.around(value);
 }
 
-Tally::Tally(const Answer& about, Scalar scalar, const Layout& layout)
+EnclosureAccumulator::EnclosureAccumulator(const Answer& about, Scalar scalar, const Layout& layout)
     : about_(about), scalar_(scalar), layout_(layout) {
   constexpr long double most_from_unit = 0.5L;  // a vector that is further off is compared as it is given
   for (const Layout::Part& part : layout.parts) {
@@ -111,16 +111,16 @@ Tally::Tally(const Answer& about, Scalar scalar, const Layout& layout)
   }
 }
 
-FromSet Tally::without_units(FromSet set) const {
+SetDistance EnclosureAccumulator::without_units(SetDistance set) const {
   constexpr Bounds anything{0, HUGE_VAL};
   if (!set.vectors.empty()) set.together = anything;
-  for (FromSet::Of& of : set.vectors) {
+  for (SetDistance::Part& of : set.vectors) {
     if (part_at(of.begin).role != Role::normal) of.ulps = anything;
   }
   return set;
 }
 
-void Tally::count_everything() {
+void EnclosureAccumulator::count_everything() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   result_.may_be_yes = result_.may_be_no = result_.may_match = true;
   result_.error.fill({-infinity, infinity});
@@ -130,7 +130,7 @@ void Tally::count_everything() {
 }
 
 /// How far one member of the given answer is from that of an exact one, in ulps of it.
-struct Tally::Distance {
+struct EnclosureAccumulator::Distance {
   double least = 0, most = 0;
   double absolute = 0;  ///< the least, not in ulps
   int number = -1;      ///< which number is so far off
@@ -144,7 +144,7 @@ struct Tally::Distance {
 
 /// A normal is as near as it is given, or as its direction is: its length is judged on its own. One that has no
 /// direction is no normal, wherever the right ones may point.
-Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& errors) const {
+EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors) const {
   const double unit = unit_of(about_, part, errors.of, scalar_);
   Distance as_given, of_direction;
   for (std::size_t i = part.begin; i < part.end; ++i) {
@@ -160,13 +160,13 @@ Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& error
   return nearer ? of_direction : as_given;
 }
 
-const Layout::Part& Tally::part_at(std::size_t number) const {
+const Layout::Part& EnclosureAccumulator::part_at(std::size_t number) const {
   return *std::find_if(layout_.parts.begin(), layout_.parts.end(),
                        [&](const Layout::Part& p) { return number < p.end; });
 }
 
-void Tally::include_enclosure(const Errors& errors, FromSet& set) const {
-  for (FromSet::Of& of : set.vectors) {
+void EnclosureAccumulator::include_enclosure(const Errors& errors, SetDistance& set) const {
+  for (SetDistance::Part& of : set.vectors) {
     const Layout::Part& part = part_at(of.begin);
     if (part.role == Role::normal) continue;
     const double least = distance_of(part, errors).least;
@@ -176,7 +176,7 @@ void Tally::include_enclosure(const Errors& errors, FromSet& set) const {
 }
 
 /// Of a vector that belongs to a set; the number is the one that a member is furthest from.
-Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& errors, const Bounds& ulps) const {
+EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors, const Bounds& ulps) const {
   double largest = 0;
   std::size_t furthest = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
@@ -187,24 +187,24 @@ Tally::Distance Tally::distance_of(const Layout::Part& part, const Errors& error
   return {ulps.low, ulps.high, ulps.low * least_unit, int(furthest)};
 }
 
-std::vector<GivenVector> Tally::given_vector(std::size_t begin) const {
+std::vector<GivenVector> EnclosureAccumulator::given_vector(std::size_t begin) const {
   GivenVector g;
   g.scalar = scalar_;
-  for (std::size_t k = 0; k < 3; ++k) g.high[k] = about_.values[begin + k], g.told[k] = about_.gives(begin + k);
+  for (std::size_t k = 0; k < 3; ++k) g.high[k] = about_.values[begin + k], g.given[k] = about_.gives(begin + k);
   const bool is_normal = std::any_of(layout_.parts.begin(), layout_.parts.end(), [&](const Layout::Part& part) {
     return part.begin == begin && part.role == Role::normal;
   });
   if (!is_normal || !unit_normal_.known) return {g};
-  return {g, {unit_normal_.high, unit_normal_.low, g.told, direction_slack, scalar_}};
+  return {g, {unit_normal_.high, unit_normal_.low, g.given, direction_slack, scalar_}};
 }
 
-void Tally::count_member(std::size_t member, const Distance& d) {
+void EnclosureAccumulator::count_member(std::size_t member, const Distance& d) {
   Enclosure::Member& m = result_.members[member];
   if (d.least <= 1) m.may_match = true;
   if (m.number < 0 || d.least < m.ulps) m.ulps = d.least, m.absolute = d.absolute, m.number = d.number;
 }
 
-void Tally::count(bool yes, const Errors& errors, std::size_t given, const FromSet& set) {
+void EnclosureAccumulator::count(bool yes, const Errors& errors, std::size_t given, const SetDistance& set) {
   (yes ? result_.may_be_yes : result_.may_be_no) = true;
   if (yes != about_.yes) return;
   Distance worst;
@@ -224,7 +224,7 @@ void Tally::count(bool yes, const Errors& errors, std::size_t given, const FromS
     }
     for (std::size_t i = part.begin; i < part.end; ++i) result_.error[i].include(errors.of[i]);
     const auto of = std::find_if(set.vectors.begin(), set.vectors.end(),
-                                 [&](const FromSet::Of& v) { return v.begin == part.begin; });
+                                 [&](const SetDistance::Part& v) { return v.begin == part.begin; });
     const bool in_set = of != set.vectors.end() && about_.gives(part.begin);
     const Distance d = in_set ? distance_of(part, errors, of->ulps) : distance_of(part, errors);
     count_member(p, d);

@@ -50,7 +50,7 @@ struct VectorField {
 
 /// A top-level member of the inputs: a shape, a point, a velocity. Indices into the values, and of
 /// vectors their index in Plan::vectors.
-struct Thing {
+struct Operand {
   std::string name;
   std::vector<std::size_t> positions;
   std::vector<std::size_t> sizes;
@@ -67,7 +67,7 @@ struct Plan {
   std::vector<std::size_t> sizes;      ///< each number
   std::vector<std::size_t> upper;      ///< each number of an axis-aligned box's upper corner
   std::vector<std::size_t> lone;       ///< numbers of no vector, size or rotation: times, flags, indices
-  std::vector<Thing> things;           ///< those with a position, in order
+  std::vector<Operand> operands;           ///< those with a position, in order
   std::vector<std::size_t> positions, velocities, directions, movable;  ///< into vectors; movable: all three
   std::array<std::vector<std::size_t>, 16> numbers;                     ///< by role
 };
@@ -77,9 +77,9 @@ struct Plan {
 double rounded_to(Scalar scalar, double x);
 
 /// The numbers of a case in the making. Whatever is set is rounded to the scalar.
-class Draft {
+class CaseBuilder {
  public:
-  Draft(const Plan& p, Scalar s, Random& r, std::span<double> values)
+  CaseBuilder(const Plan& p, Scalar s, Random& r, std::span<double> values)
       : plan(p), scalar(s), random(r), values_(values) {}
 
   const Plan& plan;
@@ -124,14 +124,14 @@ class Draft {
 };
 
 /// Fills the draft with a scene: smooth numbers, shapes near each other, velocities that aim.
-void draw_scene(Draft& draft);
+void draw_scene(CaseBuilder& builder);
 
 /// An entry of the table of moves. False: it does not apply to this query, nothing was changed.
-struct Move {
+struct Mutator {
   std::string_view name, what;
-  bool (*apply)(Draft& draft);
+  bool (*apply)(CaseBuilder& builder);
   bool extreme = false;  ///< leaves moderate magnitudes; the last ones of the table
 };
-std::span<const Move> moves();
+std::span<const Mutator> mutators();
 
 }  // namespace nearmiss

@@ -1,20 +1,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/draft.hpp"
+#include "corpus/case_builder.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Numbers = Draft::Numbers;
+using Numbers = CaseBuilder::Numbers;
 
 Numbers difference(const Numbers& a, const Numbers& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 // Whole scenes.
 
 /// Rounds every number to a multiple of `step` units and sets the unit to `unit`.
-void to_grid(Draft& d, double step, double unit) {
+void to_grid(CaseBuilder& d, double step, double unit) {
   const auto onto = [&](std::size_t i, double cell, double out) { d.set(i, std::nearbyint(d[i] / cell) * out); };
   for (Role role : {Role::position, Role::velocity, Role::size}) {
     for (std::size_t i : d.plan.numbers[std::size_t(role)]) onto(i, step * d.unit, step * unit);
@@ -26,7 +26,7 @@ void to_grid(Draft& d, double step, double unit) {
   d.repair();
 }
 
-bool small_lattice(Draft& d) {
+bool small_lattice(CaseBuilder& d) {
   to_grid(d, 0.5, 2);
   for (std::size_t begin : d.plan.rotations) {
     for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, std::nearbyint(2 * d[begin + k]));
@@ -35,21 +35,21 @@ bool small_lattice(Draft& d) {
   return true;
 }
 
-bool dyadic_grid(Draft& d) {
+bool dyadic_grid(CaseBuilder& d) {
   to_grid(d, d.random.power_of_two(-6, -2), d.unit);
   return true;
 }
 
 // Vectors and their numbers.
 
-bool equal_vectors(Draft& d) {
+bool equal_vectors(CaseBuilder& d) {
   if (d.plan.positions.size() < 2) return false;
   const auto [to, from] = d.two_of(d.plan.positions);
   d.set_vector(to, d.vector(from));
   return true;
 }
 
-bool shared_coordinate(Draft& d) {
+bool shared_coordinate(CaseBuilder& d) {
   if (d.plan.positions.size() < 2) return false;
   const auto [to, from] = d.two_of(d.plan.positions);
   const std::size_t k = d.random.below(3);
@@ -57,7 +57,7 @@ bool shared_coordinate(Draft& d) {
   return true;
 }
 
-bool zero_component(Draft& d) {
+bool zero_component(CaseBuilder& d) {
   if (d.plan.movable.empty()) return false;
   const std::size_t begin = d.plan.vectors[d.random.pick(d.plan.movable)].begin;
   d.set(begin + d.random.below(3), 0);
@@ -66,7 +66,7 @@ bool zero_component(Draft& d) {
 }
 
 /// On the segment or in the plane of other positions; exactly so where nothing is rounded.
-bool between_positions(Draft& d) {
+bool between_positions(CaseBuilder& d) {
   const auto& list = d.plan.positions;
   if (list.size() < 3) return false;
   const auto [to, from] = d.two_of(list);
@@ -81,22 +81,22 @@ bool between_positions(Draft& d) {
 }
 
 /// 1e-16 ... 1e-2, and its sign.
-double tiny(Draft& d, int least = 2, int most = 16) {
+double tiny(CaseBuilder& d, int least = 2, int most = 16) {
   double x = d.random.sign();
   for (int i = d.random.between(least, most); i > 0; --i) x /= 10;
   return x;
 }
 
 /// Three corners nearly on a line.
-bool sliver(Draft& d) {
-  for (const Thing& thing : d.plan.things) {
-    if (thing.positions.size() < 3) continue;
+bool sliver(CaseBuilder& d) {
+  for (const Operand& operand : d.plan.operands) {
+    if (operand.positions.size() < 3) continue;
     const std::size_t at = d.random.below(3);
-    const Numbers a = d.vector(thing.positions[(at + 1) % 3]), b = d.vector(thing.positions[(at + 2) % 3]);
+    const Numbers a = d.vector(operand.positions[(at + 1) % 3]), b = d.vector(operand.positions[(at + 2) % 3]);
     const double weight = 0.125 * d.random.between(-2, 10), off = tiny(d, 1) * d.unit;
     Numbers corner;
     for (std::size_t k = 0; k < 3; ++k) corner[k] = a[k] + weight * (b[k] - a[k]) + off * d.random.uniform(-1, 1);
-    d.set_vector(thing.positions[at], corner);
+    d.set_vector(operand.positions[at], corner);
     return true;
   }
   return false;
@@ -105,10 +105,10 @@ bool sliver(Draft& d) {
 // Whole things.
 
 /// Two things made of the same members are the same set.
-bool coincident_things(Draft& d) {
-  const auto& things = d.plan.things;
-  for (std::size_t i = 0; i + 1 < things.size(); ++i) {
-    const Thing &a = things[i], &b = things[i + 1];
+bool coincident_things(CaseBuilder& d) {
+  const auto& operands = d.plan.operands;
+  for (std::size_t i = 0; i + 1 < operands.size(); ++i) {
+    const Operand &a = operands[i], &b = operands[i + 1];
     if (a.positions.size() != b.positions.size() || a.sizes.size() != b.sizes.size() || a.sizes.empty()) continue;
     for (std::size_t k = 0; k < a.positions.size(); ++k) d.set_vector(b.positions[k], d.vector(a.positions[k]));
     for (std::size_t k = 0; k < a.sizes.size(); ++k) d.set(b.sizes[k], d[a.sizes[k]]);
@@ -121,11 +121,11 @@ bool coincident_things(Draft& d) {
 }
 
 /// One thing deep inside of another that has a size.
-bool contained(Draft& d) {
-  const auto& things = d.plan.things;
-  if (things.size() < 2 || d.random.one_in(2)) return false;  // half as often: nearly all of them are hits
-  const std::size_t outer = d.random.below(things.size());
-  const Thing &around = things[outer], &small = things[outer == 0 ? 1 : 0];
+bool contained(CaseBuilder& d) {
+  const auto& operands = d.plan.operands;
+  if (operands.size() < 2 || d.random.one_in(2)) return false;  // half as often: nearly all of them are hits
+  const std::size_t outer = d.random.below(operands.size());
+  const Operand &around = operands[outer], &small = operands[outer == 0 ? 1 : 0];
   if (around.sizes.empty()) return false;
   double least = HUGE_VAL;
   for (std::size_t i : around.sizes) least = std::min(least, d[i]);
@@ -141,27 +141,27 @@ bool contained(Draft& d) {
 
 // Sizes.
 
-bool zero_size(Draft& d) {
+bool zero_size(CaseBuilder& d) {
   if (d.plan.sizes.empty()) return false;
   d.set(d.random.pick(d.plan.sizes), 0);
   return true;
 }
 
-bool all_sizes_zero(Draft& d) {
-  if (d.plan.things.empty()) return false;
-  const Thing& thing = d.random.pick(d.plan.things);
-  for (std::size_t i : thing.sizes) d.set(i, 0);
-  return !thing.sizes.empty();
+bool all_sizes_zero(CaseBuilder& d) {
+  if (d.plan.operands.empty()) return false;
+  const Operand& operand = d.random.pick(d.plan.operands);
+  for (std::size_t i : operand.sizes) d.set(i, 0);
+  return !operand.sizes.empty();
 }
 
-bool equal_sizes(Draft& d) {
+bool equal_sizes(CaseBuilder& d) {
   if (d.plan.sizes.size() < 2) return false;
   const auto [to, from] = d.two_of(d.plan.sizes);
   d.set(to, d[from]);
   return true;
 }
 
-bool size_ratio(Draft& d) {
+bool size_ratio(CaseBuilder& d) {
   if (d.plan.sizes.empty()) return false;
   const int orders = d.random.between(1, d.orders(12, 40));  // 40: 1e12
   const double factor = std::ldexp(1.0, d.random.one_in(2) ? orders : -orders);
@@ -171,13 +171,13 @@ bool size_ratio(Draft& d) {
 
 // Velocities and directions.
 
-bool zero_velocity(Draft& d) {
+bool zero_velocity(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
   d.set_vector(d.random.pick(d.plan.velocities), {0, 0, 0});
   return true;
 }
 
-bool axis_velocity(Draft& d) {
+bool axis_velocity(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
   const std::size_t v = d.random.pick(d.plan.velocities);
   const std::size_t k = d.random.below(3);
@@ -187,7 +187,7 @@ bool axis_velocity(Draft& d) {
   return true;
 }
 
-bool scaled_velocity(Draft& d) {
+bool scaled_velocity(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
   const double factor = d.random.power_of_two(-d.orders(8, 30), d.orders(8, 30));
   const std::size_t begin = d.plan.vectors[d.random.pick(d.plan.velocities)].begin;
@@ -195,7 +195,7 @@ bool scaled_velocity(Draft& d) {
   return true;
 }
 
-bool aimed_at_position(Draft& d) {
+bool aimed_at_position(CaseBuilder& d) {
   if (d.plan.velocities.empty() || d.plan.positions.size() < 2) return false;
   const auto& list = d.plan.positions;
   Numbers along = difference(d.vector(list[1 + d.random.below(list.size() - 1)]), d.vector(list[0]));
@@ -206,10 +206,10 @@ bool aimed_at_position(Draft& d) {
 }
 
 /// Motion straight at a corner of an upright box, or at a place on its edge.
-bool aimed_at_corner(Draft& d) {
+bool aimed_at_corner(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
-  const Thing* box = nullptr;
-  for (const Thing& t : d.plan.things) {
+  const Operand* box = nullptr;
+  for (const Operand& t : d.plan.operands) {
     if (t.sizes.size() == 3) box = &t;
   }
   if (box == nullptr || d.plan.positions.empty()) return false;
@@ -229,7 +229,7 @@ bool aimed_at_corner(Draft& d) {
 }
 
 /// A vector that means a direction: another velocity or direction, or from one position to another.
-bool some_direction(Draft& d, std::size_t but, Numbers& out) {
+bool some_direction(CaseBuilder& d, std::size_t but, Numbers& out) {
   const auto& list = d.plan.movable;
   const std::size_t v = list[d.random.below(list.size())];
   if (d.plan.vectors[v].role != Role::position) {
@@ -244,7 +244,7 @@ bool some_direction(Draft& d, std::size_t but, Numbers& out) {
 
 /// Picks a velocity or direction and hands it, with some other direction, to `make`.
 template <class Make>
-bool direct(Draft& d, Make make) {
+bool direct(CaseBuilder& d, Make make) {
   const std::size_t velocities = d.plan.velocities.size(), all = velocities + d.plan.directions.size();
   if (all == 0) return false;
   const std::size_t k = d.random.below(all);
@@ -258,14 +258,14 @@ bool direct(Draft& d, Make make) {
 
 Numbers scaled(const Numbers& x, double factor) { return {factor * x[0], factor * x[1], factor * x[2]}; }
 
-bool parallel(Draft& d) {
+bool parallel(CaseBuilder& d) {
   return direct(d, [&](const Numbers& x) { return scaled(x, d.random.power_of_two(-2, 2)); });
 }
-bool antiparallel(Draft& d) {
+bool antiparallel(CaseBuilder& d) {
   return direct(d, [&](const Numbers& x) { return scaled(x, -d.random.power_of_two(-2, 2)); });
 }
 /// Parallel or antiparallel but for 1e-16 ... 1e-2 radians.
-bool near_parallel(Draft& d) {
+bool near_parallel(CaseBuilder& d) {
   return direct(d, [&](const Numbers& x) {
     Numbers along = scaled(x, d.random.sign() * d.random.power_of_two(-2, 2));
     const double angle = tiny(d), length = std::max({std::abs(along[0]), std::abs(along[1]), std::abs(along[2])});
@@ -273,7 +273,7 @@ bool near_parallel(Draft& d) {
     return along;
   });
 }
-bool orthogonal(Draft& d) {
+bool orthogonal(CaseBuilder& d) {
   return direct(d, [&](const Numbers& x) {
     const std::size_t i = d.random.below(3), j = (i + 1) % 3;
     Numbers turned{};
@@ -285,7 +285,7 @@ bool orthogonal(Draft& d) {
 
 // Rotations.
 
-bool axis_rotation(Draft& d) {
+bool axis_rotation(CaseBuilder& d) {
   if (d.plan.rotations.empty()) return false;
   const std::size_t begin = d.random.pick(d.plan.rotations);
   const std::size_t first = d.random.one_in(2) ? 3 : d.random.below(4);
@@ -298,7 +298,7 @@ bool axis_rotation(Draft& d) {
 }
 
 /// A turn by an angle with rational sine and cosine, as 3/5 and 4/5, and lengths that stay whole in the turned frame.
-bool pythagorean_rotation(Draft& d) {
+bool pythagorean_rotation(CaseBuilder& d) {
   if (d.plan.rotations.empty()) return false;
   constexpr int halves[][2] = {{1, 2}, {1, 3}, {2, 3}, {1, 4}, {3, 4}};  // tangents of half the angle
   const auto& [n, m] = halves[d.random.below(std::size(halves))];
@@ -311,7 +311,7 @@ bool pythagorean_rotation(Draft& d) {
 }
 
 /// A right angle as programs write it: with the rounded sine and cosine of half of it.
-bool rounded_right_angle(Draft& d) {
+bool rounded_right_angle(CaseBuilder& d) {
   if (d.plan.rotations.empty()) return false;
   const std::size_t begin = d.random.pick(d.plan.rotations), axis = d.random.below(3);
   constexpr double pi = 3.14159265358979323846;
@@ -321,14 +321,14 @@ bool rounded_right_angle(Draft& d) {
   return true;
 }
 
-bool identity_rotation(Draft& d) {
+bool identity_rotation(CaseBuilder& d) {
   for (std::size_t begin : d.plan.rotations) {
     for (std::size_t k = 0; k < 4; ++k) d.set(begin + k, k == 3 ? 1 : 0);
   }
   return !d.plan.rotations.empty();
 }
 
-bool scaled_rotation(Draft& d) {
+bool scaled_rotation(CaseBuilder& d) {
   if (d.plan.rotations.empty()) return false;
   const std::size_t begin = d.random.pick(d.plan.rotations);
   const double factor = d.random.one_in(2) ? d.random.power_of_two(-4, 4) : d.random.uniform(0.25, 4);
@@ -338,13 +338,13 @@ bool scaled_rotation(Draft& d) {
 }
 
 /// 1e-3 ... 1e-16.
-double small_angle(Draft& d) {
+double small_angle(CaseBuilder& d) {
   double angle = d.random.sign();
   for (int i = d.random.between(3, 16); i > 0; --i) angle /= 10;
   return angle;
 }
 
-bool near_axis_rotation(Draft& d) {
+bool near_axis_rotation(CaseBuilder& d) {
   if (!axis_rotation(d)) return false;
   for (std::size_t begin : d.plan.rotations) {
     const std::size_t k = begin + d.random.below(4);
@@ -354,7 +354,7 @@ bool near_axis_rotation(Draft& d) {
   return true;
 }
 
-bool equal_rotations(Draft& d) {
+bool equal_rotations(CaseBuilder& d) {
   if (d.plan.rotations.size() < 2) return false;
   const auto [to, from] = d.two_of(d.plan.rotations);
   const double sign = d.random.sign();
@@ -363,7 +363,7 @@ bool equal_rotations(Draft& d) {
   return true;
 }
 
-bool near_equal_rotations(Draft& d) {
+bool near_equal_rotations(CaseBuilder& d) {
   if (!equal_rotations(d)) return false;
   const std::size_t begin = d.random.pick(d.plan.rotations);
   const std::size_t k = begin + d.random.below(4);
@@ -375,24 +375,24 @@ bool near_equal_rotations(Draft& d) {
 // Touches.
 
 /// Two things that have positions, one of them with a size.
-bool touching_pair(Draft& d, const Thing*& a, const Thing*& b) {
-  const auto& things = d.plan.things;
-  if (things.size() < 2) return false;
-  const std::size_t first = d.random.below(things.size());
-  a = &things[first];
-  b = &things[(first + 1 + d.random.below(things.size() - 1)) % things.size()];
+bool touching_pair(CaseBuilder& d, const Operand*& a, const Operand*& b) {
+  const auto& operands = d.plan.operands;
+  if (operands.size() < 2) return false;
+  const std::size_t first = d.random.below(operands.size());
+  a = &operands[first];
+  b = &operands[(first + 1 + d.random.below(operands.size() - 1)) % operands.size()];
   if (a->sizes.empty()) std::swap(a, b);
   return !a->sizes.empty();
 }
 
 /// How far the thing reaches along axis k when it is a sphere or a box that stands upright.
-double reach_along(const Draft& d, const Thing& thing, std::size_t k) {
-  if (thing.sizes.empty()) return 0;
-  return d[thing.sizes[thing.sizes.size() == 3 ? k : 0]];
+double reach_along(const CaseBuilder& d, const Operand& operand, std::size_t k) {
+  if (operand.sizes.empty()) return 0;
+  return d[operand.sizes[operand.sizes.size() == 3 ? k : 0]];
 }
 
-bool touch_by_size(Draft& d) {
-  const Thing *a = nullptr, *b = nullptr;
+bool touch_by_size(CaseBuilder& d) {
+  const Operand *a = nullptr, *b = nullptr;
   if (!touching_pair(d, a, b)) return false;
   const std::size_t k = d.random.below(3);
   const double from = d.vector(d.random.pick(a->positions))[k];
@@ -403,8 +403,8 @@ bool touch_by_size(Draft& d) {
   return true;
 }
 
-bool touch_by_position(Draft& d) {
-  const Thing *a = nullptr, *b = nullptr;
+bool touch_by_position(CaseBuilder& d) {
+  const Operand *a = nullptr, *b = nullptr;
   if (!touching_pair(d, a, b)) return false;
   const std::size_t k = d.random.below(3);
   const Numbers from = d.vector(d.random.pick(b->positions));
@@ -421,12 +421,12 @@ constexpr int whole_diagonals[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7},   {1, 4, 8, 9}
 
 /// A round thing touches an edge or a vertex of another one, or another round thing, off every axis and yet exactly:
 /// its radius is the whole diagonal of a box with whole sides. A box stands upright.
-bool touch_at_edge_or_vertex(Draft& d) {
-  const auto& things = d.plan.things;
-  if (things.size() < 2) return false;
-  const std::size_t first = d.random.below(things.size());
-  const Thing& round = things[first];
-  const Thing& other = things[(first + 1 + d.random.below(things.size() - 1)) % things.size()];
+bool touch_at_edge_or_vertex(CaseBuilder& d) {
+  const auto& operands = d.plan.operands;
+  if (operands.size() < 2) return false;
+  const std::size_t first = d.random.below(operands.size());
+  const Operand& round = operands[first];
+  const Operand& other = operands[(first + 1 + d.random.below(operands.size() - 1)) % operands.size()];
   if (round.sizes.size() != 1) return false;
   const auto& sides = whole_diagonals[d.random.below(std::size(whole_diagonals))];
   const std::size_t turn = d.random.below(3);
@@ -454,9 +454,9 @@ bool touch_at_edge_or_vertex(Draft& d) {
 }
 
 /// Two upright boxes whose half diagonals are whole, as far apart as both together.
-bool touch_by_diagonals(Draft& d) {
-  std::vector<const Thing*> boxes;
-  for (const Thing& t : d.plan.things) {
+bool touch_by_diagonals(CaseBuilder& d) {
+  std::vector<const Operand*> boxes;
+  for (const Operand& t : d.plan.operands) {
     if (t.sizes.size() == 3) boxes.push_back(&t);
   }
   if (boxes.size() < 2) return false;
@@ -475,12 +475,12 @@ bool touch_by_diagonals(Draft& d) {
 
 /// A thing with several positions becomes its own mirror image, in the plane through another thing across an axis: what
 /// stays in that plane is as near to both halves.
-bool mirrored(Draft& d) {
-  const auto& things = d.plan.things;
-  if (things.size() < 2) return false;
-  const std::size_t first = d.random.below(things.size());
-  const Thing& shape = things[first];
-  const Thing& seen = things[(first + 1 + d.random.below(things.size() - 1)) % things.size()];
+bool mirrored(CaseBuilder& d) {
+  const auto& operands = d.plan.operands;
+  if (operands.size() < 2) return false;
+  const std::size_t first = d.random.below(operands.size());
+  const Operand& shape = operands[first];
+  const Operand& seen = operands[(first + 1 + d.random.below(operands.size() - 1)) % operands.size()];
   const std::size_t count = shape.positions.size(), k = d.random.below(3);
   if (count < 2) return false;
   const double plane = d.vector(seen.positions.front())[k];
@@ -511,15 +511,15 @@ bool mirrored(Draft& d) {
 }
 
 /// A plane at a right angle to an axis touches a thing, from either side; a box that it touches stands upright.
-bool touch_by_plane(Draft& d) {
+bool touch_by_plane(CaseBuilder& d) {
   const auto& offsets = d.plan.numbers[std::size_t(Role::offset)];
-  if (offsets.empty() || d.plan.things.empty()) return false;
+  if (offsets.empty() || d.plan.operands.empty()) return false;
   const std::size_t at = d.random.pick(offsets), k = d.random.below(3);  // its normal are the three numbers before
-  const Thing& thing = d.random.pick(d.plan.things);
-  if (thing.sizes.size() == 3) identity_rotation(d);
+  const Operand& operand = d.random.pick(d.plan.operands);
+  if (operand.sizes.size() == 3) identity_rotation(d);
   const double length = d.random.power_of_two(-1, 1), side = d.random.sign(), over = d.random.sign();
   for (std::size_t i = 0; i < 3; ++i) d.set(at - 3 + i, i == k ? side * length : 0.0);
-  const double reached = d.vector(d.random.pick(thing.positions))[k] + over * reach_along(d, thing, k);
+  const double reached = d.vector(d.random.pick(operand.positions))[k] + over * reach_along(d, operand, k);
   d.set(at, -side * length * reached);
   return true;
 }
@@ -527,10 +527,10 @@ bool touch_by_plane(Draft& d) {
 /// The first thing touches another along an axis; its motion there is set by `make` from the axis and the side on
 /// which it stands.
 template <class Make>
-bool touch_and_move(Draft& d, Make make) {
-  const auto& things = d.plan.things;
-  if (d.plan.velocities.empty() || things.size() < 2) return false;
-  const Thing &a = things[0], &b = things[1 + d.random.below(things.size() - 1)];
+bool touch_and_move(CaseBuilder& d, Make make) {
+  const auto& operands = d.plan.operands;
+  if (d.plan.velocities.empty() || operands.size() < 2) return false;
+  const Operand &a = operands[0], &b = operands[1 + d.random.below(operands.size() - 1)];
   const std::size_t k = d.random.below(3);
   const double side = d.random.sign();
   Numbers at = d.vector(d.random.pick(b.positions));
@@ -544,7 +544,7 @@ bool touch_and_move(Draft& d, Make make) {
 }
 
 /// Motion along a touching face, from the touch on or from before it.
-bool grazing(Draft& d) {
+bool grazing(CaseBuilder& d) {
   return touch_and_move(d, [&](std::size_t k, double, Numbers& at, Numbers& velocity) {
     velocity[k] = 0;
     if (d.random.one_in(2)) return;
@@ -554,7 +554,7 @@ bool grazing(Draft& d) {
 }
 
 /// Straight against a face or away from it, from the touch on or from before it.
-bool head_on(Draft& d) {
+bool head_on(CaseBuilder& d) {
   return touch_and_move(d, [&](std::size_t k, double side, Numbers& at, Numbers& velocity) {
     const double speed = velocity[k] == 0 ? d.unit : std::abs(velocity[k]);
     velocity = {};
@@ -565,7 +565,7 @@ bool head_on(Draft& d) {
 
 // Transforms of everything.
 
-bool far_offset(Draft& d) {
+bool far_offset(CaseBuilder& d) {
   if (d.plan.positions.empty()) return false;
   Numbers offset;
   for (double& x : offset) {
@@ -580,7 +580,7 @@ bool far_offset(Draft& d) {
   return true;
 }
 
-bool scaled_lengths(Draft& d) {
+bool scaled_lengths(CaseBuilder& d) {
   const double factor = d.random.power_of_two(-d.orders(8, 30), d.orders(8, 30));
   for (Role role : {Role::position, Role::velocity, Role::size}) {
     for (std::size_t i : d.plan.numbers[std::size_t(role)]) d.scale(i, factor);
@@ -588,7 +588,7 @@ bool scaled_lengths(Draft& d) {
   return true;
 }
 
-bool ulp_nudge(Draft& d) {
+bool ulp_nudge(CaseBuilder& d) {
   const std::size_t count = d.plan.query->inputs.size();
   bool any = false;
   for (int i = d.random.between(1, 3); i > 0; --i) {
@@ -604,14 +604,14 @@ bool ulp_nudge(Draft& d) {
 }
 
 /// A number that may have any value: of a position, velocity, direction or rotation.
-bool some_signed_number(Draft& d, std::size_t& at) {
+bool some_signed_number(CaseBuilder& d, std::size_t& at) {
   at = d.random.below(d.plan.query->inputs.size());
   const Role role = d.plan.query->inputs[at].role;
   return role == Role::position || role == Role::velocity || role == Role::direction || role == Role::rotation;
 }
 
 /// 1e-15 ... 1e-3 of itself.
-bool relative_nudge(Draft& d) {
+bool relative_nudge(CaseBuilder& d) {
   const std::size_t at = d.random.below(d.plan.query->inputs.size());
   const Role role = d.plan.query->inputs[at].role;
   if (role == Role::flag || role == Role::index || d[at] == 0) return false;
@@ -620,7 +620,7 @@ bool relative_nudge(Draft& d) {
   return true;
 }
 
-bool negative_zero(Draft& d) {
+bool negative_zero(CaseBuilder& d) {
   bool any = false;
   for (std::size_t i = 0; i < d.plan.query->inputs.size(); ++i) {
     const Role role = d.plan.query->inputs[i].role;
@@ -631,7 +631,7 @@ bool negative_zero(Draft& d) {
   return any;
 }
 
-bool neighbour_of_one(Draft& d) {
+bool neighbour_of_one(CaseBuilder& d) {
   std::size_t at;
   if (!some_signed_number(d, at)) return false;
   d.set(at, d.random.sign());
@@ -641,7 +641,7 @@ bool neighbour_of_one(Draft& d) {
 }
 
 /// All lengths at the end of the scalar's range: 2^-149 or 2^-1074 among them, or the largest finite numbers.
-bool extreme_scale(Draft& d) {
+bool extreme_scale(CaseBuilder& d) {
   const int lowest = d.orders(-149, -1074), highest = d.orders(127, 1023);
   double largest = 0;
   for (Role role : {Role::position, Role::velocity, Role::size}) {
@@ -658,7 +658,7 @@ bool extreme_scale(Draft& d) {
 }
 
 /// One number at the very end of the scalar's range.
-bool largest_or_least(Draft& d) {
+bool largest_or_least(CaseBuilder& d) {
   std::size_t at;
   if (!some_signed_number(d, at)) return false;
   const double least = std::ldexp(1.0, d.orders(-149, -1074) + d.random.between(0, 3));
@@ -669,7 +669,7 @@ bool largest_or_least(Draft& d) {
 
 /// The closed table. Applied in this order, so that what is exact is made before it is moved, and the
 /// last ulps are changed at the very end.
-constexpr Move table[] = {
+constexpr Mutator table[] = {
     {"small-lattice", "every number a small integer", small_lattice},
     {"dyadic-grid", "every number a multiple of a power of two", dyadic_grid},
     {"equal-vectors", "two positions are the same: a duplicate vertex, coincident centers", equal_vectors},
@@ -721,6 +721,6 @@ constexpr Move table[] = {
 
 }  // namespace
 
-std::span<const Move> moves() { return table; }
+std::span<const Mutator> mutators() { return table; }
 
 }  // namespace nearmiss
