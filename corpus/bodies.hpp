@@ -1,6 +1,6 @@
-/// Bodies in long double and bounds of their distances: certificates that share no code with the oracle. A direction in
-/// which two bodies are apart bounds their distance from below, whatever the direction; a pair of points, one of each,
-/// bounds it from above. How directions and points are found proves nothing and need not be right. For corpus/lies.cpp.
+/// Bodies in long double and bounds of their distances: certificates that share no code with the oracle. Any direction
+/// in which two bodies are apart bounds their distance from below. Any pair of points, one of each body, bounds it from
+/// above. The search for directions and points proves nothing and need not be right. For corpus/lies.cpp.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,8 @@ inline Point cross(const Point& a, const Point& b) {
 inline Real length(const Point& a) { return std::sqrt(dot(a, a)); }
 inline Real clamp01(Real x) { return x > 0 ? std::min<Real>(x, 1) : 0; }  // NaN: 0
 
-/// A number and a vector of an input, and how far they may move: a vector by so much in length.
+/// A number and a vector of an input, each with a bound on how far it may move. For a vector the bound is on the length
+/// of the change.
 struct Number {
   Real at, slack;
 };
@@ -39,9 +40,9 @@ struct Vector {
   Real slack;
 };
 
-/// The convex hull of points, or a box, thickened by a radius. No point of it moves by more than the slack.
+/// The convex hull of points, or a box, thickened by a radius. No point of the body moves by more than the slack.
 struct Body {
-  std::vector<Point> corners;  ///< one to three; of a box none
+  std::vector<Point> corners;  ///< one to three; none for a box
   Point center{}, half{};      ///< of a box
   std::array<Point, 3> axes{};
   Real radius = 0;
@@ -49,13 +50,13 @@ struct Body {
 
   bool is_box() const { return corners.empty(); }
   Point middle() const;
-  /// The nearest point of the body without its radius, or one not far from it: always a point of it.
+  /// The nearest point of the body without its radius, or one not far from the nearest: always a point of the body.
   Point nearest(const Point& x) const;
-  /// The largest u . y of the points y of the body without its radius.
+  /// The largest u . y over the points y of the body without its radius.
   Real reach(const Point& u) const;
-  /// How far within the faces of a box; negative outside, -infinity for what has no inside.
+  /// The depth inside the faces of a box; negative outside, -infinity for a body without an inside.
   Real depth(const Point& x) const;
-  /// How far its points lie from its middle, at most.
+  /// An upper bound of the distance of its points from its middle.
   Real size() const;
   Point local(const Point& x) const;
 };
@@ -80,12 +81,12 @@ inline Body upright_box(const Vector& low, const Vector& high) {
   return b;
 }
 
-/// The axes of a box's rotation, and by how much each may turn: both ends of a unit vector by so much.
+/// The axes of a box's rotation, and how far each may turn: a bound on the change of the unit vector.
 struct Axes {
   std::array<Point, 3> at;
   Real slack;
 };
-/// Unit quaternions p and q are rotations with |R(p) - R(q)| <= 2 |p - q|, and |x / |x| - y / |y|| <= 2 |x - y| / |x|.
+/// For unit quaternions p and q, |R(p) - R(q)| <= 2 |p - q|; and |x / |x| - y / |y|| <= 2 |x - y| / |x|.
 inline Axes axes_of(const std::array<Real, 4>& q, Real slack) {
   const auto [x, y, z, w] = q;
   const Real n = x * x + y * y + z * z + w * w;
@@ -167,20 +168,20 @@ inline Real Body::size() const {
   return most;
 }
 
-/// The distance of two bodies without their slacks, negative where their radii overlap: from `low` to `high`.
+/// The distance of two bodies without their slacks, from `low` to `high`; negative if their radii overlap.
 struct Gap {
   Real low = -infinite, high = infinite;
-  Point from{}, to{};  ///< near to each other: of the first and of the second
+  Point from{}, to{};  ///< points near to each other: of the first body, of the second body
 };
 
-/// How far b is beyond a in direction u, without slacks.
+/// The gap from a to b in direction u, without slacks.
 inline Real gap_along(const Body& a, const Body& b, const Point& u) {
   const Real n = length(u);
   if (!(n > 0)) return -infinite;
   return (-b.reach(scaled(u, -1)) - a.reach(u)) / n - a.radius - b.radius;
 }
 
-/// By projections in turn.
+/// By alternating projection.
 inline Gap gap_of(const Body& a, const Body& b) {
   Gap g;
   Point x = a.nearest(b.middle());
@@ -198,10 +199,10 @@ inline Gap gap_of(const Body& a, const Body& b) {
   return g;
 }
 
-/// The bodies are apart, or overlap, whatever moves within the slacks.
+/// Whether the bodies are apart, or overlap, for every motion within the slacks.
 inline bool surely_apart(const Body& a, const Body& b, const Gap& g) { return g.low > a.slack + b.slack; }
 
-/// How far some point of a is within the faces of b; a lower bound of how far one must move to leave the other.
+/// How far some point of a is inside the faces of b: a lower bound of how far a body must move to leave the other.
 inline Real depth_within(const Body& a, const Body& b, const Gap& g) {
   Real most = -infinite;
   constexpr int steps = 16;
@@ -218,7 +219,7 @@ inline bool surely_overlap(const Body& a, const Body& b, const Gap& g) {
   return least_depth(a, b, g) > a.slack + b.slack;
 }
 
-/// A ball, or a point of radius 0, on its way past a fixed body.
+/// A ball, or a point of radius 0, that moves past a fixed body.
 struct Motion {
   Vector from, velocity;
   Number radius;
@@ -227,15 +228,15 @@ struct Motion {
   Body body_at(Real time) const { return ball({at(time), from.slack + time * velocity.slack}, radius); }
 };
 
-/// The signed distance and how far it may be off.
+/// The signed distance and its error bound.
 inline Number distance_at(const Motion& m, const Body& fixed, Real time) {
   const Point x = m.at(time);
   return {length(minus(x, fixed.nearest(x))) - m.radius.at - fixed.radius,
           m.from.slack + time * m.velocity.slack + m.radius.slack + fixed.slack};
 }
 
-/// About the time of least distance within [0, until]: the distance is convex, so that the sign of its slope tells the
-/// side.
+/// About the time of least distance in [0, until]. The distance is convex, so the sign of its slope tells on which side
+/// that time is.
 inline Real time_of_least_distance(const Motion& m, const Body& fixed, Real until) {
   const Real speed = length(m.velocity.at);
   if (!(speed > 0)) return 0;
@@ -249,16 +250,16 @@ inline Real time_of_least_distance(const Motion& m, const Body& fixed, Real unti
   return 0.5L * (low + high);
 }
 
-/// What is sure of a motion past a body, whatever moves within the slacks.
+/// What is certain about a motion past a body, for every motion within the slacks.
 struct Passage {
   bool surely_never = false;  ///< they never touch
   bool surely_meet = false;   ///< they overlap at some time
-  Real not_before = 0;        ///< they touch at no time before this
-  Real by = infinite;         ///< they overlap at this time; where they surely meet
+  Real not_before = 0;        ///< they touch at no earlier time
+  Real by = infinite;         ///< they overlap at this time, if they certainly meet
   bool surely_start_apart = false, surely_start_overlapping = false;
 };
 
-/// No time before this has them touch: of the gap along u at the start, and how fast it may close.
+/// A lower bound of the time of contact, from the gap along u at the start and the speed at which it may close.
 inline Real not_before_along(const Motion& m, const Body& fixed, const Point& u) {
   const Real n = length(u);
   if (!(n > 0)) return 0;
@@ -295,7 +296,7 @@ inline Passage passage_of(const Motion& m, const Body& fixed, Real until = infin
   consider(away_at(0));
   for (int k = 0; k < 40; k += 2) {
     consider(away_at(about * (1 - std::ldexp(Real(1), -k))));
-    // Past a body and away from it: tilted along the motion.
+    // For a motion past a body and away from it: a direction tilted along the motion.
     const Point away = away_at(least);
     if (speed > 0) consider(plus(away, m.velocity.at, std::ldexp(length(away) / speed, -k)));
   }

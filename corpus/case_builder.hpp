@@ -1,5 +1,5 @@
-/// A case under construction: its numbers seen as vectors, sizes and rotations of things. For the
-/// generator's own sources.
+/// A case under construction, with access to the vectors, sizes and rotations of its operands. For the generator's own
+/// sources.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// The same numbers on every machine: SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom
+/// A generator of the same numbers on every machine: SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom
 /// Number Generators, 2014) and exact arithmetic on its bits.
 class Random {
  public:
@@ -26,7 +26,7 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
     return z ^ (z >> 31);
   }
-  /// 0 ... n - 1, n at most 2^32.
+  /// 0 ... n - 1, for n at most 2^32.
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(((bits() >> 32) * n) >> 32); }
   int between(int low, int high) { return low + int(below(std::size_t(high - low + 1))); }
   bool one_in(std::size_t n) { return below(n) == 0; }
@@ -42,41 +42,41 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Three numbers x, y, z in a row.
+/// Three consecutive numbers x, y, z.
 struct VectorField {
   std::size_t begin;
   Role role;
 };
 
-/// A top-level member of the inputs: a shape, a point, a velocity. Indices into the values, and of
-/// vectors their index in Plan::vectors.
+/// A top-level member of the inputs: a shape, a point, a velocity. `sizes` are indices into the values, `positions`
+/// indices into Plan::vectors.
 struct Operand {
   std::string name;
   std::vector<std::size_t> positions;
   std::vector<std::size_t> sizes;
 };
 
-/// What a query's inputs are made of, from names and roles.
+/// The structure of a query's inputs, derived from names and roles.
 struct Plan {
   explicit Plan(const Query& q);
 
   const Query* query;
   std::uint64_t name_hash;
   std::vector<VectorField> vectors;
-  std::vector<std::size_t> rotations;  ///< where each quaternion x, y, z, w begins
-  std::vector<std::size_t> sizes;      ///< each number
-  std::vector<std::size_t> upper;      ///< each number of an axis-aligned box's upper corner
-  std::vector<std::size_t> lone;       ///< numbers of no vector, size or rotation: times, flags, indices
-  std::vector<Operand> operands;           ///< those with a position, in order
-  std::vector<std::size_t> positions, velocities, directions, movable;  ///< into vectors; movable: all three
+  std::vector<std::size_t> rotations;  ///< index of the x of each quaternion x, y, z, w
+  std::vector<std::size_t> sizes;      ///< one entry per number
+  std::vector<std::size_t> upper;      ///< one entry per number of an axis-aligned box's upper corner
+  std::vector<std::size_t> lone;       ///< numbers outside of vectors, sizes and rotations: times, flags, indices
+  std::vector<Operand> operands;       ///< those with a position, in order
+  std::vector<std::size_t> positions, velocities, directions, movable;  ///< indices into vectors; movable: all three
   std::array<std::vector<std::size_t>, 16> numbers;                     ///< by role
 };
 
-/// The nearest number of the scalar. Not inline: GCC 12 at -O3 loses the rounding of some of several
-/// such numbers when it sees them side by side and puts them into one vector register.
+/// The nearest number of the scalar. Not inline: GCC 12 at -O3 drops the rounding of some of several such numbers when
+/// it vectorizes them.
 double rounded_to(Scalar scalar, double x);
 
-/// The numbers of a case in the making. Whatever is set is rounded to the scalar.
+/// The numbers of a case under construction. Rounds every number that is set to the scalar.
 class CaseBuilder {
  public:
   CaseBuilder(const Plan& p, Scalar s, Random& r, std::span<double> values)
@@ -88,7 +88,7 @@ class CaseBuilder {
   double unit = 1;  ///< the scene's length unit, a power of two
 
   bool is_float() const { return scalar == Scalar::float32; }
-  /// Float has room for fewer binary orders than double.
+  /// Float has fewer binary orders of magnitude than double.
   int orders(int of_float, int of_double) const { return is_float() ? of_float : of_double; }
 
   double operator[](std::size_t i) const { return values_[i]; }
@@ -104,7 +104,7 @@ class CaseBuilder {
   void set_vector(std::size_t v, const Numbers& x) {
     for (std::size_t k = 0; k < 3; ++k) set(plan.vectors[v].begin + k, x[k]);
   }
-  /// A vector with numbers in [-reach, reach].
+  /// A vector with components in [-reach, reach].
   Numbers random_vector(double reach) {
     Numbers x;
     for (double& component : x) component = random.uniform(-reach, reach);
@@ -116,21 +116,22 @@ class CaseBuilder {
     const std::size_t second = (first + 1 + random.below(list.size() - 1)) % list.size();
     return {list[first], list[second]};
   }
-  /// Directions and rotations that became zero get one number back; corners of a box change places.
+  /// Sets one component of each direction and rotation that became zero, and exchanges misplaced corners of a box.
   void repair();
 
  private:
   std::span<double> values_;
 };
 
-/// Fills the draft with a scene: smooth numbers, shapes near each other, velocities that aim.
+/// Fills the builder with a scene: smooth numbers, shapes near each other, velocities aimed at shapes.
 void draw_scene(CaseBuilder& builder);
 
-/// An entry of the table of moves. False: it does not apply to this query, nothing was changed.
+/// An entry of the table of mutators. `apply` returns false, without any change, if the mutator does not apply to the
+/// query.
 struct Mutator {
   std::string_view name, what;
   bool (*apply)(CaseBuilder& builder);
-  bool extreme = false;  ///< leaves moderate magnitudes; the last ones of the table
+  bool extreme = false;  ///< leaves moderate magnitudes; extreme mutators end the table
 };
 std::span<const Mutator> mutators();
 

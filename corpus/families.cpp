@@ -13,12 +13,12 @@ namespace {
 
 using Numbers = CaseBuilder::Numbers;
 
-/// a + (b - a) * share
+/// a + (b - a) * share.
 Numbers between(const Numbers& a, const Numbers& b, double share) {
   return {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share, a[2] + (b[2] - a[2]) * share};
 }
 
-/// How much smaller a small thing is.
+/// The size factor of a tiny operand.
 double small_factor(CaseBuilder& d) { return d.random.power_of_two(-d.orders(10, 40), -2); }
 
 void shrink_operand(CaseBuilder& d, const Operand& operand, double factor) {
@@ -27,14 +27,14 @@ void shrink_operand(CaseBuilder& d, const Operand& operand, double factor) {
 }
 
 void make_tiny(CaseBuilder& d) {
-  const std::size_t chosen = d.random.below(d.plan.operands.size() + 1);  // beyond the last: all
+  const std::size_t chosen = d.random.below(d.plan.operands.size() + 1);  // operands.size(): all of them
   const double factor = small_factor(d);
   for (std::size_t i = 0; i < d.plan.operands.size(); ++i) {
     if (i == chosen || chosen == d.plan.operands.size()) shrink_operand(d, d.plan.operands[i], factor);
   }
 }
 
-/// Corners: one moves onto the line through two others, but for `share` of its distance.
+/// Moves one corner onto the line through two others, up to `share` of its distance.
 void flatten_corners(CaseBuilder& d, const Operand& operand, double share) {
   const std::size_t n = operand.positions.size(), at = d.random.below(n);
   const auto corner = [&](std::size_t k) { return d.vector(operand.positions[(at + k) % n]); };
@@ -72,7 +72,7 @@ void flatten_operand(CaseBuilder& d, const Operand& operand, double share) {
   }
 }
 
-/// A direction like another one, a rotation like another one, but for `share` of their difference.
+/// Makes a direction or a rotation parallel to another one, up to `share` of their difference.
 void make_parallel(CaseBuilder& d, double share) {
   if (d.plan.directions.size() > 1 && d.random.one_in(2)) {
     const auto [to, from] = d.two_of(d.plan.directions);
@@ -93,7 +93,7 @@ void make_thin(CaseBuilder& d) {
   make_parallel(d, share);
 }
 
-/// Onto a grid, where corners on a line are so exactly.
+/// Rounds positions to a grid, on which collinear corners are exactly collinear.
 void round_positions(CaseBuilder& d) {
   const double cell = 0.125 * d.unit;
   for (Role role : {Role::position, Role::size}) {
@@ -101,7 +101,7 @@ void round_positions(CaseBuilder& d) {
   }
 }
 
-/// The centers of two things, or a corner of one and the center of another, become one point.
+/// Moves the centers of two operands, or a corner of one and the center of the other, to the same point.
 void make_concentric(CaseBuilder& d) {
   if (d.plan.operands.size() < 2) return;
   const Numbers at = d.vector(d.random.pick(d.plan.operands[0].positions));
@@ -139,13 +139,13 @@ void make_far_out(CaseBuilder& d) {
     const Numbers x = d.vector(v);
     d.set_vector(v, {x[0] + offset[0], x[1] + offset[1], x[2] + offset[2]});
   }
-  // A plane stays where it is in the scene.
+  // Planes keep their place in the scene.
   for (std::size_t i : d.plan.numbers[std::size_t(Role::offset)]) {
     d.set(i, d[i] - (d[i - 3] * offset[0] + d[i - 2] * offset[1] + d[i - 1] * offset[2]));
   }
 }
 
-/// Scales by powers of two: lengths and velocities together or apart, now and then a direction and a rotation too.
+/// Scales by powers of two: lengths and velocities together or separately, sometimes also a direction and a rotation.
 void make_scaled(CaseBuilder& d, int low, int high) {
   const int of_lengths = d.random.between(low, high);
   const int of_velocities = d.random.one_in(2) ? of_lengths : d.random.one_in(2) ? 0 : d.random.between(low, high);

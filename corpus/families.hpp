@@ -1,4 +1,4 @@
-/// Families of cases by their shapes and sizes, in which an oracle's bounds may fail one by one.
+/// Families of cases by shape and size. The oracle's bounds may fail for one family alone.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace nearmiss {
 
 enum class Family {
   scene,       ///< smooth numbers of moderate size
-  tiny,        ///< a thing is much smaller than the scene
-  thin,        ///< corners nearly on a line, a short axis or side, directions nearly parallel
-  degenerate,  ///< equal corners, corners on a line, sizes of 0, equal centers, parallel directions, no velocity
+  tiny,        ///< one operand is much smaller than the scene
+  thin,        ///< corners nearly collinear, a short axis or side, directions nearly parallel
+  degenerate,  ///< equal or collinear corners, sizes of 0, equal centers, parallel directions, no velocity
   far_out,     ///< everything far from the origin
   huge,        ///< lengths up to the end of the range
   minute,      ///< lengths down to subnormal numbers

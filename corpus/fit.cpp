@@ -22,7 +22,7 @@ Vector operator*(const Vector& a, double s) { return {a[0] * s, a[1] * s, a[2] *
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double largest(const Vector& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 
-/// A number that does not depend on anything but the case.
+/// A number that depends on the case alone.
 std::uint64_t hash_of(const Case& c) {
   std::uint64_t h = c.values.size();
   for (const double x : c.values) h = Random(h ^ std::bit_cast<std::uint64_t>(x)).bits();
@@ -62,7 +62,7 @@ class Fitting {
     for (const std::size_t begin : begins) {
       const long double length = length_of(begin, count);
       for (std::size_t i = begin; i < begin + count; ++i) set(i, double(c_.values[i] / length));
-      const std::size_t offset = begin + count;  // of a plane, which stays where it is
+      const std::size_t offset = begin + count;  // of a plane, which keeps its place
       const bool plane = offset < c_.values.size() && c_.query->inputs[offset].role == Role::offset;
       if (plane) set(offset, double(c_.values[offset] / length));
     }
@@ -77,7 +77,7 @@ class Fitting {
       if (get(v) == Vector{0, 0, 0}) set(v + random_.below(3), random_.sign());
     }
   }
-  /// Back along the motion, further and further; then outward along an axis, where the motion leads out.
+  /// Moves the start back along the motion in growing steps; then outward along an axis, if the motion leads out.
   void start_outside() {
     if (!parts_.start) return;
     const Vector from = get(parts_.start->place);
@@ -109,12 +109,12 @@ class Fitting {
     }
     return most;
   }
-  /// Another size of the case or, without one, a quarter of its largest coordinate.
+  /// Another size of the case; without one, a quarter of its largest coordinate.
   double usual_size() const {
     const double size = largest_of(Role::size), reach = largest_of(Role::position);
     return size > 0 ? size : reach / 4 > 0 ? reach / 4 : 1;
   }
-  /// Adds to the number, and more where that is lost in rounding.
+  /// Adds to the number, and adds more if rounding loses the addition.
   void grow(std::size_t i, double by, double sign) {
     const double from = c_.values[i];
     for (constexpr double twice = 2; c_.values[i] == from && std::isfinite(by); by *= twice) set(i, from + sign * by);
@@ -130,14 +130,14 @@ class Fitting {
     }
   }
 
-  /// v1 stays, v2 is turned into the right angle as far as rounding allows, v3 ends the parallelogram.
+  /// v1 stays, v2 turns to a right angle as far as rounding allows, v3 completes the parallelogram.
   void right_angle(const Parts::Corners& r) {
     const Vector e = get(r[1]) - get(r[0]), g = get(r[2]) - get(r[1]);
     if (!(dot(e, e) > 0)) return;
     set(r[2], get(r[1]) + (g - e * (dot(g, e) / dot(e, e))));
     set(r[3], get(r[0]) + (get(r[2]) - get(r[1])));
   }
-  /// Corners that are exact: whole multiples of a frame of small whole numbers with right angles, on a grid.
+  /// Exact corners: integer multiples of an orthogonal frame of small integers, on a grid.
   void on_a_grid(const Parts::Corners& r) {
     static constexpr std::array<std::array<Vector, 2>, 6> frames = {{{{{1, 0, 0}, {0, 1, 0}}},
                                                                      {{{0, 0, 1}, {1, 0, 0}}},
@@ -145,7 +145,7 @@ class Fitting {
                                                                      {{{3, 4, 0}, {-4, 3, 0}}},
                                                                      {{{1, 2, 2}, {2, 1, -2}}},
                                                                      {{{2, -2, 1}, {1, 2, 2}}}}};
-    constexpr int steps = 8;  // binary digits of a coordinate: products with 4 and sums stay exact in float
+    constexpr int steps = 8;  // bits of a coordinate: products with 4 and sums stay exact in float
     double reach = 0;
     for (const std::size_t i : r) reach = std::max(reach, largest(get(i)));
     const double step = std::ldexp(1.0, std::max(std::ilogb(reach > 0 ? reach : 1.0) - steps, least_step()));
@@ -183,7 +183,7 @@ class Fitting {
   Random random_;
 };
 
-/// What is changed later depends on what was changed before: sizes on corners, starts on all of them.
+/// The order matters: sizes depend on corners, starts depend on all other changes.
 void change(Case& c, Preconditions unmet, Preconditions required) {
   Fitting f(c);
   if (unmet.has(Precondition::true_rectangle)) f.rectangles();

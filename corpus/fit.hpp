@@ -1,4 +1,4 @@
-/// Cases for subjects that require something of their callers.
+/// Generated cases for subjects with preconditions.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,15 @@
 
 namespace nearmiss {
 
-/// Changes a valid case that is outside of what is required so that it is inside, if that can be done: normals,
-/// directions and quaternions are brought to unit length, corners to those of a rectangle, zero sizes and velocities
-/// replaced, and starts moved out. A case that is inside stays as it is. The same on every machine; the case stays
-/// valid and exact in its scalar. Where it is changed its origin says so. True if it is inside now.
+/// Changes a valid case that breaks a precondition until it meets all of `required`, if possible: brings normals,
+/// directions and quaternions to unit length, moves corners to those of a rectangle, replaces zero sizes and
+/// velocities, and moves starts outside. Leaves a case that meets them unchanged. Gives the same result on every
+/// machine; the case stays valid and exact in its scalar. Records a change in the case's origin. Returns whether the
+/// case meets the preconditions.
 bool fit(Case& c, Preconditions required);
 
-/// The generator's case of that number, fitted: a stream of its own for each query, scalar and set of preconditions.
-/// Without any, bit for bit the generator's.
+/// The generator's case with that index, fitted. Each query, scalar and set of preconditions has its own stream.
+/// Without preconditions, bit for bit the generator's stream.
 void generate_inside(Case& into, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index,
                      Preconditions required);
 

@@ -17,7 +17,7 @@ std::string_view parent(std::string_view name) { return name.substr(0, name.rfin
 std::string_view last(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 std::string_view first(std::string_view name) { return name.substr(0, name.find('.')); }
 
-/// How many fields from i on have the same parent and are called x, y, z, w in this order.
+/// The number of fields from i on that have the same parent and the names x, y, z, w in this order.
 std::size_t components_at(const std::vector<Field>& fields, std::size_t i) {
   constexpr std::string_view names[] = {"x", "y", "z", "w"};
   std::size_t n = 0;
@@ -53,7 +53,7 @@ const Plan& plan_of(const Query& query) {
   return plans.emplace_back(query);
 }
 
-/// Within the magnitudes that the generator promises.
+/// Whether all numbers are within the magnitudes that generator.hpp states.
 bool moderate(const CaseBuilder& d) {
   const double largest = std::ldexp(1.0, d.orders(18, 60)), smallest = 1 / largest;
   for (const auto& group : d.plan.numbers) {
@@ -83,7 +83,7 @@ std::bitset<most_mutators> choose(Random& random, int count, std::size_t among) 
   return chosen;
 }
 
-/// One of those that leave moderate magnitudes.
+/// Chooses one of the extreme mutators.
 std::bitset<most_mutators> choose_extreme(Random& random) {
   std::bitset<most_mutators> chosen;
   const std::size_t ordinary = count_of_ordinary_mutators();
@@ -91,7 +91,7 @@ std::bitset<most_mutators> choose_extreme(Random& random) {
   return chosen;
 }
 
-/// Half of the cases that are not scenes start on a grid, where touches and ties are exact.
+/// Half of the mutated cases start on a grid, where touches and ties are exact.
 std::bitset<most_mutators> choose_for_new_case(Random& random) {
   constexpr std::size_t small_lattice = 0, dyadic_grid = 1;
   auto chosen = choose(random, random.between(1, 4), count_of_ordinary_mutators());
@@ -140,7 +140,8 @@ Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
     }
     i += std::max<std::size_t>(n, 1);
   }
-  std::copy_if(all.begin(), all.end(), std::back_inserter(operands), [](const Operand& t) { return !t.positions.empty(); });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(operands),
+               [](const Operand& t) { return !t.positions.empty(); });
 }
 
 [[gnu::noinline]] double rounded_to(Scalar scalar, double x) {
@@ -167,7 +168,7 @@ void CaseBuilder::repair() {
   for (std::size_t begin : plan.rotations) {
     if (all_zero(begin, 4)) set(begin + 3, 1);
   }
-  for (std::size_t i : plan.upper) {  // an axis-aligned box: its lower corner are the three numbers before
+  for (std::size_t i : plan.upper) {  // an axis-aligned box: the three numbers before are its lower corner
     const double lower = values_[i - 3], upper = values_[i];
     if (upper < lower) set(i - 3, upper), set(i, lower);
   }
@@ -175,7 +176,7 @@ void CaseBuilder::repair() {
 
 void generate(Case& into, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
   const Plan& plan = plan_of(query);
-  // Each part passes through the mixer, so that streams of neighbouring seeds share nothing.
+  // Each part passes through the mixer, so that streams of neighbouring seeds are unrelated.
   Random random(Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar)).bits() ^ Random(index).bits());
   into.query = &query;
   into.scalar = scalar;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace bodies;
 
-// Numbers and vectors with slack: whatever moves within the slacks of the operands moves the result within its own.
+// Numbers and vectors with slack: if the operands move within their slacks, the result moves within its own.
 
 Number operator+(const Number& a, const Number& b) { return {a.at + b.at, a.slack + b.slack}; }
 Number operator-(const Number& a, const Number& b) { return {a.at - b.at, a.slack + b.slack}; }
@@ -25,7 +25,7 @@ Number magnitude(const Number& a) { return {std::abs(a.at), a.slack}; }
 bool surely_positive(const Number& a) { return a.at > a.slack; }
 bool surely_negative(const Number& a) { return -a.at > a.slack; }
 bool surely_zero(const Number& a) { return a.at == 0 && a.slack == 0; }
-/// By a divisor that surely is not zero.
+/// The divisor is certainly not zero.
 Number operator/(const Number& a, const Number& b) {
   const Real least = std::abs(b.at) - b.slack;
   return {a.at / b.at, (a.slack + std::abs(a.at / b.at) * b.slack) / least};
@@ -42,10 +42,10 @@ Real slack_of_product(const Vector& a, const Vector& b) {
 Number dot(const Vector& a, const Vector& b) { return {bodies::dot(a.at, b.at), slack_of_product(a, b)}; }
 Vector cross(const Vector& a, const Vector& b) { return {bodies::cross(a.at, b.at), slack_of_product(a, b)}; }
 Number length(const Vector& a) { return {bodies::length(a.at), a.slack}; }
-/// Of a vector that surely is not zero: |x / |x| - y / |y|| <= 2 |x - y| / |x|.
+/// For a vector that is certainly not zero: |x / |x| - y / |y|| <= 2 |x - y| / |x|.
 Vector unit(const Vector& a) { return {scaled(a.at, 1 / bodies::length(a.at)), 2 * a.slack / bodies::length(a.at)}; }
 
-/// Reads the inputs of a case one after the other.
+/// Reads the inputs of a case in order.
 class Inputs {
  public:
   Inputs(const Case& c, std::span<const double> widening) : values_(c.values), widening_(widening) {}
@@ -114,8 +114,8 @@ class Inputs {
   }
 
  private:
-  /// One part in 2^10 more covers the rounding of what follows: the widening is at least 2^-44 of all numbers of the
-  /// group, of which long double keeps 2^-64.
+  /// One more part in 2^10 covers the rounding of what follows: the widening is at least 2^-44 of all numbers of the
+  /// group, and long double has a precision of 2^-64.
   static Real more_than(Real slack) { return slack * (1 + 0x1p-10L); }
 
   std::span<const double> values_;
@@ -123,7 +123,7 @@ class Inputs {
   std::size_t at_ = 0;
 };
 
-/// Turns what is sure into lies.
+/// Turns certain bounds into lies.
 class Liar {
  public:
   Liar(Scalar scalar, std::uint64_t salt) : scalar_(scalar), random_(salt) {}
@@ -135,8 +135,8 @@ class Liar {
     a.yes = !yes, a.given = 0;
     told_.push_back({Topic::decision, a});
   }
-  /// Every answer of that decision has a number `leaf` within [low, high], which belongs to a vector with numbers up to
-  /// `largest`; a lie lies outside, but within [least, most].
+  /// Every answer with that decision has output `leaf` in [low, high]; `leaf` belongs to a vector with numbers up to
+  /// `largest`. A lie lies outside [low, high], but inside [least, most].
   void within(Topic topic, std::size_t leaf, Real low, Real high, Real largest, bool yes = true, Real least = -infinite,
               Real most = infinite) {
     if (!(low <= high)) return;
@@ -157,12 +157,12 @@ class Liar {
              Real most = infinite) {
     within(topic, leaf, x.at - x.slack, x.at + x.slack, largest, yes, least, most);
   }
-  /// One number of a vector that lies within the slack of another.
+  /// One number of a vector that lies within its slack of another vector.
   void about(Topic topic, std::size_t leaf, const Vector& x) {
     const std::size_t k = random_.below(3);
     about(topic, leaf + k, {x.at[k], x.slack}, bodies::length(x.at) + x.slack);
   }
-  /// A vector as a whole, which the caller knows to be wrong as soon as it is off by less than `off`.
+  /// A vector as a whole. The caller knows that every vector within `off` of it is wrong too.
   void wrong_point(std::size_t leaf, const Point& x, Real off) {
     Answer a;
     a.given = std::uint64_t{7} << leaf;
@@ -180,13 +180,14 @@ class Liar {
 
  private:
   double nearest(Real x) const { return scalar_ == Scalar::float32 ? double(float(x)) : double(x); }
-  /// More than what one ulp of the vector's largest number, given or exact, and the rounding of the lie come to.
+  /// More than one ulp of the vector's largest number, given or exact, plus the rounding of the lie.
   Real pad(Real size) const {
     constexpr Real ulps = 16;
     const Real smallest = scalar_ == Scalar::float32 ? 0x1p-149L : 0x1p-1074L;
     return ulps * (2 * Real(unit_roundoff(scalar_)) * size + smallest);
   }
-  /// Beyond the end by a little of the range's width, by the size itself, by much of it, or as far as numbers go.
+  /// Beyond the end by a small part of the range's width, by the size itself, by a large part of it, or up to the
+  /// largest number.
   Real by(Real width, Real size) {
     switch (random_.below(8)) {
       case 0: return size;
@@ -201,7 +202,7 @@ class Liar {
   std::vector<Lie> told_;
 };
 
-// Nearest points.
+// Closest points.
 
 Point direction(std::size_t axis) {
   Point e{};
@@ -209,7 +210,7 @@ Point direction(std::size_t axis) {
   return e;
 }
 
-/// The nearest of the pieces' points is as near as any point of any piece, and within the pieces' bounds.
+/// The nearest point is as near as any point of any piece, and within the pieces' bounds.
 void nearest_point(const std::vector<Body>& pieces, const Vector& p, Liar& out) {
   Real near = infinite, slack = 0;
   for (const Body& b : pieces) {
@@ -264,7 +265,7 @@ void closest_points_lines(Inputs in, Liar& out) {
     const Number along = dot(cross(between, other), normal) / dot(normal, normal);
     return out.about(Topic::place, 3 * line, p + d * along);
   }
-  // A point off the line, at a right angle to it.
+  // A point off the line, in a perpendicular direction.
   Point off = bodies::cross(d.at, direction(out.below(3)));
   const Real n = bodies::length(off), turn = 2 * d.slack / bodies::length(d.at);
   if (!(n > 0) || !(turn < 0.25L)) return;
@@ -274,7 +275,7 @@ void closest_points_lines(Inputs in, Liar& out) {
 
 // Containment.
 
-/// 1 and -1: surely in the triangle, surely outside, seen along the axis; 0 where that is not known.
+/// Projected along the axis: 1 if certainly in the triangle, -1 if certainly outside, 0 if unknown.
 int side_of_triangle(const std::vector<Vector>& corners, std::size_t axis, const Vector& p) {
   const auto seen = [&](Vector v) {
     v.at[axis] = 0;
@@ -329,7 +330,7 @@ void point_in_rectangle(Inputs in, Liar& out) {
 
 constexpr std::size_t time_leaf = 0, location_leaf = 1;
 
-/// A contact lies within the body's bounds; and one after time 0 no further from the center's path than the radius.
+/// A contact lies within the body's bounds. After time 0 it is no further from the center's path than the radius.
 void contact_place(const Motion& m, const Body& fixed, Real from, Real to, std::size_t leaf, Liar& out) {
   const std::size_t k = out.below(3);
   const Real thick = fixed.radius + fixed.slack,
@@ -350,7 +351,7 @@ void hit(const Motion& m, const Body& fixed, Real from, Real to, std::size_t tim
   contact_place(m, fixed, from, to, location, out);
 }
 
-/// The time at which a plane in front is reached, or nothing.
+/// The time at which a plane in front is reached; empty if none.
 struct Crossing {
   bool surely = false, surely_not = false;
   Number time{};
@@ -398,7 +399,7 @@ Front front_of(const std::vector<Vector>& corners, const Motion& m) {
   return {dot(n, m.velocity), dot(n, m.from - corners[0]), n};
 }
 
-/// What is sure of a moving thing and one side of a triangle.
+/// What is certain about a moving shape and one side of a triangle.
 struct Hit {
   bool surely = false, surely_not = false;
   Real not_before = 0, by = infinite;
@@ -418,7 +419,7 @@ Hit front_hit(const Motion& m, const std::vector<Vector>& corners) {
   h.surely = true, h.not_before = std::max(h.not_before, time.at - time.slack), h.by = time.at + time.slack;
   return h;
 }
-/// The gate of a sphere, then the general rule.
+/// First the gate of a sphere, then the general rule.
 Hit gated_hit(const Motion& m, const std::vector<Vector>& corners) {
   const Front f = front_of(corners, m);
   const Passage p = passage_of(m, hull(corners));
@@ -468,8 +469,8 @@ void moving_sphere_rectangle(Inputs in, Liar& out) {
   moving_past_triangles(m, halves(in.vectors(4)), gated_hit, out);
 }
 
-/// A point that crosses the faces of a box that may be flat: while one of its coordinates passes from one side to the
-/// other, the others stay within.
+/// A point that crosses the faces of a box that may be flat: while one coordinate passes from one side to the other,
+/// the others stay inside.
 bool surely_crosses(const Motion& m, const Body& box) {
   const Point at = box.local(m.from.at);
   Point step;
@@ -496,7 +497,7 @@ Real leaves_flat_box_by(const Motion& m, const Body& box) {
          std::max<Real>(bodies::length(m.velocity.at) - m.velocity.slack, 0);
 }
 
-/// The general rule for a point or a sphere that enters: from strictly inside a point does not.
+/// The general rule for a point or a sphere that enters. A point strictly inside never enters.
 void entering(const Motion& m, const Body& fixed, std::size_t time, std::size_t location, Liar& out) {
   const Passage p = passage_of(m, fixed);
   if (p.surely_never) return out.surely(false);
@@ -507,7 +508,7 @@ void entering(const Motion& m, const Body& fixed, std::size_t time, std::size_t 
   if (is_point && (p.surely_start_overlapping || fixed.depth(m.from.at) > m.from.slack + fixed.slack))
     return out.surely(false);
   if (!fixed.is_box()) return;
-  // Deep enough within the box at some time, or through it.
+  // Deep enough in the box at some time, or through the box.
   const Real about = time_of_least_distance(m, fixed, infinite);
   const Real through = fixed.depth(m.at(about)) - fixed.slack - m.from.slack - about * m.velocity.slack;
   const bool enters = through > 0 || surely_crosses(m, fixed);
@@ -526,7 +527,7 @@ void moving_sphere_past(Inputs in, Liar& out) {
 }
 void moving_point_aabox(Inputs in, Liar& out) {
   const Motion m = in.moving_point();
-  constexpr std::size_t location = 1, time = 4;  // behind the flag
+  constexpr std::size_t location = 1, time = 4;  // after the flag
   entering(m, in.aabox(), time, location, out);
 }
 void ray_aabox(Inputs in, Liar& out) {
@@ -540,7 +541,7 @@ void ray_aabox(Inputs in, Liar& out) {
       box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack || surely_crosses(m, box);
   if (!starts_in && !enters) return;
   out.surely(true);
-  constexpr std::size_t location = 1;  // behind the flag
+  constexpr std::size_t location = 1;  // after the flag
   contact_place(m, box, 0, starts_in ? 0 : leaves_flat_box_by(m, box), location, out);
 }
 void moving_point_sphere(Inputs in, Liar& out) {
@@ -593,7 +594,7 @@ void triangle_overlap(Inputs in, Liar& out) {
 
 constexpr std::size_t depth_leaf = 0, normal_leaf = 1, contact_leaf = 4;
 
-/// True where the bodies surely overlap.
+/// True if the bodies certainly overlap.
 bool about_depth(const Number& depth, Liar& out) {
   if (surely_positive(depth)) {
     out.surely(true);
@@ -690,8 +691,8 @@ void box_box_penetration(Inputs in, Liar& out) {
   out.within(Topic::depth, depth_leaf, least, most + slack, 0, true, 0);
   const std::size_t k = out.below(3);
   const Point e = direction(k), back = scaled(e, -1);
-  constexpr std::size_t contact = 5;  // behind the axis
-  // Half the depth away from a point of a box: beside a larger box that may be in neither.
+  constexpr std::size_t contact = 5;  // after the axis
+  // Half the depth away from a point of a box: beside a larger box that point may be in neither box.
   const Real off = (most + slack) / 2 + slack;
   out.within(Topic::place, contact + k, std::min(-a.reach(back), -b.reach(back)) - off,
              std::max(a.reach(e), b.reach(e)) + off,
@@ -747,10 +748,10 @@ void box_box_conservative(Inputs in, Liar& out) {
 
 // Responses.
 
-/// The direction after a response that takes `share` of the part along u away.
+/// The direction after a response that removes `share` of the component along u.
 void response(Inputs in, int share, Liar& out) {
   const Vector center = in.vector();
-  in.number();  // the radius plays no part
+  in.number();  // the radius has no effect
   const Vector velocity = in.vector();
   const Number time = in.number();
   const Vector u = center + velocity * time - in.vector();

@@ -11,9 +11,9 @@ using Numbers = CaseBuilder::Numbers;
 
 Numbers difference(const Numbers& a, const Numbers& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-// Whole scenes.
+// Scenes.
 
-/// Rounds every number to a multiple of `step` units and sets the unit to `unit`.
+/// Rounds every number to a multiple of `step` units, then sets the unit to `unit`.
 void to_grid(CaseBuilder& d, double step, double unit) {
   const auto onto = [&](std::size_t i, double cell, double out) { d.set(i, std::nearbyint(d[i] / cell) * out); };
   for (Role role : {Role::position, Role::velocity, Role::size}) {
@@ -40,7 +40,7 @@ bool dyadic_grid(CaseBuilder& d) {
   return true;
 }
 
-// Vectors and their numbers.
+// Vectors and their components.
 
 bool equal_vectors(CaseBuilder& d) {
   if (d.plan.positions.size() < 2) return false;
@@ -65,7 +65,7 @@ bool zero_component(CaseBuilder& d) {
   return true;
 }
 
-/// On the segment or in the plane of other positions; exactly so where nothing is rounded.
+/// On the segment or in the plane of other positions; exactly so if no rounding occurs.
 bool between_positions(CaseBuilder& d) {
   const auto& list = d.plan.positions;
   if (list.size() < 3) return false;
@@ -80,14 +80,14 @@ bool between_positions(CaseBuilder& d) {
   return true;
 }
 
-/// 1e-16 ... 1e-2, and its sign.
+/// 1e-16 ... 1e-2, of either sign.
 double tiny(CaseBuilder& d, int least = 2, int most = 16) {
   double x = d.random.sign();
   for (int i = d.random.between(least, most); i > 0; --i) x /= 10;
   return x;
 }
 
-/// Three corners nearly on a line.
+/// Three nearly collinear corners.
 bool sliver(CaseBuilder& d) {
   for (const Operand& operand : d.plan.operands) {
     if (operand.positions.size() < 3) continue;
@@ -102,9 +102,9 @@ bool sliver(CaseBuilder& d) {
   return false;
 }
 
-// Whole things.
+// Operands.
 
-/// Two things made of the same members are the same set.
+/// Two operands of the same type become the same set.
 bool coincident_things(CaseBuilder& d) {
   const auto& operands = d.plan.operands;
   for (std::size_t i = 0; i + 1 < operands.size(); ++i) {
@@ -120,10 +120,10 @@ bool coincident_things(CaseBuilder& d) {
   return false;
 }
 
-/// One thing deep inside of another that has a size.
+/// One operand deep inside another one that has a size.
 bool contained(CaseBuilder& d) {
   const auto& operands = d.plan.operands;
-  if (operands.size() < 2 || d.random.one_in(2)) return false;  // half as often: nearly all of them are hits
+  if (operands.size() < 2 || d.random.one_in(2)) return false;  // half as often, because nearly all of them are hits
   const std::size_t outer = d.random.below(operands.size());
   const Operand &around = operands[outer], &small = operands[outer == 0 ? 1 : 0];
   if (around.sizes.empty()) return false;
@@ -205,7 +205,7 @@ bool aimed_at_position(CaseBuilder& d) {
   return true;
 }
 
-/// Motion straight at a corner of an upright box, or at a place on its edge.
+/// Motion straight at a corner of an axis-aligned box, or at a point of its edge.
 bool aimed_at_corner(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
   const Operand* box = nullptr;
@@ -218,7 +218,7 @@ bool aimed_at_corner(CaseBuilder& d) {
   }
   const Numbers from = d.vector(d.plan.positions.front());
   Numbers corner = d.vector(box->positions.front());
-  const std::size_t along = d.random.below(6);  // beyond 2 there is none: the corner itself
+  const std::size_t along = d.random.below(6);  // 3 to 5: the corner itself
   for (std::size_t k = 0; k < 3; ++k) {
     corner[k] += (k == along ? 0.125 * d.random.between(-7, 7) : d.random.sign()) * d[box->sizes[k]];
   }
@@ -228,7 +228,7 @@ bool aimed_at_corner(CaseBuilder& d) {
   return true;
 }
 
-/// A vector that means a direction: another velocity or direction, or from one position to another.
+/// A vector that serves as a direction: another velocity or direction, or the difference of two positions.
 bool some_direction(CaseBuilder& d, std::size_t but, Numbers& out) {
   const auto& list = d.plan.movable;
   const std::size_t v = list[d.random.below(list.size())];
@@ -242,7 +242,7 @@ bool some_direction(CaseBuilder& d, std::size_t but, Numbers& out) {
   return true;
 }
 
-/// Picks a velocity or direction and hands it, with some other direction, to `make`.
+/// Picks a velocity or direction and passes it to `make` together with another direction.
 template <class Make>
 bool direct(CaseBuilder& d, Make make) {
   const std::size_t velocities = d.plan.velocities.size(), all = velocities + d.plan.directions.size();
@@ -264,7 +264,7 @@ bool parallel(CaseBuilder& d) {
 bool antiparallel(CaseBuilder& d) {
   return direct(d, [&](const Numbers& x) { return scaled(x, -d.random.power_of_two(-2, 2)); });
 }
-/// Parallel or antiparallel but for 1e-16 ... 1e-2 radians.
+/// Parallel or antiparallel up to 1e-16 ... 1e-2 radians.
 bool near_parallel(CaseBuilder& d) {
   return direct(d, [&](const Numbers& x) {
     Numbers along = scaled(x, d.random.sign() * d.random.power_of_two(-2, 2));
@@ -297,7 +297,8 @@ bool axis_rotation(CaseBuilder& d) {
   return true;
 }
 
-/// A turn by an angle with rational sine and cosine, as 3/5 and 4/5, and lengths that stay whole in the turned frame.
+/// A rotation by an angle with rational sine and cosine, such as 3/5 and 4/5, and lengths that stay integers in the
+/// rotated frame.
 bool pythagorean_rotation(CaseBuilder& d) {
   if (d.plan.rotations.empty()) return false;
   constexpr int halves[][2] = {{1, 2}, {1, 3}, {2, 3}, {1, 4}, {3, 4}};  // tangents of half the angle
@@ -310,7 +311,7 @@ bool pythagorean_rotation(CaseBuilder& d) {
   return true;
 }
 
-/// A right angle as programs write it: with the rounded sine and cosine of half of it.
+/// A right angle as programs usually compute it: from the rounded sine and cosine of half of it.
 bool rounded_right_angle(CaseBuilder& d) {
   if (d.plan.rotations.empty()) return false;
   const std::size_t begin = d.random.pick(d.plan.rotations), axis = d.random.below(3);
@@ -374,7 +375,7 @@ bool near_equal_rotations(CaseBuilder& d) {
 
 // Touches.
 
-/// Two things that have positions, one of them with a size.
+/// Two operands with positions, one of them with a size.
 bool touching_pair(CaseBuilder& d, const Operand*& a, const Operand*& b) {
   const auto& operands = d.plan.operands;
   if (operands.size() < 2) return false;
@@ -385,7 +386,7 @@ bool touching_pair(CaseBuilder& d, const Operand*& a, const Operand*& b) {
   return !a->sizes.empty();
 }
 
-/// How far the thing reaches along axis k when it is a sphere or a box that stands upright.
+/// The extent of the operand along axis k, for a sphere or an unrotated box.
 double reach_along(const CaseBuilder& d, const Operand& operand, std::size_t k) {
   if (operand.sizes.empty()) return 0;
   return d[operand.sizes[operand.sizes.size() == 3 ? k : 0]];
@@ -415,12 +416,12 @@ bool touch_by_position(CaseBuilder& d) {
   return true;
 }
 
-/// Whole numbers that are the sides of a box with a whole diagonal, the last.
+/// Integers that are the sides of a box with an integer diagonal; the diagonal comes last.
 constexpr int whole_diagonals[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7},   {1, 4, 8, 9},   {4, 4, 7, 9},  {2, 6, 9, 11},
                                       {3, 4, 0, 5}, {5, 12, 0, 13}, {8, 15, 0, 17}, {7, 24, 0, 25}};
 
-/// A round thing touches an edge or a vertex of another one, or another round thing, off every axis and yet exactly:
-/// its radius is the whole diagonal of a box with whole sides. A box stands upright.
+/// A sphere or capsule touches an edge or a vertex of another operand, or another sphere or capsule, off every axis and
+/// yet exactly: its radius is the integer diagonal of a box with integer sides. A box is unrotated.
 bool touch_at_edge_or_vertex(CaseBuilder& d) {
   const auto& operands = d.plan.operands;
   if (operands.size() < 2) return false;
@@ -437,13 +438,13 @@ bool touch_at_edge_or_vertex(CaseBuilder& d) {
   if (box) identity_rotation(d);
   for (std::size_t k = 0; k < 3; ++k) {
     const double side = d.random.sign(), apart = sides[(k + turn) % 3] * step;
-    // Where the box is not left along an axis, the point is anywhere on its edge.
+    // Along an axis in which the diagonal does not leave the box, the point may be anywhere on the edge.
     const double corner = !box        ? 0.0
                           : apart > 0 ? d[other.sizes[k]]
                                       : 0.125 * d.random.between(-8, 8) * d[other.sizes[k]];
     at[k] += side * (corner + apart);
   }
-  if (!box && other.sizes.size() == 1) {  // two round things share the distance
+  if (!box && other.sizes.size() == 1) {  // two spheres or capsules share the distance
     const double theirs = 0.125 * d.random.between(0, 8) * reach;
     d.set(other.sizes[0], theirs);
     reach -= theirs;
@@ -453,7 +454,7 @@ bool touch_at_edge_or_vertex(CaseBuilder& d) {
   return true;
 }
 
-/// Two upright boxes whose half diagonals are whole, as far apart as both together.
+/// Two unrotated boxes with integer half diagonals, whose centers are the sum of both apart.
 bool touch_by_diagonals(CaseBuilder& d) {
   std::vector<const Operand*> boxes;
   for (const Operand& t : d.plan.operands) {
@@ -473,8 +474,8 @@ bool touch_by_diagonals(CaseBuilder& d) {
   return true;
 }
 
-/// A thing with several positions becomes its own mirror image, in the plane through another thing across an axis: what
-/// stays in that plane is as near to both halves.
+/// An operand with several positions becomes symmetric about a plane through another operand, perpendicular to an axis.
+/// A shape that stays in that plane is equally near to both halves.
 bool mirrored(CaseBuilder& d) {
   const auto& operands = d.plan.operands;
   if (operands.size() < 2) return false;
@@ -510,11 +511,11 @@ bool mirrored(CaseBuilder& d) {
   return true;
 }
 
-/// A plane at a right angle to an axis touches a thing, from either side; a box that it touches stands upright.
+/// A plane perpendicular to an axis touches an operand from either side. A box that it touches is unrotated.
 bool touch_by_plane(CaseBuilder& d) {
   const auto& offsets = d.plan.numbers[std::size_t(Role::offset)];
   if (offsets.empty() || d.plan.operands.empty()) return false;
-  const std::size_t at = d.random.pick(offsets), k = d.random.below(3);  // its normal are the three numbers before
+  const std::size_t at = d.random.pick(offsets), k = d.random.below(3);  // its normal is the three numbers before
   const Operand& operand = d.random.pick(d.plan.operands);
   if (operand.sizes.size() == 3) identity_rotation(d);
   const double length = d.random.power_of_two(-1, 1), side = d.random.sign(), over = d.random.sign();
@@ -524,8 +525,8 @@ bool touch_by_plane(CaseBuilder& d) {
   return true;
 }
 
-/// The first thing touches another along an axis; its motion there is set by `make` from the axis and the side on
-/// which it stands.
+/// The first operand touches another one along an axis. `make` sets its motion from the axis and the side on which it
+/// lies.
 template <class Make>
 bool touch_and_move(CaseBuilder& d, Make make) {
   const auto& operands = d.plan.operands;
@@ -543,7 +544,7 @@ bool touch_and_move(CaseBuilder& d, Make make) {
   return true;
 }
 
-/// Motion along a touching face, from the touch on or from before it.
+/// Motion along a touching face, from the touch on or from an earlier point.
 bool grazing(CaseBuilder& d) {
   return touch_and_move(d, [&](std::size_t k, double, Numbers& at, Numbers& velocity) {
     velocity[k] = 0;
@@ -553,7 +554,7 @@ bool grazing(CaseBuilder& d) {
   });
 }
 
-/// Straight against a face or away from it, from the touch on or from before it.
+/// Motion perpendicular to a face, toward or away from it, from the touch on or from an earlier point.
 bool head_on(CaseBuilder& d) {
   return touch_and_move(d, [&](std::size_t k, double side, Numbers& at, Numbers& velocity) {
     const double speed = velocity[k] == 0 ? d.unit : std::abs(velocity[k]);
@@ -563,7 +564,7 @@ bool head_on(CaseBuilder& d) {
   });
 }
 
-// Transforms of everything.
+// Transforms of all operands.
 
 bool far_offset(CaseBuilder& d) {
   if (d.plan.positions.empty()) return false;
@@ -603,14 +604,14 @@ bool ulp_nudge(CaseBuilder& d) {
   return any;
 }
 
-/// A number that may have any value: of a position, velocity, direction or rotation.
+/// A number that may have any value: a component of a position, velocity, direction or rotation.
 bool some_signed_number(CaseBuilder& d, std::size_t& at) {
   at = d.random.below(d.plan.query->inputs.size());
   const Role role = d.plan.query->inputs[at].role;
   return role == Role::position || role == Role::velocity || role == Role::direction || role == Role::rotation;
 }
 
-/// 1e-15 ... 1e-3 of itself.
+/// A relative change of 1e-15 ... 1e-3.
 bool relative_nudge(CaseBuilder& d) {
   const std::size_t at = d.random.below(d.plan.query->inputs.size());
   const Role role = d.plan.query->inputs[at].role;
@@ -640,7 +641,7 @@ bool neighbour_of_one(CaseBuilder& d) {
   return true;
 }
 
-/// All lengths at the end of the scalar's range: 2^-149 or 2^-1074 among them, or the largest finite numbers.
+/// All lengths at an end of the scalar's range: 2^-149 or 2^-1074 among them, or the largest finite numbers.
 bool extreme_scale(CaseBuilder& d) {
   const int lowest = d.orders(-149, -1074), highest = d.orders(127, 1023);
   double largest = 0;
@@ -657,7 +658,7 @@ bool extreme_scale(CaseBuilder& d) {
   return true;
 }
 
-/// One number at the very end of the scalar's range.
+/// One number at an end of the scalar's range.
 bool largest_or_least(CaseBuilder& d) {
   std::size_t at;
   if (!some_signed_number(d, at)) return false;
@@ -667,8 +668,8 @@ bool largest_or_least(CaseBuilder& d) {
   return true;
 }
 
-/// The closed table. Applied in this order, so that what is exact is made before it is moved, and the
-/// last ulps are changed at the very end.
+/// The closed table. Mutators apply in this order: exact constructions come before transforms of the scene, and changes
+/// of the last ulps come last.
 constexpr Mutator table[] = {
     {"small-lattice", "every number a small integer", small_lattice},
     {"dyadic-grid", "every number a multiple of a power of two", dyadic_grid},

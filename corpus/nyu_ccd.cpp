@@ -23,7 +23,7 @@ Point cross(const Point& a, const Point& b) {
 }
 mpq_class inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// The number as a double, if one holds it.
+/// The number as a double, if a double can hold it.
 std::optional<double> as_double(const mpq_class& q) {
   const double x = q.get_d();
   if (!std::isfinite(x) || mpq_class(x) != q) return std::nullopt;
@@ -35,7 +35,7 @@ struct Row {
   bool truth = false;
 };
 
-/// Reads rows one by one and knows where it is.
+/// Reads rows and counts lines.
 class RowReader {
  public:
   explicit RowReader(const std::filesystem::path& file) : file_(file), in_(file) {
@@ -56,7 +56,7 @@ class RowReader {
  private:
   static constexpr std::size_t columns = 7, most_of_a_line = std::size_t{1} << 16;
 
-  /// The next line, without what ends it. False at the end of the file.
+  /// Reads the next line without its line ending. False at the end of the file.
   bool read_line() {
     line_.clear();
     ++number_;
@@ -64,7 +64,7 @@ class RowReader {
       if (c == std::ifstream::traits_type::eof()) {
         if (in_.bad()) fail("the rest cannot be read");
         if (!line_.empty()) break;
-        --number_;  // there is no such line
+        --number_;  // the file ends after a line ending
         return false;
       }
       line_ += char(c);
@@ -74,7 +74,7 @@ class RowReader {
     if (number_ == 1 && (line_.starts_with("\xFF\xFE") || line_.starts_with("\xFE\xFF"))) {
       fail("this is a text in UTF-16, which must be UTF-8 here");
     }
-    if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // some write it before UTF-8
+    if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // a byte order mark of UTF-8
     if (!line_.empty() && line_.back() == '\r') line_.pop_back();
     return true;
   }
@@ -136,7 +136,7 @@ bool append(const Point& p, std::vector<double>& values) {
   return true;
 }
 
-/// Empty when the query does not fit a point that moves past a fixed triangle in double.
+/// Empty if the query is not a point that moves past a fixed triangle, exactly in double.
 std::optional<GroundTruth> fit(const Rows& rows) {
   const auto at = [&](std::size_t i) -> const Point& { return rows[i].point; };
   const Point moved = minus(at(5), at(1));
@@ -172,7 +172,7 @@ void read_into(GroundTruths& all, const std::filesystem::path& file) {
   }
 }
 
-/// A query of the sample: the face is (0,0,0), (4,0,0), (0,4,0), and both move by `carried`.
+/// A query of the sample: the face is (0,0,0), (4,0,0), (0,4,0); both vertex and face move by `carried`.
 struct SampleQuery {
   std::array<double, 3> from, by, carried;
   bool collides;

@@ -22,7 +22,7 @@ double any_number(Scalar scalar, std::uint64_t bits, std::span<const double> oth
   return std::isfinite(x) ? x : 1.0;
 }
 
-/// What shares a power of two: the numbers of "box.half", those of "sphere.radius".
+/// The group that shares a power of two: the numbers of "box.half", those of "sphere.radius".
 std::string_view vector_of(std::string_view field) { return field.substr(0, field.find_last_of('.')); }
 
 }  // namespace

@@ -12,7 +12,7 @@ Numbers plus(const Numbers& a, const Numbers& b, double factor = 1) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-/// One thing of the scene: where it is and how far it reaches, roughly.
+/// One operand of the scene: its position and approximate extent.
 struct Placed {
   Numbers center{};
   double reach = 0;
@@ -44,11 +44,11 @@ Numbers draw_direction(CaseBuilder& d) {
   return x;
 }
 
-/// The first thing anywhere near the origin, the others at distances comparable with both reaches.
+/// Places the first operand near the origin, the others at distances comparable with the extents of both.
 std::vector<Placed>& place_operands(CaseBuilder& d) {
   static thread_local std::vector<Placed> placed;
   placed.clear();
-  // Things without a size hardly meet by chance.
+  // Operands without a size hardly ever meet by chance.
   const bool chance = d.plan.sizes.empty() && decides(d.plan.query->kind);
   const double furthest = !d.plan.velocities.empty() ? 4 : chance ? 1 : 2;
   for (const Operand& operand : d.plan.operands) {
@@ -67,7 +67,7 @@ std::vector<Placed>& place_operands(CaseBuilder& d) {
   return placed;
 }
 
-/// A point of the thing, or between its points.
+/// A position of the operand, or a point between its positions.
 Numbers point_of(CaseBuilder& d, const Operand& operand) {
   Numbers sum{};
   double weights = 0;
@@ -110,7 +110,7 @@ double draw_index(CaseBuilder& d) {
   return double(d.random.below(choices));
 }
 
-/// Of a plane, whose normal are the three numbers before: it passes near a position of the scene.
+/// For a plane, whose normal is the three numbers before: the plane passes near a position of the scene.
 double draw_offset(CaseBuilder& d, std::size_t i) {
   Numbers near = d.random_vector(3 * d.unit);
   if (!d.plan.positions.empty()) near = plus(near, d.vector(d.random.pick(d.plan.positions)));

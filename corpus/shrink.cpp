@@ -9,7 +9,7 @@ namespace nearmiss {
 
 namespace {
 
-/// 0 for 0, then 1, -1, 2 ...: significant bits, how far the exponent is from 0, the sign.
+/// A measure of complexity: 0 for 0, then 1, -1, 2 ...: significant bits, distance of the exponent from 0, the sign.
 int cost(double x) {
   if (x == 0) return std::signbit(x) ? 1 : 0;
   int exponent = 0;
@@ -29,8 +29,8 @@ long cost(const Case& c) {
   return 4 * sum + long(distinct.size());
 }
 
-/// Simpler numbers than x, the simplest first. They have no more bits than x and an exponent nearer to 0,
-/// so they are exact in every scalar in which x is.
+/// Simpler numbers than x, the simplest first. They have no more bits than x and an exponent nearer to 0, so they are
+/// exact in every scalar in which x is exact.
 std::vector<double> simpler(double x) {
   std::vector<double> all{0, 1, -1, 2, -2, 3, std::trunc(x), std::round(x), std::abs(x)};
   int exponent = 0;
@@ -57,7 +57,7 @@ class Shrinker {
   }
 
  private:
-  /// True when anything became simpler.
+  /// True if any number became simpler.
   bool pass() {
     const long before = cost_;
     scale_lengths();
@@ -99,7 +99,7 @@ class Shrinker {
     const Role role = best_.query->inputs[i].role;
     return role == Role::position || role == Role::size || role == Role::velocity;
   }
-  /// All lengths by the same power of two.
+  /// Scales all lengths by the same power of two.
   void scale_lengths() {
     for (int k : {64, 16, 4, 1, -1, -4, -16, -64}) {
       for (bool again = true; again;) {
@@ -114,7 +114,7 @@ class Shrinker {
       }
     }
   }
-  /// All lengths at once onto a grid, the coarsest first: what meets there, meets with simpler numbers.
+  /// Rounds all lengths at once to a grid, the coarsest first: contacts survive on a grid and have simpler numbers.
   void round_lengths() {
     double largest = 0;
     for (std::size_t i = 0; i < best_.values.size(); ++i) {
@@ -132,7 +132,7 @@ class Shrinker {
       if (exact && accept(values)) return;
     }
   }
-  /// Each axis of all positions, so that one of them is at 0.
+  /// Shifts each axis of all positions so that one of them is at 0.
   void shift_positions() {
     for (std::size_t origin = 0; origin < best_.values.size(); ++origin) {
       if (best_.query->inputs[origin].role != Role::position || best_.values[origin] == 0) continue;

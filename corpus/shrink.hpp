@@ -1,4 +1,4 @@
-/// Smaller cases of the same finding.
+/// Reduces a case to a simpler one with the same finding.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace nearmiss {
 
-/// The simplest case found for which `keeps` still holds: zeros, small integers, few significant
-/// bits, few distinct numbers. `keeps(c)` must hold; it is asked at most `questions` times, always
-/// about valid cases that are exact in their scalar. Deterministic.
+/// The simplest case found for which `keeps` holds: zeros, small integers, few significant bits, few distinct numbers.
+/// `keeps(c)` must hold. It is called at most `questions` times, always with valid cases that are exact in their
+/// scalar. Deterministic.
 Case shrink(const Case& c, const std::function<bool(const Case&)>& keeps, int questions = 20000);
 
 }  // namespace nearmiss

@@ -11,8 +11,8 @@
 
 namespace nearmiss {
 
-/// What a stored case says about a subject's answer; kept with the case, so that an open bug is a
-/// green test that turns red the day it is fixed.
+/// The expected finding for a subject's answer. It is stored with the case, so that an open bug is a green test that
+/// turns red on the day it is fixed.
 struct Expected {
   std::string subject;
   std::string verdict;       ///< name_of(Verdict)
@@ -22,20 +22,21 @@ struct Expected {
 struct StoredCase {
   Case question;
   std::filesystem::path file;
-  std::string note;  ///< what the case is about, or where it was reported
+  std::string note;  ///< the purpose of the case, or where it was reported
   std::vector<Expected> expected;
 };
 
-/// A case file with its "note" and "expected": [{"subject", "verdict", "disagreement"}], all optional
-/// but subject and verdict. Throws BadInput: unreadable, not a case, or words that the judge never says.
+/// Reads a case file with its "note" and "expected": [{"subject", "verdict", "disagreement"}]; all fields but subject
+/// and verdict are optional. Throws BadInput if the file is unreadable, no case, or has a verdict or disagreement that
+/// the judge never gives.
 StoredCase read_stored_case(const std::filesystem::path& file);
 
-/// Every stored case of the query, seeds first, in order of file name. Throws BadInput for a file that
-/// is no case of this query.
+/// Every stored case of the query, seeds first, ordered by file name. Throws BadInput for a file that is no case of
+/// this query.
 std::vector<StoredCase> stored_cases(const Query& query);
-/// Number of files in the query's folder of seeds.
+/// The number of files in the query's folder of seeds.
 std::size_t count_seeds(const Query& query);
-/// The folder corpus/ of this build: the environment variable NEARMISS_CORPUS, or the one that CMake knew.
+/// The folder corpus/ of this build: the environment variable NEARMISS_CORPUS, or the folder that CMake set.
 std::filesystem::path corpus_folder();
 
 }  // namespace nearmiss

@@ -22,7 +22,7 @@ bool has(const Query& query, Role role) {
   return std::any_of(query.inputs.begin(), query.inputs.end(), [&](const Field& f) { return f.role == role; });
 }
 
-/// A direction, and another one or an edge beside it.
+/// A direction, and another direction or an edge near which it is placed.
 bool turns_a_direction(const Query& query) {
   const auto numbers = [&](Role role) {
     return std::count_if(query.inputs.begin(), query.inputs.end(), [&](const Field& f) { return f.role == role; });
@@ -30,7 +30,7 @@ bool turns_a_direction(const Query& query) {
   return numbers(Role::direction) >= 6 || (numbers(Role::direction) > 0 && numbers(Role::position) >= 9);
 }
 
-/// The numbers of a case in double, rounded only at the end.
+/// The numbers of a case in double, rounded to the scalar only at the end.
 class Scene {
  public:
   Scene(const Case& c, std::uint64_t seed) : fields_(c.query->inputs), values(c.values), random_(seed) {}
@@ -57,7 +57,7 @@ class Scene {
     for (double& s : shift) s = sizes * random_.uniform(0.5, 1) * random_.sign();
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (fields_[i].role == Role::position) values[i] += shift[axis_of(i)];
-      if (fields_[i].role != Role::offset) continue;  // of a plane: after its normal
+      if (fields_[i].role != Role::offset) continue;  // the offset of a plane follows its normal
       for (std::size_t k = 0; k < 3; ++k) values[i] -= values[i - 3 + k] * shift[k];
     }
   }
@@ -84,7 +84,7 @@ class Scene {
       if (fields_[i].role == Role::size && fields_[i].name.starts_with(thing)) values[i] *= factor;
     }
   }
-  /// Boxes nearly upright; without boxes, the velocity or else a direction nearly along another vector.
+  /// Boxes nearly unrotated; without boxes, the velocity or else a direction nearly along another vector.
   void turn(double angle) {
     if (std::any_of(fields_.begin(), fields_.end(), [](const Field& f) { return f.role == Role::rotation; })) {
       for (std::size_t i = 0; i < values.size(); ++i) {
@@ -100,7 +100,7 @@ class Scene {
     const double length = std::hypot(along[0], along[1], along[2]);
     for (std::size_t k = 0; k < 3; ++k) values[to + k] = along[k] + angle * length * random_.uniform(-1, 1);
   }
-  /// Along a direction of the query, or in the plane of three of its positions.
+  /// A direction along another direction of the query, or in the plane of three of its positions.
   std::array<double, 3> some_direction(std::size_t but) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
@@ -117,7 +117,7 @@ class Scene {
     }
     return along;
   }
-  /// A velocity along a plane is at a right angle to its normal; a direction lies along another one.
+  /// A velocity along a plane is perpendicular to the plane's normal; a direction is parallel to another direction.
   std::array<double, 3> across(const std::array<double, 3>& normal) {
     if (!has_role(Role::velocity)) return normal;
     std::array<double, 3> any;
@@ -135,7 +135,7 @@ class Scene {
   Random random_;
 };
 
-/// Lengths that all became zero say nothing about the scale that they had.
+/// Lengths that all became zero no longer represent their scale.
 bool vanished(const Query& query, std::span<const double> before, std::span<const double> after) {
   bool had = false, has_any = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -187,7 +187,7 @@ std::optional<Case> sweep_case(const Query& query, Scalar scalar, std::uint64_t 
   Case c = generate(query, scalar, seed, index);
   Scene scene(c, Random(seed).bits() ^ index);
   const std::vector<double> before = c.values;
-  // Shapes first, then where they are, then how large everything is.
+  // The order: shapes, then their places, then the scale of all lengths.
   for (const SweepAxis axis :
        {SweepAxis::angle, SweepAxis::ratio, SweepAxis::speed, SweepAxis::offset, SweepAxis::scale}) {
     if (plane.x == axis) scene.apply(axis, x);

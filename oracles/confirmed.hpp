@@ -1,5 +1,5 @@
-/// The judge's second look. Every engine that counts what is wrong with answers asks here, so that nothing is counted
-/// on the word of one look.
+/// The judge's second look at an answer. Every engine that counts wrong answers calls confirmed(), so that no single
+/// judgement is counted unchecked.
 #pragma once
 
 #include <stdexcept>
@@ -8,13 +8,13 @@
 
 namespace nearmiss {
 
-/// Two looks at one answer that cannot both be right: a fault of Nearmiss, never a finding. A program that meets one
+/// Two judgements of one answer contradict each other: a fault of Nearmiss, never a finding. A program that meets one
 /// ends with this exit code.
 class InternalError : public std::runtime_error {
  public:
   static constexpr int exit_code = 3;
 
-  /// what() is one line that has both words.
+  /// what() is one line that quotes both judgements.
   InternalError(const Case& question, const Finding& first, const Finding& in_full);
   const Case& question() const { return question_; }
 
@@ -22,10 +22,11 @@ class InternalError : public std::runtime_error {
   Case question_;
 };
 
-/// Judges as judge() does. What accuses the subject (a violation, a wrong decision, a number that is not finite) is
-/// judged a second time, alone and in full, and the second word is the one returned; Detail::full always returns that
-/// one. Throws InternalError where the two differ in the verdict or the truth. Which of several wrong members is the
-/// worst, the second word alone can tell: a first look knows their distances between bounds.
+/// Judges as judge() does. Where the first judgement accuses the subject (a violation, a wrong decision, a number that
+/// is not finite), judges the answer a second time with Detail::full and returns that second judgement. With
+/// Detail::full the second judgement is always the one returned. Throws InternalError if the two differ in the verdict
+/// or the truth. They may differ in which member is worst, because the first judgement knows distances only between
+/// bounds.
 Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
 
 }  // namespace nearmiss

@@ -1,8 +1,8 @@
-/// The one place that asserts IEEE 754 arithmetic. Three things would silently break it:
-/// - fast-math lets the compiler reassociate: sums lose the order on which error bounds rest, NaN
-///   tests vanish, and the intervals' bounds are no bounds any more;
-/// - contraction (-ffp-contract) turns a * b + c into one rounding where the compiler likes: the same
-///   source gives other results under another compiler, and a * b - b * a need not be zero;
+/// The one place that asserts IEEE 754 arithmetic. Three compiler settings would silently break it:
+/// - fast-math lets the compiler reassociate: sums lose the order on which error bounds rest, NaN tests vanish, and
+///   interval bounds no longer enclose;
+/// - contraction (-ffp-contract) turns a * b + c into one rounding at the compiler's choice: the same source gives
+///   other results under another compiler, and a * b - b * a need not be zero;
 /// - excess precision (FLT_EVAL_METHOD) rounds twice.
 #include "oracles/environment.hpp"
 
@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "impl/subject/floating_point.hpp"
-#include "oracles/exact/arithmetic.hpp"
 #include "oracles/exact/answer_sink.hpp"
+#include "oracles/exact/arithmetic.hpp"
 
 #if defined(__FAST_MATH__) || defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "Nearmiss needs IEEE 754 arithmetic: compile without -ffast-math"
@@ -25,13 +25,13 @@ namespace {
 static_assert(std::numeric_limits<float>::is_iec559 && std::numeric_limits<double>::is_iec559);
 static_assert(FLT_EVAL_METHOD == 0, "floats must be computed as floats and doubles as doubles");
 
-/// Keeps its argument out of the compiler's sight.
+/// Hides the value of its argument from the optimizer.
 [[gnu::noinline]] double opaque(double x) {
   asm volatile("" : "+m"(x));
   return x;
 }
 
-/// A product less its own rounded value is 0, unless the two operations are contracted into one.
+/// A product minus its own rounded value is 0, unless the compiler contracts the two operations into one.
 bool contracts() {
   const double a = opaque(1 + 0x1p-27);
   const double rounded = opaque(a * a);
@@ -40,8 +40,8 @@ bool contracts() {
 
 bool rounds_subnormals_away() { return opaque(0x1p-1074) * opaque(1.0) == 0; }
 
-/// 1/3, 1 - 2^-60 and sqrt(2) lie strictly between the bounds of their intervals, and a product with a
-/// negative factor has its bounds in order.
+/// The intervals of 1/3, 1 - 2^-60 and sqrt(2) strictly contain these numbers, and a product with a negative factor has
+/// its bounds in ascending order.
 bool intervals_hold() {
   const oracle::IntervalScope scope;
   oracle::arithmetic_barrier();

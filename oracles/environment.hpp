@@ -1,4 +1,4 @@
-/// The floating-point environment on which every result here rests.
+/// The floating-point environment that every result depends on.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,9 @@
 
 namespace nearmiss {
 
-/// What is wrong with the arithmetic of this build on this machine, in one line; empty when nothing
-/// is. Asked once at the start of every program. Works in any modes (impl/subject/floating_point.hpp) and leaves them.
+/// Checks the arithmetic of this build on this machine. Returns one line that names the first fault; empty if there is
+/// none. Every program calls it once at its start. Works in any floating-point modes (impl/subject/floating_point.hpp)
+/// and restores them.
 std::optional<std::string> broken_environment();
 
 }  // namespace nearmiss

@@ -28,7 +28,7 @@ bool moves(Role role) {
   }
 }
 
-using Magnitudes = std::array<double, 16>;  // by role
+using Magnitudes = std::array<double, 16>;  // indexed by role
 
 /// "box1.orientation" of "box1.orientation.x".
 std::string_view vector_of(std::string_view field) { return field.substr(0, field.find_last_of('.')); }
@@ -42,7 +42,7 @@ Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   return largest;
 }
 
-/// The oracle and the question, so that each step below is one line. Remembers what each rung shows.
+/// The oracle and the case, so that each step below is one line. Caches the result of each rung.
 class Examination {
  public:
   Examination(const Case& question, const Answer& answer)
@@ -54,7 +54,7 @@ class Examination {
   }
   void widen(double k) const {
     widening_.resize(question_.values.size());
-    // One part in 2^50 more covers the rounding of the products themselves.
+    // One more part in 2^50 covers the rounding of the products themselves.
     const double relative = k * unit_roundoff(question_.scalar) * (1 + 0x1p-50);
     for (std::size_t i = 0; i < widening_.size(); ++i) {
       const Role role = question_.query->inputs[i].role;
@@ -65,18 +65,18 @@ class Examination {
   Enclosure exactly(std::vector<Alternative>* list = nullptr) const {
     return oracle_of(*question_.query).exact(question_.values, answer_, question_.scalar, list);
   }
-  /// The highest rung at which no exact answer matches; empty when the lowest cannot exclude it.
+  /// The highest rung at which no exact answer matches; empty if even the lowest rung may have a match.
   std::optional<Backward> backward() const {
     return highest_rung([](const Rung& r) { return !r.may_match; });
   }
-  /// The same for the given decision, and for one member beside it.
+  /// The same for the given decision, and for one member together with the given decision.
   std::optional<Backward> backward_of_decision() const {
     return highest_rung([&](const Rung& r) { return answer_.yes ? !r.may_be_yes : !r.may_be_no; });
   }
   std::optional<Backward> backward_of_member(std::size_t member) const {
     return highest_rung([&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; });
   }
-  /// The highest rung up to which the decision is the same for every input.
+  /// The highest rung up to which every input has the same decision.
   std::optional<Backward> margin() const {
     return highest_rung([](const Rung& r) { return r.may_be_yes != r.may_be_no; });
   }
@@ -86,7 +86,7 @@ class Examination {
       const double m = largest_[role];
       if (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest)) return false;
     }
-    // Directions and rotations have no length in common: each must lie there by itself.
+    // Directions and rotations have no common length, so each must lie there by itself.
     const std::vector<Field>& fields = question_.query->inputs;
     for (std::size_t i = 0; i < fields.size();) {
       const std::string_view vector = vector_of(fields[i].name);
@@ -102,8 +102,8 @@ class Examination {
     }
     return true;
   }
-  /// True where the place that number `worst` belongs to is proved to be off the surface of every input within k, by
-  /// more than that many ulps.
+  /// True if the place that contains output `worst` is proved to lie off the surface of every input within k, by more
+  /// than that many ulps.
   bool off_surface(int worst, double k, double ulps) const {
     const Oracle& oracle = oracle_of(*question_.query);
     if (oracle.may_be_on_surface == nullptr || !answer_.yes) return false;
@@ -209,7 +209,7 @@ class Judgement {
 
  private:
   using Part = Layout::Part;
-  /// The decision: intervals first, exact numbers where they cannot tell.
+  /// The decision: by intervals first, by exact numbers where the intervals cannot tell.
   void decide() {
     constexpr double vague_ulps = 0.1;
     here_ = x_.within(0);
@@ -242,7 +242,7 @@ class Judgement {
     }
     f_.members.push_back(std::move(m));
   }
-  /// Beside a decision that breaks the contract itself the numbers mean nothing.
+  /// After a decision that breaks the contract, the numbers mean nothing.
   void judge_members() {
     const bool broken_decision = !f_.members.empty() && f_.members.front().breaks();
     for (std::size_t i = 0; i < query_.layout.parts.size(); ++i) {
@@ -259,7 +259,7 @@ class Judgement {
   bool is_unasked_time_of_miss(const Part& part) const {
     return query_.kind == Kind::impact && !answer_.yes && part.role == Role::time;
   }
-  /// A miss has an infinite time; a negative one or NaN is no time at all.
+  /// A miss has an infinite time; a negative time or NaN is invalid.
   void judge_miss(std::size_t member, const Part& part) {
     const double time = answer_.values[part.begin];
     if (std::isnan(time)) {
@@ -277,9 +277,9 @@ class Judgement {
     m.worst = worst;
     return m;
   }
-  /// What belongs to a hit alone means nothing in a miss.
+  /// Members that describe a hit mean nothing in a miss.
   bool is_given(std::size_t i) const { return answer_.gives(i) && (answer_.yes || query_.kind != Kind::impact); }
-  /// The first number that is NaN, or infinite where it is not shown to be right.
+  /// The first number that is NaN, or infinite without proof that infinity is right.
   int not_finite(const Part& part) {
     for (std::size_t i = part.begin; i < part.end; ++i) {
       if (!is_given(i)) continue;
@@ -288,8 +288,8 @@ class Judgement {
     }
     return -1;
   }
-  /// An infinite number is none where an exact one is at most half the largest finite number. Nearer to that it is held
-  /// to its distance like any other number, and so it is beside a wrong decision, where there is no exact one.
+  /// An infinite number is invalid if an exact one is at most half the largest finite number. Beyond that, or beside a
+  /// wrong decision (which has no exact number to compare with), it is judged by its distance like any other number.
   bool may_be_infinite(std::size_t i) const {
     const Enclosure exact = x_.exactly();
     return exact.may_be_yes != answer_.yes || exact.error[i].nearest_to_zero() <= largest_finite(question_.scalar) / 2;
@@ -299,7 +299,7 @@ class Judgement {
     breaks(m, Clause::finite_numbers);
     f_.members.push_back(std::move(m));
   }
-  /// A member counts beside a wrong decision where it is wrong for every input that has the given decision as well.
+  /// Beside a wrong decision, a member counts only if it is wrong for every input that has the given decision too.
   void judge_member(std::size_t member, const Part& part) {
     if (!answer_.gives(part.begin) || here_.members[member].may_match) return;
     std::optional<Backward> backward = x_.backward_of_member(member);
@@ -318,7 +318,7 @@ class Judgement {
     }
     f_.members.push_back(std::move(m));
   }
-  /// A clause in words; what is broken whatever is promised, by the number that breaks it.
+  /// The clause in words; for the clauses without a contract, the number that breaks it.
   std::string words_of(Clause c, int number) const {
     switch (c) {
       case Clause::none: return {};
@@ -332,7 +332,8 @@ class Judgement {
     return fmt::format("{} is {}", query_.outputs[std::size_t(number)].name, answer_.values[std::size_t(number)]);
   }
   void breaks(MemberFinding& m, Clause c) const { m.broken = c, m.clause = words_of(c, m.worst); }
-  /// A wrong place that breaks the contract may break more: is it on the surface of anything that the contract allows?
+  /// A wrong place that breaks the contract may break more: does it lie on the surface of any input that the contract
+  /// allows?
   void name_place(MemberFinding& m, double k, double ulps) const {
     if (m.disagreement == Disagreement::wrong_place && x_.off_surface(m.worst, k, ulps)) {
       m.disagreement = Disagreement::off_surface;
@@ -348,7 +349,7 @@ class Judgement {
     }
   }
 
-  /// How many times as much as was promised: what the headline goes by. A number that is not finite comes first.
+  /// How many times the promised bound is exceeded; orders the headline. A number that is not finite comes first.
   double excess(const MemberFinding& m) const {
     const auto times = [](double amount, double promised) {
       return std::isfinite(promised) ? amount / std::max(promised, 1.0) : 0.0;
@@ -360,7 +361,7 @@ class Judgement {
     return std::max({times(backward, contract_.backward), times(m.forward_ulps, contract_.forward),
                      contract_.exact_decisions && m.member == MemberFinding::decision ? 1.0 : 0.0});
   }
-  /// What breaks the contract before what differs; then what does so most.
+  /// Members that break the contract come before those that differ; within each group the worst comes first.
   void choose_headline() {
     const auto rank = [&](int i) {
       const MemberFinding& m = f_.members[std::size_t(i)];
@@ -374,7 +375,7 @@ class Judgement {
     choose_headline();
     const MemberFinding* head = f_.headline_member();
     if (head != nullptr && head->breaks()) return violated(head->disagreement, head->broken, head->clause);
-    // No member by itself: all of them together may.
+    // No member differs alone; together they may.
     if (f_.backward && f_.backward->above >= contract_.backward) return combination(Clause::backward);
     if (!decision_differs_ && f_.forward_ulps > contract_.forward) return combination(Clause::forward);
     if (here_.may_match && head == nullptr) return;  // agrees

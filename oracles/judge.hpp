@@ -1,4 +1,4 @@
-/// The judge: turns an answer and the oracle's word into a finding with numbers.
+/// The judge: compares an answer with the oracle's and returns a finding with numbers.
 #pragma once
 
 #include <optional>
@@ -13,18 +13,18 @@
 namespace nearmiss {
 
 enum class Verdict {
-  agrees,             ///< no difference above one ulp that the oracle can show
-  not_proved,         ///< differs; not proved to differ by more than was promised
-  violates_contract,  ///< proved: differs by more than was promised
-  exceeds_measure,    ///< proved: differs by more than the measure, while nothing was promised
-  out_of_domain,      ///< the promise does not cover this input
+  agrees,             ///< the oracle proves no difference above one ulp
+  not_proved,         ///< differs, but not provably by more than the contract allows
+  violates_contract,  ///< proved: differs by more than the contract allows
+  exceeds_measure,    ///< proved: differs by more than the measure, without a contract
+  out_of_domain,      ///< the contract does not cover this input
   cannot_answer,      ///< the subject has no answer to this case; never a miss
   broke,              ///< exception, abort, crash, time or memory limit
-  not_asked,          ///< the case is outside of what the subject requires
+  not_asked,          ///< the case breaks a precondition of the subject
 };
 inline constexpr int verdict_count = 8;
 
-/// In which way a member of an answer differs. The two directions of a wrong decision are never added together.
+/// How a member of an answer differs. The two directions of a wrong decision are never added together.
 enum class Disagreement {
   none,
   false_hit,   ///< yes where the truth is no: a phantom collision
@@ -36,10 +36,10 @@ enum class Disagreement {
   wrong_depth,
   wrong_direction,
   wrong_weight,       ///< barycentric weights, cosines
-  wrong_flag,         ///< a yes or no beside the decision
-  wrong_index,        ///< an edge, an axis
-  wrong_combination,  ///< each member may be right by itself; no right answer has them together
-  off_surface,        ///< a wrong place that is not even on the surface that it is to lie on
+  wrong_flag,         ///< a flag other than the decision
+  wrong_index,        ///< of an edge or an axis
+  wrong_combination,  ///< each member may be right alone, but no right answer has them together
+  off_surface,        ///< a wrong place that does not even lie on its surface
   not_finite,         ///< NaN or infinity in a given number
   not_unit,           ///< a normal whose length is not 1
 };
@@ -48,83 +48,84 @@ inline constexpr int disagreement_count = int(Disagreement::not_unit) + 1;
 std::string_view name_of(Verdict v);
 std::string_view name_of(Disagreement d);
 
-/// What of a contract an answer breaks; the last two are broken whatever is promised.
+/// The clause of a contract that an answer breaks. The last two clauses hold without a contract too.
 enum class Clause { none, exact_decisions, backward, forward, unit, finite_numbers, no_negative_time };
 
-/// A proved lower bound on the backward error: no input within `above` * epsilon has an exact answer
-/// that the given one matches. On the ladder 0, 1, 2, 4 ... 2^50.
+/// A proved lower bound on the backward error: no input within `above` * epsilon has an exact answer that matches the
+/// given one. A rung of the ladder 0, 1, 2, 4 ... 2^50.
 struct Backward {
   double above = 0;
 };
 
-/// What is proved against one member of an answer, seen by itself.
+/// What is proved against one member of an answer, judged alone.
 struct MemberFinding {
   static constexpr int decision = -1;
 
-  int member = decision;  ///< index in the query's layout; a normal may have two findings: its direction, its length
+  int member = decision;  ///< index in the query's layout; a normal may have two findings: direction and length
   Disagreement disagreement = Disagreement::none;
-  /// No input within `above` * epsilon has an exact answer with the given yes or no and with this member. Empty: the
-  /// disagreement is not one of distance (a number that is not finite, a length).
+  /// No input within `above` * epsilon has an exact answer with the given decision and with this member. Empty where
+  /// the disagreement is not a distance (a number that is not finite, a length).
   std::optional<Backward> backward;
-  /// At least so far from the nearest exact one of the case itself. Zero, and no number, where the decision is wrong.
+  /// Lower bound of the distance to the nearest exact answer of the case itself, in ulps. 0 where the decision is
+  /// wrong.
   double forward_ulps = 0;
   double forward_absolute = 0;   ///< the same distance in the number's own unit
-  int worst = -1;                ///< index of the number that is so far off, among the query's outputs
+  int worst = -1;                ///< index among the query's outputs of the number with this distance
   Clause broken = Clause::none;  ///< the clause of the contract that the member breaks
-  std::string clause;            ///< the same for people
+  std::string clause;            ///< the broken clause in words
 
   bool breaks() const { return broken != Clause::none; }
 };
 
-/// The judge's word on one answer.
+/// The judge's verdict on one answer, with its proof.
 struct Finding {
   Verdict verdict = Verdict::agrees;
   Disagreement disagreement = Disagreement::none;  ///< of the headline
   Clause broken = Clause::none;                    ///< for a violation
-  /// The same for people; the reason, where the subject broke, cannot answer or is not asked.
+  /// The clause in words; or the reason why the subject broke, cannot answer or is not asked.
   std::string clause;
   bool late = false;  ///< broke: a time limit was reached
 
   bool truth_yes = false;              ///< the exact decision
-  Stage decided_by = Stage::interval;  ///< who decided it
-  std::optional<Backward> backward;    ///< of the whole answer; empty: nothing is proved against it
-  double forward_ulps = 0;             ///< of the whole answer: so far at least from the nearest exact one
+  Stage decided_by = Stage::interval;  ///< the stage that decided it
+  std::optional<Backward> backward;    ///< of the whole answer; empty: no difference is proved
+  double forward_ulps = 0;             ///< of the whole answer: lower bound of the distance to the nearest exact answer
   double forward_absolute = 0;         ///< the same distance in the worst number's own unit
-  int worst = -1;                      ///< index of that number among the query's outputs
-  double unit_error = 0;               ///< |normal| - 1, in units of epsilon; 0 where none is given
+  int worst = -1;                      ///< index of the worst number among the query's outputs
+  double unit_error = 0;               ///< |normal| - 1, in units of epsilon; 0 where the answer has no normal
 
-  std::vector<MemberFinding> members;  ///< every member that differs, whatever the others do; empty for a combination
-  int headline = -1;                   ///< the one of them that breaks or differs most; -1: none
+  std::vector<MemberFinding> members;  ///< every member that differs; empty for a wrong combination
+  int headline = -1;                   ///< index in `members` of the one that breaks or differs most; -1: none
 
   const MemberFinding* headline_member() const { return headline < 0 ? nullptr : &members[std::size_t(headline)]; }
-  /// Proved to differ by more than the contract, or the measure, allows.
+  /// The answer provably differs by more than the contract, or the measure, allows.
   bool is_proved() const { return verdict == Verdict::violates_contract || verdict == Verdict::exceeds_measure; }
-  /// Some member disagrees in that way and, for a violation, breaks the contract by it.
+  /// Some member has this disagreement and, for a violation, breaks the contract by it.
   bool has(Disagreement d) const;
 };
 
-/// How much to find out beyond the verdict.
+/// How much to compute beyond the verdict.
 enum class Detail {
-  verdict,  ///< as little work as the verdict takes; numbers only where they came for free
-  forward,  ///< the forward error too, to a tenth of an ulp
-  full,     ///< exact forward error and the backward bound, for a report
+  verdict,  ///< only what the verdict needs; numbers only where they cost nothing
+  forward,  ///< also the forward error, to a tenth of an ulp
+  full,     ///< also the exact forward error and the backward bound, for a report
 };
 
-/// Judges `answer` to a valid case by what it is held to. A case outside of what the standard requires is not_asked,
-/// whatever the answer. Thread-safe. The caller's modes of floating-point arithmetic, whatever they are, change
-/// nothing, here and wherever the oracle is asked.
+/// Judges `answer` to a valid case by `standard`. A case outside the subject's preconditions gets not_asked, whatever
+/// the answer. Thread-safe. The result does not depend on the caller's floating-point modes; this holds for every call
+/// of the oracle.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
 
-/// The exact decision alone, with as little work as it takes. Thread-safe.
+/// The exact decision alone, at the least cost. Thread-safe.
 bool exact_decision(const Case& question);
 
-/// The exact answers to a case, for people: all of them, and how far the nearest flip is.
+/// The exact answers to a case, for people: all of them, and the margin to the nearest flip of the decision.
 struct Truth {
   bool yes = false;
   Stage decided_by = Stage::interval;
   std::vector<Alternative> alternatives;
-  /// The decision is the same for every input within this many epsilon (of the case's scalar).
-  /// Proved, on the ladder; negative: not even the interval at the input itself shows it.
+  /// The decision is the same for every input within this many epsilon of the case's scalar. Proved, on the ladder.
+  /// Negative: the interval stage cannot decide even the input itself.
   double margin_at_least = -1;
 };
 Truth truth_of(const Case& question);
@@ -133,8 +134,8 @@ Truth truth_of(const Case& question);
 double rung(int k);
 inline constexpr int rungs = 52;
 
-/// How far each number of the input moves for a backward error of k: k * epsilon * the largest
-/// magnitude in its group, rounded up. Flags and indices do not move.
+/// How far each input number may move for a backward error of k: k * epsilon * the largest magnitude in its group,
+/// rounded up. Flags and indices do not move.
 std::vector<double> widening(const Query& query, std::span<const double> values, Scalar scalar, double k);
 
 }  // namespace nearmiss

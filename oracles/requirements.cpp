@@ -19,10 +19,11 @@ using Obstacle = Parts::Start::Obstacle;
 static_assert(std::numeric_limits<Long>::digits >= 64 && std::numeric_limits<Long>::max_exponent >= 16384,
               "the slacks below are derived from them; no square of a double overflows or underflows");
 
-/// What "within rounding" means, in epsilon: normalising in the scalar itself rounds the squares' sum, the root and the
-/// quotient, at most half an epsilon, one and one.
+/// What "within rounding" means, in epsilon. Normalising in the scalar itself rounds the sum of squares, the root and
+/// the quotient, by at most half an epsilon, one and one.
 constexpr Long most_epsilons = 4;
-/// Each check below has at most 16 operations in long double, of a relative error of 2^-63 each in any rounding mode.
+/// Each check below does at most 16 operations in long double, each with a relative error of at most 2^-63 in any
+/// rounding mode.
 constexpr Long rounding = 0x1p-58L;
 
 /// The fields of one top-level member.
@@ -41,7 +42,7 @@ std::vector<Thing> things_of(const Query& q) {
   return things;
 }
 
-/// The index of the thing's field of that name; empty where there is none.
+/// The index of the operand's field with that name; empty where it has none.
 std::optional<std::size_t> field(const Query& q, const Thing& t, std::string_view member) {
   for (std::size_t i = t.begin; i < t.begin + t.count; ++i) {
     const std::string_view name = q.inputs[i].name;
@@ -50,7 +51,7 @@ std::optional<std::size_t> field(const Query& q, const Thing& t, std::string_vie
   return std::nullopt;
 }
 
-/// What the thing is as something to move towards.
+/// The kind of obstacle that the operand is.
 std::optional<Obstacle> obstacle_of(const Query& q, const Thing& t) {
   const auto has = [&](std::string_view member) { return field(q, t, member).has_value(); };
   if (has("offset")) return Obstacle::plane;
@@ -89,7 +90,8 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// With a length in [1 - d, 1 + d], d = most_epsilons * epsilon, the square is in [1 - 2 d + d^2, 1 + 2 d + d^2].
+/// If the length lies in [1 - d, 1 + d], d = most_epsilons * epsilon, its square lies in [1 - 2 d + d^2, 1 + 2 d +
+/// d^2].
 bool is_unit(const Case& c, std::size_t begin, std::size_t count) {
   const Long d = most_epsilons * Long(unit_roundoff(c.scalar));
   Long square = 0;
@@ -97,7 +99,8 @@ bool is_unit(const Case& c, std::size_t begin, std::size_t count) {
   return std::abs(square - 1) <= 2 * d - d * d - rounding;
 }
 
-/// Moves v3 along the first side, and v2 to where the parallelogram ends: a rectangle, if no coordinate moves too far.
+/// True if v3 can move along the first side, and v2 to the fourth corner of the parallelogram, so that the corners form
+/// a rectangle and no coordinate moves too far.
 bool is_rectangle(const Case& c, const Parts::Corners& corners) {
   const Vector v0 = vector(c, corners[0]), v1 = vector(c, corners[1]), v2 = vector(c, corners[2]),
                v3 = vector(c, corners[3]);
@@ -111,7 +114,8 @@ bool is_rectangle(const Case& c, const Parts::Corners& corners) {
   return askew + open <= most;
 }
 
-/// The cross product is wrong by at most 16 roundings of |v| (|e| + |f|), |v| the largest coordinate.
+/// The rounding error of the cross product is at most 16 roundings of |v| (|e| + |f|), where |v| is the largest
+/// coordinate.
 bool has_area(const Case& c, const std::array<std::size_t, 3>& corners) {
   const Vector v0 = vector(c, corners[0]), v1 = vector(c, corners[1]), v2 = vector(c, corners[2]);
   const Vector e = v1 - v0, f = v2 - v0;
@@ -137,7 +141,7 @@ bool has_no_zero_sizes(const Case& c, const Parts& parts) {
          each(parts.triangles, [&](const auto& t) { return has_area(c, t); });
 }
 
-/// The ball at the start beside the obstacle, as another query of the catalogue.
+/// The ball at the start and the obstacle, as a case of another query of the catalogue.
 Case beside(const Case& c, QueryId query, std::vector<double> values) {
   return {&query_of(query), c.scalar, std::move(values), "start", 0, 0, {}};
 }
@@ -149,8 +153,8 @@ bool overlaps(const Case& c, const Parts::Start& s, QueryId query, const std::ve
   return exact_decision(beside(c, query, std::move(values)));
 }
 
-/// A ball that stands still hits exactly what it touches or overlaps. The radii count by their sum alone; the larger
-/// one goes to the ball, because a point inside of a capsule hits nothing.
+/// A ball at rest hits exactly what it touches or overlaps. Only the sum of the radii matters. The ball gets the larger
+/// radius, because a point inside a capsule hits nothing.
 bool overlaps_capsule(const Case& c, const Parts::Start& s) {
   const double own = s.radius ? c.values[*s.radius] : 0.0, other = c.values[s.begin + 6];
   std::vector<double> values(&c.values[s.place], &c.values[s.place] + 3);

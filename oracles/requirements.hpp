@@ -1,4 +1,4 @@
-/// Which cases are inside of what a subject requires.
+/// Which cases meet the preconditions of a subject.
 #pragma once
 
 #include <array>
@@ -12,10 +12,11 @@
 
 namespace nearmiss {
 
-/// The numbers of a query's inputs by what they are, from names and roles alone: indices of first numbers.
+/// The inputs of a query by their meaning, derived from names and roles alone. Each entry is the index of a first
+/// number.
 struct Parts {
   using Corners = std::array<std::size_t, 4>;
-  /// What moves, and what it moves towards. A point and a ray's origin have no radius.
+  /// The moving shape and its obstacle. A point and a ray's origin have no radius.
   struct Start {
     enum class Obstacle { plane, triangle, rectangle, sphere, capsule, box, aabox };
 
@@ -28,32 +29,33 @@ struct Parts {
   explicit Parts(const Query& query);
 
   std::vector<Corners> rectangles;
-  std::vector<std::array<std::size_t, 3>> triangles;  ///< those that a rectangle is made of, too
-  std::vector<std::array<std::size_t, 2>> segments;   ///< axes of capsules, too
+  std::vector<std::array<std::size_t, 3>> triangles;  ///< including those of rectangles
+  std::vector<std::array<std::size_t, 2>> segments;   ///< including the axes of capsules
   std::vector<std::size_t> normals, directions, quaternions, velocities;
-  std::vector<std::size_t> sizes;    ///< each number
-  std::vector<std::size_t> aaboxes;  ///< the lower corner; the upper one are the three numbers behind it
+  std::vector<std::size_t> sizes;    ///< one entry per number
+  std::vector<std::size_t> aaboxes;  ///< the lower corner; the upper corner follows it
   std::optional<Start> start;
 };
 
-/// Of a query of the catalogue.
+/// The parts of a query of the catalogue.
 const Parts& parts_of(const Query& query);
 
-/// Whether the query's inputs have anything that the precondition is about.
+/// Whether the precondition applies to any input of the query.
 bool concerns(Precondition p, const Query& query);
 
-/// True only if the case surely meets the precondition; where it is about nothing of the query, it is met. Starts are
-/// decided by the exact oracle. Thread-safe.
+/// True only if the case certainly meets the precondition, or if the precondition does not apply to the query. The
+/// exact oracle decides whether a start lies outside. Thread-safe.
 bool meets(const Case& question, Precondition p);
-/// Those among `required` that the case does not surely meet.
+/// Those of `required` that the case does not certainly meet.
 Preconditions unmet_by(const Case& question, Preconditions required);
 
 /// "it requires unit quaternions and a start outside".
 std::string requires_text(Preconditions required);
 
-/// Asks in this process, unless the case is outside of what the subject requires.
+/// Asks the subject in this process, unless the case breaks one of its preconditions.
 Answer ask_here(const Subject& subject, const Case& question);
-/// In place of an answer; the judge says not_asked whatever it is.
+/// Stands in for the answer to a case that the subject is not asked. The judge returns not_asked whatever the answer
+/// is.
 Answer answer_of_unasked(Preconditions unmet);
 
 }  // namespace nearmiss

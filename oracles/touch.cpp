@@ -11,9 +11,9 @@ namespace nearmiss {
 
 namespace {
 
-constexpr int far_below_rounding = 300;  // 2^-300: more bits than two doubles of one scene have between them
+constexpr int far_below_rounding = 300;  // 2^-300: below the lowest bit of any two doubles of one scene
 
-/// Which inputs are the places of the first thing that has one: all of one member, so that it is moved as a whole.
+/// The position inputs of the first operand that has any, so that the operand moves as a whole.
 std::vector<std::size_t> places_of_first_thing(const Query& query) {
   const auto thing = [&](std::size_t i) { return query.inputs[i].name.substr(0, query.inputs[i].name.find('.')); };
   std::vector<std::size_t> places;
@@ -33,7 +33,7 @@ double largest_place_or_size(const Case& c) {
   return largest;
 }
 
-/// The decision may differ for an input one rounding away: what no touch can do without.
+/// Whether the decision may differ for an input one rounding away. This holds for every touch.
 bool may_flip_next_door(const Case& c) {
   const std::vector<double> wide = widening(*c.query, c.values, c.scalar, 1);
   return oracle_of(*c.query).interval(c.values, wide, Answer{}, c.scalar).may_be_no;

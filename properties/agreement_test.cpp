@@ -1,4 +1,4 @@
-/// Each tier of `collide` keeps its contract, as far as the oracle can tell.
+/// Each tier of `collide` keeps its contract, as far as the oracle can prove.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST_P(EveryTier, PromisesSomethingAboutMostCases) {
   EXPECT_GE(covered, cases * 8 / 10) << "of " << cases << " cases within the contract's domain";
 }
 
-/// What is rounded to float has to be a float when it arrives, whatever an optimizer thinks of the way there.
+/// A value rounded to float must be a float at its destination, despite any optimization on the way.
 TEST_P(EveryTier, AnswersInNumbersOfItsScalar) {
   const auto [query, subject] = GetParam();
   const Offering& offering = subject->offering(query->name);

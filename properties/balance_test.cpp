@@ -1,4 +1,4 @@
-/// The generator's balance: both decisions, every kind of feature, ties, and the knife's edge, each often enough.
+/// The balance of the generator: both decisions, every kind of feature, ties and near flips are frequent enough.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,8 +24,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A case and one right answer to it by the names of their vectors. What is counted here is only classed, not judged:
-/// doubles are enough.
+/// A case and one right answer, by the names of their vectors. The test only classifies, so doubles are precise enough.
 class Scene {
  public:
   Scene(const Case& c, const Alternative& a) : case_(c), alternative_(a) {}
@@ -64,7 +63,7 @@ class Scene {
   const Alternative& alternative_;
 };
 
-/// Relative to the sizes at hand, for classing only.
+/// Relative to the sizes of the case; for classification only.
 constexpr double at_most = 1e-9;
 
 std::string_view corner_kind(int coordinates_at_their_end) {
@@ -87,7 +86,7 @@ Vector turned_back(const Vector& v, const Vector& u, double w) {  // by the inve
   return out;
 }
 
-/// Which feature of the fixed thing an answer lies on; empty where the query has none to tell.
+/// The feature of the fixed shape on which an answer lies; empty if the query has none.
 std::string feature_of(const Scene& s) {
   if (const auto w = s.answered("weights")) {
     const auto zeros = std::count_if(w->begin(), w->end(), [](double x) { return std::abs(x) <= at_most; });
@@ -128,12 +127,12 @@ std::string feature_of(const Scene& s) {
   return "";
 }
 
-/// In which ways there are several right answers.
+/// The reasons for which several answers are right.
 std::set<std::string> ties_of(const Case& c, const Truth& t) {
   const Query& query = *c.query;
   std::set<std::string> ties;
   if (query.id == QueryId::sphere_sphere_penetration && std::equal(&c.values[0], &c.values[3], &c.values[4])) {
-    ties.insert("cone");  // any normal is right where the centers are one; the truth names the one that was asked about
+    ties.insert("cone");  // any normal is right if the centers coincide; the truth lists only the given one
   }
   for (const Alternative& a : t.alternatives) {
     bool any = a.many_normals;
@@ -153,7 +152,7 @@ std::set<std::string> ties_of(const Case& c, const Truth& t) {
   return ties;
 }
 
-/// Shares of the first cases of a stream.
+/// Shares over the first cases of a stream.
 struct Balance {
   int cases = 0, yes = 0, knifes_edge = 0;
   std::map<std::string, int> features, ties;
@@ -170,7 +169,7 @@ struct Balance {
   }
 };
 
-/// A decision that an input within 4 epsilon would turn.
+/// Whether the decision changes for an input within 4 epsilon.
 bool on_the_knifes_edge(const Truth& t) { return t.margin_at_least < 4; }
 
 Balance balance_of(const Query& query, Scalar scalar, int cases) {
@@ -191,7 +190,7 @@ Balance balance_of(const Query& query, Scalar scalar, int cases) {
   return b;
 }
 
-/// Every query's features: what its answers can lie on. Empty for those without.
+/// The features of each query: the parts of a shape on which its answers can lie. Empty for queries without features.
 std::vector<std::string> features_of(const Query& query) {
   const auto has = [](const std::vector<Field>& fields, std::string_view beginning) {
     return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.name.starts_with(beginning); });
@@ -210,7 +209,7 @@ std::vector<std::string> features_of(const Query& query) {
   return {};
 }
 
-/// Every way in which a query may have several right answers; each has a stated share.
+/// Every reason for which a query may have several right answers; each has a stated share.
 std::set<std::string> expected_ties(const Query& query) {
   std::set<std::string> names;
   for (const Tie t : all_ties) {

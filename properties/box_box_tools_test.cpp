@@ -1,5 +1,5 @@
-/// The tools for pairs of boxes answer from what box_box_info computed once as they do from the boxes. Where every
-/// number is a small integer or a small power of two nothing is rounded, so the two must be equal.
+/// The tools for pairs of boxes give the same answers from a precomputed box_box_info as from the boxes. If every
+/// number is a small integer or a small power of two, no operation rounds, so the answers must be equal.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -18,10 +18,10 @@ class BoxBoxTools : public testing::Test {
  protected:
   using Box = collide::Box<T>;
 
-  /// Calls `look(box1, box2)` for boxes whose axes are coordinate axes, in some order and sign.
+  /// Calls `look(box1, box2)` for boxes whose axes are the coordinate axes, in some order and sign.
   template <class F>
   static void for_each_pair(F&& look) {
-    // x, y, z, w: no turn, half a turn, quarter turns, a third of a turn about the diagonal.
+    // x, y, z, w: the identity, a half turn, quarter turns, a third of a turn about the diagonal.
     const std::vector<collide::Quaternion<T>> turns{{0, 0, 0, 1}, {1, 0, 0, 0},  {1, 0, 0, 1},
                                                     {0, 1, 0, 1}, {0, 0, 1, -1}, {1, 1, 1, 1}};
     const std::vector<collide::Vec3<T>> centers{{0, 0, 0}, {3, 0, 0}, {4, 1, 0}, {-2, 5, 1}, {3, 3, -6}, {6, 0, -1}};

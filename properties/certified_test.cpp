@@ -1,4 +1,4 @@
-/// The certified tier, where nothing is scene-like: numbers of any bits, of any magnitude.
+/// The certified tier on cases unlike any scene: numbers with any bits, of any magnitude.
 #include <gtest/gtest.h>
 #include <collide/certified.hpp>
 

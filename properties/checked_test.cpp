@@ -1,4 +1,4 @@
-/// Checked shapes: what keeps the rules comes back as it was, what breaks one is told in one line.
+/// checked() returns valid shapes unchanged and reports a broken rule in one line.
 #include <collide/checked.hpp>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace nearmiss {
 namespace {
 
-using namespace collide;  // this file speaks of shapes alone
+using namespace collide;  // this file tests shapes alone
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -38,7 +38,7 @@ std::string complaint(const S& s, std::string_view name) {
 }
 
 TEST(Checked, GivesBackAShapeThatKeepsItsRules) {
-  constexpr Sphere<float> point = checked(Sphere<float>{{1, 2, 3}, 0});  // while compiling
+  constexpr Sphere<float> point = checked(Sphere<float>{{1, 2, 3}, 0});  // at compile time
   static_assert(point.center.z == 3 && point.radius == 0);
   static_assert(!broken_rule(crate));
   static_assert(noexcept(broken_rule(crate)));
@@ -88,7 +88,7 @@ TEST(Checked, KnowsAVectorThatMustNotBeZero) {
   EXPECT_THROW(checked_direction(Vec3<double>{0, nan, 0}), std::invalid_argument);
 }
 
-/// The same rules for every query's inputs: one number of a good case is spoilt.
+/// The same rules for every query's inputs: spoils one number of a valid case.
 TEST(Checked, RulesHoldForTheInputsOfEveryQuery) {
   for (const Query& query : catalogue()) {
     for (std::size_t i = 0; i < query.inputs.size(); ++i) {

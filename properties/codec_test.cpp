@@ -18,7 +18,7 @@
 namespace nearmiss {
 namespace {
 
-/// The same numbers to the bit: -0.0 is not 0.0.
+/// Bitwise equality: -0.0 differs from 0.0.
 void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.query, b.query);
   EXPECT_EQ(a.scalar, b.scalar);
@@ -32,7 +32,7 @@ Case from_text(const std::string& text) { return case_from_json(parse_json(text,
 
 class Codec : public testing::TestWithParam<NamedQuery> {};
 
-/// Generated cases, and one whose numbers are hard to write down.
+/// Generated cases, and one whose numbers are hard to print.
 std::vector<Case> cases_of(const Query& query, Scalar scalar) {
   std::vector<Case> all;
   for (std::uint64_t i = 0; i < 500; ++i) all.push_back(generate(query, scalar, 11, i));
@@ -41,7 +41,7 @@ std::vector<Case> cases_of(const Query& query, Scalar scalar) {
                          is_float ? double(0.1f) : 0.1, is_float ? double(1 - 0x1p-24f) : 1 - 0x1p-53};
   Case c = all.front();
   std::size_t first = 0;
-  do {  // in an order that breaks no rule between two numbers
+  do {  // in an order that keeps the rules between two numbers
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       const Role role = query.inputs[i].role;
       if (role != Role::flag && role != Role::index) c.values[i] = hard[(first + i) % std::size(hard)];

@@ -1,6 +1,5 @@
-/// What the oracles say of a motion and what they say of things at rest must fit together. Inputs lie on a coarse
-/// grid and times have few bits, so that the moved sphere's center is a double, exactly, and every question
-/// here is asked of the oracles themselves.
+/// The oracles of moving and of fixed shapes agree. Inputs lie on a coarse grid and times have few bits, so that the
+/// moved sphere's center is exactly a double, and the test can ask the oracles directly.
 #include <fmt/format.h>
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -28,7 +27,7 @@ bool is_yes(const char* query, const Values& values) {
   return truth_is_yes(c);
 }
 
-/// Encloses the exact value of an answer's number, of those with a yes.
+/// Encloses the exact value of a number over the answers that are a yes.
 Bounds exact_value(const char* query, const Values& values, std::size_t number) {
   Answer about;
   about.yes = true;
@@ -39,7 +38,7 @@ std::string written(const Query& query, const Values& values) {
   return case_to_json({&query, Scalar::float64, values, "", 0, 0, {}}).dump();
 }
 
-/// The generator's case on a grid of 1/16, within 64; rotations are small integers. Empty where that breaks a rule.
+/// The generator's case on a grid of 1/16, within 64; rotations are small integers. Empty if that breaks a rule.
 std::optional<Values> on_grid(const Query& query, std::uint64_t seed, std::uint64_t index) {
   Values values = generate(query, Scalar::float32, seed, index).values;
   bool turned = false;
@@ -58,18 +57,18 @@ std::optional<Values> on_grid(const Query& query, std::uint64_t seed, std::uint6
   return values;
 }
 
-/// A number of at most 24 bits below (above) x, which is positive.
+/// A number of at most 24 bits below (above) x > 0.
 double coarse(double x, int direction) {
   int exponent = 0;
   const double mantissa = std::ldexp(std::frexp(x, &exponent), 24);
   return std::ldexp(direction < 0 ? std::ceil(mantissa) - 1 : std::floor(mantissa) + 1, exponent - 24);
 }
 
-/// A sphere that moves past a fixed thing: center, radius, velocity, and the numbers of the thing.
+/// A sphere that moves past a fixed shape: center, radius, velocity, and the numbers of the shape.
 struct Motion {
   const char* query;
   bool (*overlaps)(const Values& sphere_and_thing);
-  /// The thing seen from its back, where it has one.
+  /// The shape seen from its back, if it has one.
   std::optional<Values> (*turned_over)(const Values& thing);
 };
 std::ostream& operator<<(std::ostream& out, const Motion& m) { return out << m.query; }
@@ -81,7 +80,7 @@ Values joined(Values a, const Values& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
-/// Vectors of three numbers, picked in that order.
+/// Picks vectors of three numbers, in that order.
 Values picked(const Values& values, std::initializer_list<std::size_t> vectors) {
   Values all;
   for (const std::size_t v : vectors) all = joined(all, part(values, 3 * v, 3 * v + 3));
@@ -93,7 +92,7 @@ const Motion motions[] = {
     {"moving_sphere_sphere", [](const Values& x) { return is_yes("sphere_sphere_overlap", x); }, no_back},
     {"moving_sphere_box", [](const Values& x) { return is_yes("sphere_box_overlap", x); }, no_back},
     {"moving_sphere_capsule",
-     [](const Values& x) {  // at rest
+     [](const Values& x) {  // the query for shapes at rest
        return is_yes("moving_sphere_capsule", joined(joined(part(x, 0, 4), {0, 0, 0}), part(x, 4, x.size())));
      },
      no_back},
@@ -121,7 +120,7 @@ const Motion motions[] = {
      }},
 };
 
-/// One motion, asked about at several times.
+/// One motion, tested at several times.
 class Asked {
  public:
   Asked(const Motion& motion, const Values& values)
@@ -138,8 +137,7 @@ class Asked {
   double radius() const { return sphere_[3]; }
   double speed() const { return std::abs(velocity_[0]) + std::abs(velocity_[1]) + std::abs(velocity_[2]); }
 
-  /// At rest where the motion is at time t, with a radius that is larger by `more`; empty where the place or
-  /// the radius is no double.
+  /// The case at rest at time t, with a radius larger by `more`; empty if the place or the radius is no double.
   std::optional<bool> overlaps_at(double t, double more = 0) const {
     Values sphere = sphere_;
     for (int i = 0; i < 3; ++i) {
@@ -153,7 +151,7 @@ class Asked {
   }
 
  private:
-  /// Of both sides of the thing the earlier.
+  /// The earlier contact of both sides of the shape.
   void take_first_contact(const Values& values) {
     if (!is_yes(motion_.query, values)) return;
     const Bounds t = exact_value(motion_.query, values, 0);
@@ -167,13 +165,13 @@ class Asked {
   Bounds time_;
 };
 
-/// Says how motion and rest contradict each other; "" where they do not.
+/// How motion and rest contradict each other; "" if they agree.
 std::string contradiction(const Asked& a, int& moving_hits) {
   const bool at_start = a.overlaps_at(0).value();
   if (a.hits() && a.time().high == 0) return at_start ? "" : "a contact at time 0 without an overlap at the start";
   if (a.hits() && at_start) return "an overlap at the start and a first contact later";
   if (!a.hits()) {
-    if (at_start && a.radius() == 0) return "";  // a point inside never arrives
+    if (at_start && a.radius() == 0) return "";  // a point that starts inside never enters
     for (const double t : {0.0625, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 4.0}) {
       if (a.overlaps_at(t).value_or(false)) return fmt::format("a miss, and an overlap at time {}", t);
     }
@@ -185,7 +183,7 @@ std::string contradiction(const Asked& a, int& moving_hits) {
       return fmt::format("an overlap at {}, before the first contact", t);
   }
   if (a.time().low == a.time().high && !a.overlaps_at(a.time().low).value_or(true)) return "no overlap at the contact";
-  // Between the two times the distance changes by at most the way; a graze is over by then.
+  // Between the two times the distance changes by at most the distance travelled; a graze has ended by then.
   const double way = coarse(2 * a.speed() * (after - before), 1);
   for (const double t : {before, after}) {
     if (!a.overlaps_at(t, way).value_or(true)) return fmt::format("not within {} of the contact at {}", way, t);
@@ -210,7 +208,7 @@ TEST_P(MotionsAndRest, FitTogether) {
 
 INSTANTIATE_TEST_SUITE_P(Every, MotionsAndRest, testing::ValuesIn(motions), testing::PrintToStringParamName());
 
-/// `passes` has the limit and `forever` after the numbers of the motion.
+/// The inputs of `passes` are those of the motion, then the limit and the flag `forever`.
 void passes_fits(const char* passes, const char* motion, const char* overlap) {
   const Query& query = *find_query(passes);
   int decided_by_limit = 0;
@@ -244,7 +242,7 @@ TEST(Passing, ASphereFitsTheTimeOfImpact) {
   passes_fits("moving_sphere_passes_sphere", "moving_sphere_sphere", "sphere_sphere_overlap");
 }
 
-/// Two queries that decide the same.
+/// Two queries with the same decision.
 void same_decisions(const char* one, const char* other) {
   const Query& query = *find_query(one);
   int yes = 0;
@@ -285,7 +283,7 @@ TEST(Overlap, OfBoxesIsSeenAlongEveryAxis) {
   EXPECT_GT(apart, int(cases_per_query) / 10);
 }
 
-/// A ball of radius 0 is a point: the same decisions, the same times.
+/// A ball of radius 0 is a point: same decisions, same times.
 TEST(MovingPoint, PastABoxIsAMovingSphereOfRadiusZero) {
   const Query& query = *find_query("moving_point_box");
   int hits = 0;

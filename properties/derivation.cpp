@@ -7,7 +7,7 @@ namespace nearmiss::derived {
 namespace {
 
 mp_bitcnt_t bits_now = usual_bits;
-/// Of numbers that are made without a precision.
+/// The precision of numbers that are created without one.
 const bool default_is_set = (mpf_set_default_prec(usual_bits), true);
 
 }  // namespace
@@ -43,7 +43,7 @@ V Choice::between(const std::vector<V>& points) const {
 
 std::optional<V> Choice::in_cone(const std::vector<V>& along, const std::vector<V>& against) const {
   if (!is_free()) return std::nullopt;
-  std::vector<V> beside;  // at right angles to each other
+  std::vector<V> beside;  // orthogonal to each other
   const auto across = [&](V x) {
     for (const V& b : beside) x = add(x, b, -dot(x, b) / square_of(b));
     return x;
@@ -98,7 +98,7 @@ Case lattice_case(const Query& query, Scalar scalar, int range, std::mt19937_64&
       int x = below(2 * range + 1) - range;
       if (f.role == Role::size) x = below(3);
       if (f.role == Role::flag) x = below(2);
-      if (f.role == Role::index) x = below(16) - 1;  // asked again where the query has fewer
+      if (f.role == Role::index) x = below(16) - 1;  // drawn again if the query has fewer
       if (f.role == Role::rotation && aligned) x = f.name.ends_with("w") ? 1 : 0;
       c.values.push_back(x);
     }

@@ -1,5 +1,5 @@
-/// Derivations that watch the oracle and the judge: slow, obvious ways to the exact answer of every query, in rationals
-/// of gmpxx and roots of many bits. They share no code with the oracle.
+/// Independent derivations, to test the oracle and the judge: slow, obvious ways to the exact answer of every query, in
+/// gmpxx rationals and high-precision roots. They share no code with the oracle.
 #pragma once
 
 #include <gmpxx.h>
@@ -29,8 +29,8 @@ inline V cross(const V& a, const V& b) {
 }
 inline Q square_of(const V& a) { return dot(a, a); }
 
-/// Real numbers, of so many bits: enough for lengths from 2^-64 to 2^64; more for a case whose numbers are further
-/// apart.
+/// The precision of real numbers, in bits: enough for lengths from 2^-64 to 2^64, and more for a case with a larger
+/// range.
 using R = mpf_class;
 using VR = std::array<R, 3>;
 constexpr mp_bitcnt_t usual_bits = 512, bits_for_any_magnitude = 8192;
@@ -40,39 +40,39 @@ inline R real(const Q& x) { return R(x, bits()); }
 inline VR real(const V& x) { return {real(x[0]), real(x[1]), real(x[2])}; }
 inline R length(const V& x) { return sqrt(real(square_of(x))); }
 
-/// What the bits leave of a zero is zero.
+/// Rounds to zero what is within rounding of zero.
 bool is_zero(const R& x);
-/// To double, off by less than one unit in the last place.
+/// Converts to double with an error below one unit in the last place.
 double rounded(const R& x);
 double rounded(const Q& x);
 
-/// Which of several right answers a derivation gives: always the same, or any of them.
+/// Chooses among several right answers: always the same one, or any of them.
 class Choice {
  public:
   Choice() = default;
   explicit Choice(std::mt19937_64& random) : random_(&random) {}
 
   bool is_free() const { return random_ != nullptr; }
-  /// 0 to n - 1. Where that leaves no choice, no random number is taken.
+  /// 0 to n - 1. Draws no random number if there is no choice.
   int below(int n) const { return random_ == nullptr || n == 1 ? 0 : int((*random_)() % std::uint64_t(n)); }
   template <class T>
   const T& among(const std::vector<T>& all) const {
     return all[std::size_t(below(int(all.size())))];
   }
-  /// 0 to 1, often one of both.
+  /// 0 to 1, often one of the ends.
   Q share() const { return below(3) == 0 ? Q(below(2)) : Q(below((1 << 20) + 1), 1 << 20); }
   V direction() const;
   /// A point of the convex hull.
   V between(const std::vector<V>& points) const;
-  /// m with m . a = 0 for each of `along` and m . b <= 0 for each of `against`, often with an equality there. Empty:
-  /// none was found, or the choice is not free.
+  /// m with m . a = 0 for each of `along` and m . b <= 0 for each of `against`, often with equality in the latter.
+  /// Empty if none was found or the choice is fixed.
   std::optional<V> in_cone(const std::vector<V>& along, const std::vector<V>& against) const;
 
  private:
   std::mt19937_64* random_ = nullptr;
 };
 
-/// Reads the inputs of a case one after the other.
+/// Reads the inputs of a case in order.
 class Reader {
  public:
   explicit Reader(std::span<const double> values, Choice choice = {}) : choose(choice), at_(values.data()) {}
@@ -93,7 +93,7 @@ struct RefBox {
   std::array<V, 3> axes;
 
   explicit RefBox(Reader& r) : center(r.vector()), half(r.vector()) {
-    // Columns of the rotation as images of the unit vectors: v + 2 w (u x v) + 2 u x (u x v), over |q|^2.
+    // The columns of the rotation are the images of the unit vectors: v + 2 w (u x v) + 2 u x (u x v), over |q|^2.
     const V u = r.vector();
     const Q w = r.number(), n = dot(u, u) + w * w;
     for (int i = 0; i < 3; ++i) {
@@ -108,8 +108,8 @@ struct RefBox {
   VR world(const VR& local) const;
 };
 
-/// The first numbers of the answer, each off by less than one unit in the last place of a double; they may be fewer
-/// than it has where several answers are right.
+/// The first numbers of the answer, each with an error below one unit in the last place of a double. Leaves out the
+/// rest of the answer if several answers are right.
 struct Reference {
   bool yes;
   std::vector<double> values;
@@ -123,7 +123,7 @@ struct Reference {
   void give(const VR& x) {
     for (const R& c : x) give(c);
   }
-  /// n / |n|
+  /// n / |n|.
   void give_unit(const V& n) {
     const R l = length(n);
     for (const Q& c : n) give(R(real(c) / l));
@@ -141,7 +141,7 @@ Reference yes(const Values&... values) {
 inline R root_of(const Q& a, const Q& b, const Q& d, int sign = -1) {
   return (-real(b) + sign * sqrt(real(d))) / real(a);
 }
-/// x / sqrt(y)
+/// x / sqrt(y).
 inline R over_root(const Q& x, const Q& y) { return real(x) / sqrt(real(y)); }
 
 inline Q excess(const Q& c, const Q& h) { return c > h ? Q(c - h) : c < -h ? Q(c + h) : Q(0); }
@@ -156,12 +156,13 @@ std::span<const Derived> of_boxes();
 std::span<const Derived> of_moving_points();
 std::span<const Derived> of_moving_spheres();
 
-/// Null where the query has none.
+/// nullptr if the query has none.
 Derivation derivation_of(const Query& query);
-/// The queries that have one.
+/// The queries that have a derivation.
 std::vector<NamedQuery> derived_queries();
 
-/// A valid case of integers up to `range`, sizes from 0 to 2, half of the quaternions axis-aligned.
+/// A valid case of integers up to `range` in magnitude, with sizes from 0 to 2; half of the quaternions are
+/// axis-aligned.
 Case lattice_case(const Query& query, Scalar scalar, int range, std::mt19937_64& random);
 
 }  // namespace nearmiss::derived

@@ -1,4 +1,4 @@
-/// Derivations for the queries about pairs of boxes: every corner projected, every pair of edges tried.
+/// Derivations of the queries about pairs of boxes: every corner is projected, every pair of edges is tried.
 #include "properties/derivation.hpp"
 
 namespace nearmiss::derived {
@@ -20,7 +20,7 @@ V axis_of(const RefBox& a, const RefBox& b, int k) {
   return k < 3 ? a.axes[k] : k < 6 ? b.axes[k - 3] : cross(a.axes[(k - 6) / 3], b.axes[(k - 6) % 3]);
 }
 
-/// The gap between the shadows of all corners on the axis; negative where they overlap.
+/// The gap between the projections of all corners on the axis; negative if they overlap.
 Q gap_of(const RefBox& a, const RefBox& b, const V& axis) {
   const auto shadow = [&](const RefBox& box) {
     std::vector<Q> on;
@@ -78,13 +78,13 @@ Reference reference_box_box_conservative(Reader r) {
   return {rest <= 0 || rest * rest <= product, {}};
 }
 
-/// The point of the segment from a along d (there and back by half) that is nearest to p: how far along.
+/// The parameter t of the point nearest to p on the segment middle + t d, |t| <= half; d is a unit vector.
 Q along_edge(const V& middle, const V& d, const Q& half, const V& p) {
   const Q t = dot(sub(p, middle), d);
   return t > half ? half : t < -half ? Q(-half) : t;
 }
 
-/// The middle of the shortest segment between two edges: Cramer's rule, or from an end to the other edge.
+/// The middle of the shortest segment between two edges: by Cramer's rule, or from an end to the other edge.
 V middle_between_edges(const V& m1, const V& d1, const Q& h1, const V& m2, const V& d2, const Q& h2) {
   const V w = sub(m2, m1);
   const Q c = dot(d1, d2), det = 1 - c * c;
@@ -107,7 +107,7 @@ V middle_between_edges(const V& m1, const V& d1, const Q& h1, const V& m2, const
   return scaled(add(best.first, best.second), Q(1, 2));
 }
 
-/// The middles of a box's edges along axis i.
+/// The middles of a box's edges parallel to axis i.
 std::vector<V> edges_of(const RefBox& b, int i) {
   std::vector<V> middles;
   for (const int u : {-1, 1}) {
@@ -119,7 +119,7 @@ std::vector<V> edges_of(const RefBox& b, int i) {
   return middles;
 }
 
-/// An axis that separates, else one of least overlap, compared by squares.
+/// An axis that separates, otherwise one of least overlap, compared by squares.
 Reference reference_box_box_penetration(Reader r) {
   const RefBox a(r), b(r);
   std::vector<int> separating, least;
@@ -166,7 +166,7 @@ Reference reference_box_box_penetration(Reader r) {
   return reference;
 }
 
-/// Points with half-space n . x <= d kept; a polygon may be a segment or a point.
+/// Clips points to the half-space n . x <= d; the polygon may be a segment or a point.
 std::vector<V> clipped(const std::vector<V>& polygon, const V& n, const Q& d) {
   std::vector<V> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -190,8 +190,7 @@ V corner_of(const RefBox& b, int sx, int sy, int sz) {
   return x;
 }
 
-/// Boxes meet where a face of the first, clipped to the second, leaves something, or where the second
-/// lies within the first.
+/// Boxes overlap if a face of the first, clipped to the second, is not empty, or if the second lies in the first.
 bool meet(const RefBox& a, const RefBox& b) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int side : {-1, 1}) {
@@ -213,7 +212,7 @@ bool meet(const RefBox& a, const RefBox& b) {
   return abs(c[0]) <= a.half[0] && abs(c[1]) <= a.half[1] && abs(c[2]) <= a.half[2];
 }
 
-/// With an axis that has a gap, where they are apart.
+/// Also gives an axis with a gap if the boxes are apart.
 Reference reference_box_box_overlap(Reader r) {
   const RefBox a(r), b(r);
   if (meet(a, b)) return yes();

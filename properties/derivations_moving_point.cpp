@@ -1,20 +1,20 @@
-/// Derivations of the queries about moving points, and of moving spheres that are points beside something
-/// larger: candidate times, tried one after the other, and pieces of the motion.
+/// Derivations of the queries about moving points, and about moving spheres that act as points beside something larger:
+/// candidate times, tried one after the other, and pieces of the motion.
 #include "properties/derivation.hpp"
 
 namespace nearmiss::derived {
 namespace {
 
-/// Time, place, and n as a unit vector.
+/// A hit: time, place, and n normalised.
 Reference hit(const Q& t, const V& x, const V& n) {
   Reference reference = yes(t, x);
   reference.give_unit(n);
   return reference;
 }
-/// The same with a normal that may be any of a cone; without one where none was drawn.
+/// The same with a normal from a cone; without a normal if none was drawn.
 Reference hit(const Q& t, const V& x, const std::optional<V>& n) { return n ? hit(t, x, *n) : yes(t, x); }
 
-/// The parameter at which the heights at times 0 and 1 interpolate to zero.
+/// The parameter at which the linear interpolation of the heights at times 0 and 1 is zero.
 Reference reference_moving_point_plane(Reader r) {
   const V p = r.vector(), v = r.vector(), n = r.vector();
   const Q d = r.number();
@@ -24,7 +24,7 @@ Reference reference_moving_point_plane(Reader r) {
   return hit(t, add(p, v, t), n);
 }
 
-/// Cramer's rule for p + v t = v0 + x (v1 - v0) + y (v2 - v0); the time, empty for a miss.
+/// The time by Cramer's rule for p + v t = v0 + x (v1 - v0) + y (v2 - v0); empty for a miss.
 std::optional<Q> time_at_front(const V& p, const V& v, const V& v0, const V& v1, const V& v2) {
   const V e1 = sub(v1, v0), e2 = sub(v2, v0), s = sub(p, v0);
   const Q volume = -dot(v, cross(e1, e2));
@@ -35,7 +35,7 @@ std::optional<Q> time_at_front(const V& p, const V& v, const V& v0, const V& v1,
   return t;
 }
 
-/// The hit point against the planes through the edges.
+/// Compares the hit point with the planes through the edges.
 Reference reference_moving_point_triangle(Reader r) {
   const V p = r.vector(), v = r.vector();
   const std::array<V, 3> corner{r.vector(), r.vector(), r.vector()};
@@ -92,7 +92,7 @@ Reference reference_moving_point_aabox(Reader r) {
   if (!t) return missed;
   if (*t == 0) return missed.give(p), missed;
   const V x = add(p, v, *t);
-  std::vector<V> normals;  // of the faces on which the point is then, through which it enters or along which it goes
+  std::vector<V> normals;  // of the faces through which the point enters or along which it moves at that time
   for (int i = 0; i < 3; ++i) {
     for (const int side : {-1, 1}) {
       V n{0, 0, 0};
@@ -110,7 +110,7 @@ Reference reference_ray_aabox(Reader r) {
   return yes(double(*t == 0), add(p, v, *t));
 }
 
-/// A direction out of the box where `local` is on its surface, not with the motion.
+/// An outward direction for `local` on the box's surface that does not point along the motion.
 std::optional<V> out_of(const RefBox& box, const V& local, const V& motion, const Choice& choose) {
   std::vector<V> along, against;
   bool may_lead_with_it = true;
@@ -124,7 +124,8 @@ std::optional<V> out_of(const RefBox& box, const V& local, const V& motion, cons
     else
       may_lead_with_it = false;
   }
-  if (!may_lead_with_it) against.push_back(motion);  // else all normals do, of a sphere with a size
+  if (!may_lead_with_it)
+    against.push_back(motion);  // otherwise, for a sphere of positive radius, every normal may be drawn
   return choose.in_cone(along, against);
 }
 
@@ -132,7 +133,7 @@ Reference point_meets_box(const V& p, const V& v, const RefBox& box, const Choic
   const V s = box.local(sub(p, box.center)), w = box.local(v);
   const std::optional<Q> t = time_in_box(s, w, {-box.half[0], -box.half[1], -box.half[2]}, box.half);
   if (!t) return no();
-  if (*t == 0) {  // on the surface, and a moment later not away from one of its planes
+  if (*t == 0) {  // on the surface, and shortly afterwards not away from one of its planes
     bool stays = false;
     for (int i = 0; i < 3; ++i) stays = stays || (abs(s[i]) == box.half[i] && (box.half[i] == 0 || s[i] * w[i] <= 0));
     if (!stays) return no();
@@ -145,7 +146,7 @@ Reference reference_moving_point_box(Reader r) {
   return point_meets_box(p, v, RefBox(r), r.choose);
 }
 
-/// Where a sphere begins in touch with the box, `s` and `w` in the box's frame.
+/// A sphere that starts in contact with the box; `s` and `w` are in the box's frame.
 Reference contact_at_start(const V& p, const V& v, const RefBox& box, const Choice& choose) {
   const V s = box.local(sub(p, box.center));
   V out;
@@ -247,14 +248,14 @@ Reference reference_moving_sphere_box(Reader r) {
   return no();
 }
 
-/// The part of x - a beyond the segment from a along d, at a right angle to it or from an end.
+/// The component of x - a perpendicular to the segment from a along d, or the vector from the nearer end.
 V from_segment(const V& x, const V& a, const V& d) {
   const V m = sub(x, a);
   const Q dd = square_of(d);
   return add(m, d, dd == 0 ? Q(0) : -std::clamp(Q(dot(m, d) / dd), Q(0), Q(1)));
 }
 
-/// A contact of a center that is `away` from the axis.
+/// A contact of a center at the vector `away` from the axis.
 Reference round_contact(const R& t, const VR& center, const VR& away, const Q& radius) {
   const R l = sqrt(R(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]));
   VR normal, place;
@@ -262,13 +263,13 @@ Reference round_contact(const R& t, const VR& center, const VR& away, const Q& r
   return yes(t, place, normal);
 }
 
-/// Points within `radius` of the segment from a along d.
+/// The set of points within `radius` of the segment from a along d.
 struct Tube {
   V a, d;
   Q radius;
 };
 
-/// A contact of a center on the axis: the normal leads out of it at a right angle, or from an end away.
+/// A contact of a center on the axis: the normal is perpendicular to the axis, or at an end points away from it.
 Reference contact_on_axis(const Q& t, const V& center, const V& v, const Tube& tube, const Choice& choose) {
   std::vector<V> along, against;
   if (square_of(tube.d) > 0) {
@@ -290,8 +291,8 @@ Reference contact_on_axis(const Q& t, const V& center, const V& v, const Tube& t
   return reference;
 }
 
-/// A ball of radius `own` against the tube: the squared distance from its axis is one quadratic before the motion
-/// passes an end, one between them, one after.
+/// A ball of radius `own` and the tube: the squared distance from the axis is one quadratic before the motion passes an
+/// end, one between the ends, one after the other end.
 Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, const Choice& choose) {
   const V& d = tube.d;
   const Q reach = own + tube.radius, vd = dot(v, d);
@@ -315,7 +316,7 @@ Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, cons
   for (std::size_t k = 0; k < bends.size(); ++k) {
     const bool last = k + 1 == bends.size();
     const Q from = bends[k], middle = last ? Q(from + 1) : Q((from + bends[k + 1]) / 2);
-    // The distance vector is linear on the piece: known from two of its values.
+    // The distance vector is linear on the piece, so two of its values determine it.
     const V e0 = from_segment(add(p, v, from), tube.a, d), em = from_segment(add(p, v, middle), tube.a, d);
     const V step = scaled(sub(em, e0), 1 / (middle - from));
     const Q a = square_of(step), b = dot(e0, step), c = square_of(e0) - reach * reach;
@@ -323,7 +324,7 @@ Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, cons
     if (a == 0 || b >= 0) continue;
     const Q disc = b * b - a * c;
     if (disc < 0) continue;
-    if (!last) {  // the root lies on this piece: (-b - a t)^2 <= disc on the falling branch, or beyond it
+    if (!last) {  // the root lies on this piece: (-b - a t)^2 <= disc while the distance decreases, or beyond it
       const Q x = -b - a * (bends[k + 1] - from);
       if (x > 0 && x * x > disc) continue;
     }
@@ -355,7 +356,7 @@ Reference reference_moving_sphere_sphere(Reader r) {
   return past_tube(p, own, v, {center, {0, 0, 0}, r.number()}, r.choose);
 }
 
-/// Heights times |n|: h against r |n| by squares.
+/// Heights times |n|: compares h with r |n| by squares.
 Reference reference_moving_sphere_plane(Reader r) {
   const V c = r.vector();
   const Q radius = r.number();
@@ -373,7 +374,7 @@ Reference reference_moving_sphere_plane(Reader r) {
   return reference;
 }
 
-/// From outside the first root, from inside the second.
+/// From outside the first root, from inside the second root.
 Reference reference_moving_point_sphere(Reader r) {
   const V p = r.vector(), v = r.vector(), center = r.vector();
   const Q radius = r.number();

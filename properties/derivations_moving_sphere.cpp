@@ -1,12 +1,12 @@
-/// Derivations for spheres that move past triangles, rectangles and boxes: the motion is cut wherever the
-/// nearest feature may change, and each piece has the quadratic of the feature nearest at its middle.
+/// Derivations for spheres that move past triangles, rectangles and boxes. The motion is cut wherever the nearest
+/// feature may change; on each piece the quadratic of the feature nearest at its middle applies.
 #include "properties/derivation.hpp"
 
 namespace nearmiss::derived {
 namespace {
 
-/// The nearest point of a triangle, with its weights, and the directions at whose right angles the
-/// distance counts: none for a vertex (all of it), one for an edge, two for the face.
+/// The nearest point of a triangle, with its weights and the directions in which the feature extends. The distance
+/// counts only perpendicular to these: none for a vertex, one for an edge, two for the face.
 struct Nearest {
   V point, weights;
   std::vector<V> within;  ///< orthogonal directions in which the feature extends
@@ -36,7 +36,7 @@ Nearest nearest_of(const std::array<V, 3>& c, const V& p) {
     consider(weights, {e});
   }
   if (square_of(n) != 0) {
-    // The foot by Cramer's rule on the two edges' equations.
+    // The foot by Cramer's rule for the equations of the two edges.
     const V w = sub(p, c[0]);
     const Q aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
     const Q s = (dot(w, a) * bb - dot(w, b) * ab) / det, t = (dot(w, b) * aa - dot(w, a) * ab) / det;
@@ -48,13 +48,13 @@ Nearest nearest_of(const std::array<V, 3>& c, const V& p) {
 struct Hit {
   bool yes = false;
   R time{0};
-  std::optional<Q> rational{};  ///< the time, where it is
-  V before{};                   ///< a center in the same piece, for the feature
+  std::optional<Q> rational{};  ///< the time, if it is rational
+  V before{};                   ///< a center on the same piece, to determine the feature
 
   static Hit at(const Q& time, const V& before) { return {true, real(time), time, before}; }
 };
 
-/// What is left of x at right angles to the directions.
+/// The component of x perpendicular to the directions.
 V across(V x, const std::vector<V>& directions) {
   for (const V& d : directions) x = add(x, d, -dot(x, d) / square_of(d));
   return x;
@@ -71,8 +71,8 @@ Hit first_hit(const V& p, const Q& r, const V& v, const std::array<V, 3>& c) {
   const Hit now = Hit::at(0, p);
   if (outside < 0) return now;
   if (outside == 0) return dot(away, v) <= 0 ? now : Hit{};
-  // The nearest feature changes only where the center crosses one of these planes: through the edges along
-  // n, through the corners across the edges and, for the side that is met, the triangle's own.
+  // The nearest feature changes only where the center crosses one of these planes: the planes through the edges along
+  // n, the planes through the corners perpendicular to the edges and, for the side that is hit, the triangle's own.
   std::vector<Q> cuts{0};
   const auto cut = [&](const V& normal, const V& on) {
     if (dot(normal, v) == 0) return;
@@ -121,7 +121,7 @@ VR weights_of(const VR& place, const std::array<V, 3>& c, const V& n) {
   return weights;
 }
 
-/// Time, location, normal; where the center is on the triangle any normal of its cone against the motion.
+/// Time, location, normal. For a center on the triangle, any normal of the cone against the motion.
 struct Contact {
   Reference reference;
   VR location;
@@ -139,7 +139,7 @@ Contact contact_of(const Hit& hit, const V& p, const Q& radius, const V& v, cons
       return contact;
     }
   }
-  // The feature's point moves along with the center: it is linear in time, taken from two times.
+  // The feature's nearest point moves with the center: it is linear in time, so two times determine it.
   const Nearest feature = nearest_of(c, hit.before);
   const V rate = sub(v, across(v, feature.within)), from = sub(p, across(sub(p, feature.point), feature.within));
   VR location, away;
@@ -156,7 +156,7 @@ Contact contact_of(const Hit& hit, const V& p, const Q& radius, const V& v, cons
 
 constexpr std::size_t with_normal = 7;
 
-/// Time, location, normal and, of a triangle with area, weights.
+/// Time, location, normal and, for a triangle with area, weights.
 Reference reference_moving_sphere_triangle(Reader r) {
   const V p = r.vector();
   const Q radius = r.number();
@@ -172,7 +172,7 @@ Reference reference_moving_sphere_triangle(Reader r) {
   return contact.reference;
 }
 
-/// The earlier of both triangles' times; of equal ones either.
+/// The earlier time of the two triangles; if equal, either.
 Reference reference_moving_sphere_rectangle(Reader r) {
   const V p = r.vector();
   const Q radius = r.number();

@@ -1,5 +1,5 @@
-/// Derivations for the queries about fixed shapes: closest points, containment, overlap of spheres and
-/// triangles, depth behind planes; and for the response along a contact.
+/// Derivations of the queries about fixed shapes: closest points, containment, overlap of spheres and triangles,
+/// penetration of planes; and of the response at a contact.
 #include "properties/derivation.hpp"
 
 namespace nearmiss::derived {
@@ -14,7 +14,7 @@ struct Nearest {
   V best{};
   Q best2;
   int label = -1;
-  int equal = 0;  ///< points as near as the best
+  int equal = 0;  ///< number of points as near as the best
 
   Nearest(const V& point, const Choice& choice) : p(point), choose(choice) {}
   explicit Nearest(Reader& r) : Nearest(r.vector(), r.choose) {}
@@ -33,7 +33,7 @@ struct Nearest {
     const Q t = dot(sub(p, a), d) / dot(d, d);
     if (t > 0 && t < 1) offer(add(a, d, t), from);
   }
-  /// The two normal equations of |p - a - s u - t v|^2, where they have one solution and it is inside.
+  /// The solution of the two normal equations of |p - a - s u - t v|^2, if it is unique and inside.
   void offer_triangle(const V& a, const V& b, const V& c) {
     offer_segment(a, b);
     offer_segment(b, c);
@@ -87,7 +87,7 @@ Reference reference_rectangle_perimeter(Reader r) {
   return yes(n.best);
 }
 
-/// (p2 + t d2 - p1 - s d1) at right angles to both directions.
+/// (p2 + t d2 - p1 - s d1) perpendicular to both directions.
 Reference reference_lines(Reader r) {
   const V p1 = r.vector(), d1 = r.vector(), p2 = r.vector(), d2 = r.vector();
   const V w = sub(p2, p1);
@@ -100,8 +100,8 @@ Reference reference_lines(Reader r) {
   return yes(add(p1, d1, s), add(p2, d2, t));
 }
 
-/// All weights of the corners that give p in the two coordinates other than `axis` are between these; none where there
-/// are none.
+/// The bounds of all weights of the corners that give p in the two coordinates other than `axis`; empty if there are no
+/// such weights.
 std::vector<V> weights(const std::array<V, 3>& v, int axis, const V& p) {
   const int j = (axis + 1) % 3, k = (axis + 2) % 3;
   const V u = sub(v[1], v[0]), w = sub(v[2], v[0]), x = sub(p, v[0]);
@@ -176,7 +176,7 @@ Reference reference_sphere_triangle_overlap(Reader r) {
   return {distance2(n.best, n.p) <= radius * radius, {}};
 }
 
-/// The triangle cut by the six half-spaces of the box: is anything left?
+/// Clips the triangle to the six half-spaces of the box and tests whether anything is left.
 Reference reference_aabox_triangle_overlap(Reader r) {
   const V low = r.vector(), high = r.vector();
   std::vector<V> polygon{r.vector(), r.vector(), r.vector()};
@@ -194,7 +194,7 @@ Reference reference_aabox_triangle_overlap(Reader r) {
   return {!polygon.empty(), {}};
 }
 
-/// Depth, normal and contact. Concentric, every direction is a normal.
+/// Depth, normal and contact. If concentric, every direction is a normal.
 Reference reference_sphere_sphere_penetration(Reader r) {
   const V a = r.vector();
   const Q ra = r.number();
@@ -247,8 +247,9 @@ Reference reference_box_plane_penetration(Reader r) {
   return reference;
 }
 
-/// Depth, negative when apart. Beside the box the normal leads to the nearest point, the contact; in it out of the
-/// nearest face and back, the contact is the sphere's deepest point. On its surface both are right.
+/// Depth, negative if apart. Outside the box the normal points to the nearest point, which is the contact. Inside, the
+/// normal is the inward normal of the nearest face, and the contact is the sphere's deepest point. On the surface both
+/// are right.
 Reference reference_sphere_box_penetration(Reader r) {
   const V p = r.vector();
   const Q radius = r.number();
@@ -283,7 +284,7 @@ Reference reference_sphere_box_penetration(Reader r) {
   return reference;
 }
 
-/// The foot of the perpendicular, or the nearer end; ends compared by their distances.
+/// The foot of the perpendicular, or the nearer end; ends are compared by their distances.
 Reference reference_closest_point_segment(Reader r) {
   const V a = r.vector(), b = r.vector(), p = r.vector();
   const V d = sub(b, a);
@@ -297,17 +298,17 @@ Reference reference_closest_point_segment(Reader r) {
   return yes(best);
 }
 
-/// x / |v|, each number.
+/// x / |v|, component by component.
 Reference over_length(const V& x, const V& v) {
   Reference reference = yes();
   for (const Q& c : x) reference.give(over_root(c, square_of(v)));
   return reference;
 }
 
-/// The velocity's part along u turned round: v - 2 (v . u) u / |u|^2, over |v|.
+/// The velocity with its component along u reversed: v - 2 (v . u) u / |u|^2, over |v|.
 Reference reference_bounce_direction(Reader r) {
   const V center = r.vector();
-  r.number();  // the radius plays no part
+  r.number();  // the radius has no effect
   const V v = r.vector();
   const Q time = r.number();
   const V location = r.vector(), normal = r.vector();
@@ -317,10 +318,10 @@ Reference reference_bounce_direction(Reader r) {
   return over_length(add(v, u, -2 * dot(v, u) / square_of(u)), v);
 }
 
-/// The velocity less its part along u: v - (v . u) u / |u|^2, over |v|.
+/// The velocity minus its component along u: v - (v . u) u / |u|^2, over |v|.
 Reference reference_slide_direction(Reader r) {
   const V center = r.vector();
-  r.number();  // the radius plays no part
+  r.number();  // the radius has no effect
   const V v = r.vector();
   const Q time = r.number();
   const V u = sub(add(center, v, time), r.vector());

@@ -1,6 +1,5 @@
-/// No false alarms: whatever input lies within the widening, its exact answer lies within the enclosure.
-/// And no excuses without end: widening never shrinks an enclosure, and narrowing to nothing leaves the
-/// exact answer alone.
+/// Soundness of the enclosures: for every input within the widening, the exact answer lies in the enclosure. Tightness:
+/// widening never shrinks an enclosure, and a widening of zero leaves the exact answer alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +19,7 @@ namespace {
 
 constexpr int cases_per_query = 4000;
 
-/// A number from -1 to 1 that depends on nothing but its arguments; often one of the ends.
+/// A number from -1 to 1 that depends on the arguments alone; often one of the ends.
 double wobble(std::uint64_t a, std::uint64_t b) {
   std::uint64_t z = a * 0x9e3779b97f4a7c15u + b * 0xd1342543de82ef95u + 0x2545f4914f6cdd1du;
   z = (z ^ (z >> 31)) * 0xbf58476d1ce4e5b9u;
@@ -29,7 +28,7 @@ double wobble(std::uint64_t a, std::uint64_t b) {
   return double(std::int64_t(z)) * 0x1p-63;
 }
 
-/// An input within the widening of the given one; empty when it breaks a rule.
+/// An input within the widening of the given one; empty if it breaks a rule.
 std::optional<Case> perturbed(const Case& c, std::span<const double> widening, std::uint64_t salt) {
   Case p = c;
   for (std::size_t i = 0; i < p.values.size(); ++i) {
@@ -41,7 +40,7 @@ std::optional<Case> perturbed(const Case& c, std::span<const double> widening, s
   return p;
 }
 
-/// One of the exact answers, each number rounded to the nearest double; normals of a cone left out.
+/// One of the exact answers, each number rounded to the nearest double, without normals of a cone.
 Answer rounded(const Query& query, const Alternative& a) {
   Answer answer;
   answer.yes = a.yes;
@@ -58,7 +57,7 @@ class Enclosures : public testing::TestWithParam<std::string> {
  protected:
   const Query& query() const { return *find_query(GetParam()); }
 
-  /// Holds the exact answers of an input within the widening against the enclosure; tells how many there were.
+  /// Checks the exact answers of an input within the widening against the enclosure; returns how many there were.
   int answers_contained(const Case& c, double k, std::uint64_t salt) const {
     const std::vector<double> wide = widening(query(), c.values, c.scalar, k);
     const std::optional<Case> p = perturbed(c, wide, salt);
@@ -91,7 +90,7 @@ TEST_P(Enclosures, OfStoredCasesContainTheExactAnswers) {
   EXPECT_GT(checked, 0);
 }
 
-/// Cases of each family; CI asks about few, the nightly job about NEARMISS_FAMILY_CASES.
+/// Cases per family. CI runs few, the nightly job NEARMISS_FAMILY_CASES.
 int cases_per_family() {
   const char* told = std::getenv("NEARMISS_FAMILY_CASES");
   return told != nullptr ? std::stoi(told) : 250;
@@ -109,8 +108,8 @@ TEST_P(Enclosures, ContainTheExactAnswersOfEveryFamily) {
   EXPECT_GT(checked, cases);
 }
 
-/// How many yeses of a thousand cases a wider enclosure may exclude that a narrower one could not: none, but where the
-/// bound depends on a time that is found in plain doubles (docs/numerics.md).
+/// How many yes-answers per thousand cases a wider enclosure may exclude although a narrower one did not. Zero unless
+/// the bound depends on a time found in plain doubles (docs/numerics.md).
 int excluded_later_at_most(std::string_view query) { return query == "moving_sphere_passes_box" ? 1 : 0; }
 
 TEST_P(Enclosures, GrowWithTheWidening) {
@@ -122,7 +121,7 @@ TEST_P(Enclosures, GrowWithTheWidening) {
     for (const double k : {1.0, 0x1p4, 0x1p12, 0x1p30, 0x1p44}) {
       const Enclosure e =
           oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, k), none, c.scalar);
-      // After 0 * infinity and its like an enclosure is anything at all; a wider one may not meet them.
+      // After 0 * infinity and similar operations an enclosure may be anything; a wider one may avoid these operations.
       const Enclosure narrower = std::exchange(before, e);
       if (narrower.error.back().low == -HUGE_VAL) continue;
       ASSERT_GE(e.may_be_no, narrower.may_be_no) << "case " << i << ", k = " << k;
@@ -150,7 +149,7 @@ TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
     for (const Alternative& a : truth_of(c).alternatives) {
       const Answer answer = rounded(query(), a);
       const Enclosure e = oracle_of(query()).exact(c.values, answer, Scalar::float64, nullptr);
-      // `answer` is off by up to one ulp, and of a continuum of right answers the one nearest to it is meant.
+      // `answer` is off by up to one ulp; among infinitely many right answers the nearest one is meant.
       ASSERT_LE(e.ulps, 2) << case_to_json(c).dump() << ", number " << e.worst;
       ++asked;
       if (!e.may_match && e.ulps > 1) {

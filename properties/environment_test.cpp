@@ -1,4 +1,5 @@
-/// The arithmetic that every result rests on: checked at start, and the same in whatever modes the oracle is entered.
+/// The floating-point environment: checked at the start, and without effect on the oracle, whatever the caller's modes
+/// are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 namespace nearmiss {
 namespace {
 
-/// What code of others may have done to the thread that asks.
+/// Floating-point modes that foreign code may have set in the calling thread.
 struct Modes {
   const char* name;
   void (*set)();
@@ -27,7 +28,7 @@ struct Modes {
 class AnyModes : public testing::TestWithParam<Modes> {
  protected:
   ~AnyModes() override { FloatingPointModes::standard().set(); }
-  /// Does it in the modes of the parameter, and checks that they are still the same afterwards.
+  /// Runs it in the modes of the parameter and checks that the modes are unchanged afterwards.
   template <class Work>
   static auto within_modes(Work work) {
     GetParam().set();
@@ -60,13 +61,13 @@ TEST_P(AnyModes, TheJudgeSaysTheSame) {
   EXPECT_EQ(judged(wrong).verdict, Verdict::violates_contract);
 }
 
-/// A thread has the modes of the one that starts it.
+/// A thread inherits the modes of the thread that starts it.
 TEST_P(AnyModes, AThreadOfTheirsIsToldTheSame) {
   const Case c{
       find_query("sphere_sphere_overlap"), Scalar::float64, {0, 0, 0, 0x1p-1074, 0x1p-1073, 0, 0, 0}, "", 0, 0, {}};
   Truth t;
   within_modes([&] { return std::thread([&] { t = truth_of(c); }).join(), 0; });
-  EXPECT_FALSE(t.yes);  // the centers are twice as far apart as the radii reach
+  EXPECT_FALSE(t.yes);  // the distance of the centers is twice the sum of the radii
 }
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -98,7 +99,7 @@ bool same(const Truth& t, const Truth& u) {
                     });
 }
 
-/// All that the oracle and the judge say about an answer.
+/// Everything that the oracle and the judge return for an answer.
 struct Said {
   Finding finding;
   Truth truth;
@@ -126,7 +127,7 @@ bool same(const Said& a, const Said& b) {
          same(a.exact, b.exact) && a.widening == b.widening && a.on_surface == b.on_surface;
 }
 
-/// The same shapes of the least numbers that there are; empty where that breaks a rule.
+/// The same shapes scaled to the least positive numbers; empty if that breaks a rule.
 std::optional<Case> of_subnormals(Case c) {
   double largest = 0;
   for (const double x : c.values) largest = std::max(largest, std::abs(x));
@@ -140,7 +141,7 @@ std::optional<Case> of_subnormals(Case c) {
   return c;
 }
 
-/// Each query's oracle, each of its entries, and the judge: the modes that they are entered in change no bit.
+/// For each query, every entry of the oracle and the judge: the caller's modes change no bit of the result.
 TEST_P(AnyModes, EveryQueryIsJudgedTheSame) {
   constexpr std::uint64_t cases = 40;
   int by_exact = 0, wrong = 0, subnormal = 0;
@@ -166,11 +167,11 @@ TEST_P(AnyModes, EveryQueryIsJudgedTheSame) {
   EXPECT_GT(subnormal, 500);
 }
 
-/// A process that is asked begins with the standard ones, and the process that asks measures in them how long it waits.
+/// A host process starts in the standard modes, and the process that asks measures its waiting time in them.
 TEST_P(AnyModes, AWorkerHasTheStandardOnes) {
   Worker worker;
   const AnswerFunction tells_its_modes = [](std::span<const double>) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // so long that it is asked how late the answer is
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // long enough for a check of the time limit
     Answer a;
     a.yes = FloatingPointModes::current() == FloatingPointModes::standard();
     return a;

@@ -1,4 +1,4 @@
-/// What a failing property says and leaves behind, seen with an adapter that is broken on purpose.
+/// The text and the report of a failing property, tested with a deliberately broken adapter.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes spheres that are apart by less than a millimetre for touching ones.
+/// Treats spheres less than a millimetre apart as touching.
 struct SlackAdapter {
   static collide::Decision<double> answer(inputs::sphere_sphere_overlap<double> q) {
     q.sphere1.radius += 0.001;
@@ -50,7 +50,7 @@ class OwnRuns {
     } else {
       unsetenv("NEARMISS_RUNS");
     }
-    std::error_code ignored;  // a destructor has nobody to tell
+    std::error_code ignored;  // a destructor cannot report an error
     fs::remove_all(folder_, ignored);
   }
   /// The one report that was left.

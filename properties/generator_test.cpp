@@ -1,4 +1,4 @@
-/// The generator: valid, exact, the same everywhere, and worth asking.
+/// The generator: its cases are valid, exact, the same on every machine, and useful.
 #include "corpus/generator.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 class Generator : public testing::TestWithParam<NamedQuery> {};
 
-/// Hash of the case and its moves (FNV-1a over the bytes that the codec defines).
+/// Hash of the case and its mutators (FNV-1a over the bytes that the codec defines).
 std::uint64_t hashed(std::uint64_t h, const Case& c) {
   const auto add = [&](unsigned char byte) { h = (h ^ byte) * 0x100000001b3; };
   for (std::uint8_t byte : case_to_bytes(c)) add(byte);
@@ -87,7 +87,7 @@ TEST_P(Generator, GivesAnotherCaseForEverySeedAndIndex) {
 TEST_P(Generator, MixesYesAndNo) {
   const Query& query = *GetParam().query;
   if (!decides(query.kind)) GTEST_SKIP() << "the answer is always yes";
-  // Scenes are drawn for boxes that nearly touch, and then their bounding spheres overlap.
+  // Scenes place boxes so that they nearly touch, and then their bounding spheres overlap.
   const int least = query.name == "box_box_conservative" ? 8 : 15;
   constexpr int cases = 4000;
   for (Scalar scalar : scalars) {
@@ -125,7 +125,7 @@ TEST_P(Generator, MutatesIntoAnotherValidCase) {
 
 INSTANTIATE_TEST_SUITE_P(Every, Generator, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
-/// A query that the catalogue does not have: a rule between two positions, as of a box by its corners.
+/// A query that the catalogue does not have: a rule between two positions, as for a box given by its corners.
 const Query& corners_query() {
   static const Query made_up = [] {
     Query q{QueryId{}, "corners", Kind::decision, {}, {}, {}, nullptr, {}};
@@ -177,8 +177,8 @@ TEST(Moves, AreEachUsedForSomeQuery) {
   for (const MutatorName& m : mutator_names()) EXPECT_GE(used[m.name], cases / 100) << m.name;
 }
 
-/// properties/streams.txt: query, scalar and the hash of the first 1000 cases of seed 1. Written anew
-/// with NEARMISS_WRITE_STREAMS=1 when the generator is meant to change.
+/// properties/streams.txt: query, scalar and the hash of the first 1000 cases of seed 1. Rewritten with
+/// NEARMISS_WRITE_STREAMS=1 after an intended change of the generator.
 class Streams : public testing::Test {
  protected:
   static std::filesystem::path file() { return std::filesystem::path(NEARMISS_PROPERTIES_FOLDER) / "streams.txt"; }

@@ -1,4 +1,4 @@
-/// A NaN or an infinity through a query's raw arguments: it ends, and it never reports a hit that looks genuine.
+/// NaN or infinity in the raw arguments of a query: the query returns and never reports a finite hit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace nearmiss {
 namespace {
 
-/// A hit, an overlap or a depth whose every number is finite.
+/// A hit, an overlap or a depth whose numbers are all finite.
 bool looks_genuine(const Query& query, const Answer& answer) {
   if (!decides(query.kind) || !answer.yes) return false;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
@@ -30,7 +30,7 @@ void expect_no_genuine_hit(const Pairing& pairing, double bad) {
     const Case c = generate(*query, subject->scalar, 77, i);
     for (std::size_t at = 0; at < c.values.size(); ++at) {
       if (!counts(query->inputs[at].role)) continue;
-      // A limit of time may be infinite, and means nothing where there is none.
+      // A time limit may be infinite. It has no meaning for queries without a limit.
       if (query->inputs[at].name == "limit" && bad == std::numeric_limits<double>::infinity()) continue;
       std::vector<double> values = c.values;
       values[at] = bad;

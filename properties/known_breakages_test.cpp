@@ -1,4 +1,4 @@
-/// Known bugs of FCL that crash or do not come back, asked in a worker: each costs one case, and the next is answered.
+/// Known bugs of FCL that crash or do not return, run in a worker: each costs one case, and the next case is answered.
 #include <fcl/narrowphase/distance.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ Answer distance(const A& a, const fcl::Vector3d& at, const B& b, bool signed_dis
   return answer;
 }
 
-/// The question and where along x the first shape is.
+/// The case, and the place of the first shape along x.
 Answer ask_fcl(std::span<const double> inputs) {
   const fcl::Vector3d at(inputs[1], 0, 0);
   const fcl::Sphered ball(1);

@@ -1,4 +1,4 @@
-/// The oracle's two stages and the ladder of widened inputs, on which every proof of the judge rests.
+/// The oracle's two stages and the ladder of widenings, on which every proof of the judge rests.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 class Oracles : public testing::TestWithParam<NamedQuery> {};
 
-/// The answer of `collide`, the same a little off, and the opposite decision.
+/// The answer of `collide`, the same slightly changed, and the opposite decision.
 std::vector<Answer> answers_about(const Case& c) {
   std::vector<Answer> all(1);
   for (const Pairing& p : our_pairings()) {
@@ -24,7 +24,7 @@ std::vector<Answer> answers_about(const Case& c) {
     }
   }
   Answer right = all.back();
-  for (double& x : right.values) x = std::isfinite(x) ? x : 1.0;  // a miss has no time to be wrong by
+  for (double& x : right.values) x = std::isfinite(x) ? x : 1.0;  // a miss has no time that can be wrong
   Answer off = right, opposite = right;
   for (double& x : off.values) x *= 1 + 0x1p-12;
   opposite.yes = !opposite.yes;
@@ -37,7 +37,7 @@ Enclosure at_rung(const Case& c, const Answer& about, int k) {
   return oracle_of(*c.query).interval(c.values, widening(*c.query, c.values, c.scalar, rung(k)), about, c.scalar);
 }
 
-/// Both enclose the same number, so they share at least one.
+/// Both enclose the same number, so they intersect.
 bool share(const Bounds& a, const Bounds& b) { return a.low <= b.high && b.low <= a.high; }
 
 std::string contradiction(const Query& query, const Enclosure& interval, const Enclosure& exact) {
@@ -54,8 +54,8 @@ std::string contradiction(const Query& query, const Enclosure& interval, const E
   return {};
 }
 
-/// Every input within a widening has its answers in the enclosure, the given input too: whatever a rung
-/// excludes, the exact stage must exclude.
+/// The enclosure contains the answers of every input within the widening, including the given input. So if a rung
+/// excludes an answer, the exact stage must exclude the answer too.
 TEST_P(Oracles, ExcludeOnNoRungWhatTheExactStageFinds) {
   const Query& query = *GetParam().query;
   const auto contradicted = [&](std::uint64_t stream) -> std::string {
@@ -74,13 +74,13 @@ TEST_P(Oracles, ExcludeOnNoRungWhatTheExactStageFinds) {
   EXPECT_TRUE(holds_for_streams("the exact stage decides within what every rung leaves open", contradicted));
 }
 
-/// True when the rung after excludes something that this rung allows.
+/// True if the next rung excludes something that this rung allows.
 bool excludes_more(const Enclosure& now, const Enclosure& next) {
   return now.may_be_yes > next.may_be_yes || now.may_be_no > next.may_be_no || now.may_match > next.may_match;
 }
 
-/// Each rung is a proof of its own, so the judge is right even where a wider input happens to have the
-/// tighter enclosure. Its search for the highest rung finds that one only if this is rare.
+/// Each rung is a proof of its own, so the judge is right even if a wider input happens to have the tighter enclosure.
+/// Its search finds the highest rung only if that is rare.
 TEST_P(Oracles, ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases) {
   const Query& query = *GetParam().query;
   constexpr int cases = 400;

@@ -1,5 +1,5 @@
-/// Queries that `Fast` answers in lanes have a text in plain numbers too, for machines without lanes and for the other
-/// tiers: it keeps the same promises. Lanes compute a contact of every case and must not leave it in a miss.
+/// Queries with a SIMD kernel in `Fast` also have a scalar kernel, for machines without SIMD and for the other tiers:
+/// it keeps the same contract. A SIMD kernel computes a contact in every case and must not leave it in a miss.
 #include <gtest/gtest.h>
 #include <collide/tiers.hpp>
 
@@ -11,7 +11,7 @@
 namespace nearmiss {
 namespace {
 
-/// `Fast` on a machine without lanes.
+/// `Fast` on a machine without SIMD lanes.
 struct WithoutLanes : collide::Fast {};
 static_assert(!collide::in_lanes<WithoutLanes, float> && collide::in_lanes<collide::Fast, float>);
 
@@ -22,18 +22,18 @@ Answer answer_without_lanes(std::span<const double> inputs) {
   return erase(adapters::ask_collide<WithoutLanes>(inputs_from<Inputs<T>>(inputs.data())));
 }
 
-/// A miss is the miss that the answer's type defines, number by number.
+/// The numbers of a miss equal those of the miss that the answer's type defines.
 template <template <class> class Inputs, class T>
 bool misses_emptily(std::span<const double> inputs) {
   const auto answer = adapters::ask_collide<collide::Fast>(inputs_from<Inputs<T>>(inputs.data()));
   using A = std::remove_cvref_t<decltype(answer)>;
   if constexpr (kind_of<A> == Kind::impact) {
     if constexpr (requires { answer.inside; }) {
-      if (answer.inside) return true;  // tells the start, too
+      if (answer.inside) return true;  // also describes the start
     }
     return answer.yes() || erase(answer).values == erase(A::miss()).values;
   }
-  return false;  // has no miss
+  return false;  // the answer type has no miss
 }
 
 struct Asked {

@@ -1,5 +1,5 @@
-/// The judge lets no gross lie pass. Answers that are wrong by construction (corpus/lies.hpp), further than a bound
-/// times 2^10, are told to be further than that bound: whatever the shapes and sizes.
+/// The judge detects every gross lie: an answer that is wrong by construction (corpus/lies.hpp) and exceeds a bound by
+/// a factor of 2^10 is proved to exceed the bound, for all shapes and sizes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -39,14 +39,14 @@ void tell(const Case& c, double bound, double beyond, std::uint64_t salt, Told& 
   }
 }
 
-/// Of the lies about a class of cases, at both scalars and all bounds. What falls short of all of them is a proof that
-/// the oracle's enclosures do not find, never a false one. Of the gross ones 99.9 % are told (benchmarks/oracle_power,
-/// which asks about many more); of the few here one may be missing.
+/// Counts over a class of cases, both scalars and all bounds. A missed lie is a proof that the oracle's enclosures do
+/// not find, never a false proof. Of the gross lies 99.9 % are detected (benchmarks/oracle_power, which tests many
+/// more); of the few here one may be missed.
 constexpr int may_be_missing = 1;
-/// Of lies nearer to the bound an enclosure may allow some: the least share measured was 98.15 %.
+/// Nearer to the bound the enclosures may allow some lies: the least share detected was 98.15 %.
 constexpr double least_share_not_gross = 0.98;
 
-/// Lies of a class, so many times as far off as the bound.
+/// Lies about a class of cases that exceed the bound by a given factor.
 Told lies_told(const Query& query, Family family, double beyond, std::uint64_t seed, std::uint64_t cases) {
   Told sum;
   for (const Scalar scalar : scalars) {
@@ -72,7 +72,7 @@ TEST_P(Lies, ThatAreNotGrossAreToldToo) {
   }
 }
 
-/// What watches the judge is watched by the exact stage: no lie is right.
+/// The exact stage confirms that no lie is a right answer.
 TEST_P(Lies, AreNoExactAnswer) {
   constexpr int cases = 25;
   int lies = 0;
@@ -106,7 +106,7 @@ std::ostream& operator<<(std::ostream& out, const Apart& a) { return out << a.wh
 
 class SpheresFarFromThinTriangles : public testing::TestWithParam<Apart> {};
 
-/// No input within a part in eight of the largest number overlaps.
+/// No input within an eighth of the largest number overlaps.
 TEST_P(SpheresFarFromThinTriangles, AreSurelyApart) {
   const Query& query = *find_query("sphere_triangle_overlap");
   const Case c{&query, GetParam().scalar, GetParam().values, "a sphere and a thin triangle", 0, 0, {}};

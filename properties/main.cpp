@@ -1,5 +1,5 @@
-/// Runs the properties. RapidCheck's draws are the same on every run unless RC_PARAMS says otherwise;
-/// its shrinking is off, because a stream's number has nothing to shrink: cases have a shrinker of their own.
+/// Runs the properties. RapidCheck draws the same values on every run unless RC_PARAMS changes that. RapidCheck's
+/// shrinking is off, because a stream's number cannot shrink; cases have their own shrinker.
 #include <gtest/gtest.h>
 
 #include <cstdio>

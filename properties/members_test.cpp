@@ -1,4 +1,5 @@
-/// Each member of an answer is judged by itself, against the nearest right answer, in the ulps that the words say.
+/// Each member of an answer is judged alone, against the nearest right answer, in the ulps that the documentation
+/// defines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ Answer yes(std::vector<double> values) {
   std::copy(values.begin(), values.end(), a.values.begin());
   return a;
 }
-/// A ball of radius 1 that flies along x from -10 with speed 2, at the unit box around (0, y, 0).
+/// A ball of radius 1 that moves along x from -10 with speed 2, toward the unit box around (0, y, 0).
 Case flight(double y) { return asked("moving_sphere_box", {-10, 0, 0, 1, 2, 0, 0, 0, y, 0, 1, 1, 1, 0, 0, 0, 1}); }
 const MemberFinding* found(const Finding& f, Disagreement d) {
   const auto at = std::find_if(f.members.begin(), f.members.end(), [&](const auto& m) { return m.disagreement == d; });
@@ -46,7 +47,7 @@ TEST(Members, AreAllToldWhateverTheOthersAre) {
 }
 
 TEST(Members, BesideAKnifesEdgeAreWhatIsWrong) {
-  // The ball passes the box by an ulp: a yes is right next door, but nowhere near is the contact at x = 7.
+  // The ball misses the box by an ulp: a nearby input has a yes, but none has a contact near x = 7.
   const Case c = flight(std::nextafter(2.0, 3.0));
   const Finding f = judge(c, yes({5, 7, 1, 0, 0, -1, 0}), {{.backward = 16}}, Detail::full);
   const MemberFinding* decision = found(f, Disagreement::false_hit);
@@ -99,7 +100,7 @@ TEST(Members, ANormalsLengthAndDirectionAreTwo) {
   EXPECT_EQ(name_of_headline(length), "not unit");
 }
 
-/// Of several right answers the nearest counts, though another has more numbers in common with the given one.
+/// Among several right answers the nearest counts, even if another one shares more numbers with the given answer.
 TEST(NearestAnswer, IsNotTheOneWithTheFewestMismatches) {
   const Case c = asked("sphere_box_penetration", {0, 0, 0, 0, 0, 0, 0, 1, 1, 2, -1, 1.0000000000000007, 0, 0.5});
   const Truth t = truth_of(c);
@@ -109,7 +110,7 @@ TEST(NearestAnswer, IsNotTheOneWithTheFewestMismatches) {
     Answer given = yes({});
     for (std::size_t i = 0; i < a.count; ++i) given.values[i] = a.values[i].low;
     for (const Alternative& b : t.alternatives) {
-      for (std::size_t i = 1; i < 4; ++i) {  // one number of the normal as another alternative has it
+      for (std::size_t i = 1; i < 4; ++i) {  // one component of the normal from another alternative
         const double off = std::abs(b.values[i].low - given.values[i]) / 0x1p-53;
         if (!(off > 1 && off < 16)) continue;
         ++coincidences;
@@ -122,7 +123,7 @@ TEST(NearestAnswer, IsNotTheOneWithTheFewestMismatches) {
   EXPECT_GT(coincidences, 0);
 }
 
-/// In ulps of the normal's largest number, not in twice as many: 10 off across the normal is told as 10.
+/// Distances are in ulps of the normal's largest component: 10 ulps across the normal count as 10, not as 20.
 TEST(NormalError, IsToldInUlps) {
   const Case c = asked("sphere_plane_penetration", {0, 0, 0, 1, 3, 4, 0, 0});
   const double ulp_of_largest = 0x1p-53;
@@ -137,7 +138,7 @@ TEST(NormalError, IsToldInUlps) {
   }
 }
 
-/// A longer normal of the right direction is off in length alone; a shorter distance as given counts as well.
+/// A longer normal in the right direction is wrong in length alone. If the distance as given is shorter, it counts.
 TEST(NormalError, IsTheLesserOfNumbersAndDirection) {
   const Case c = asked("sphere_plane_penetration", {0, 0, 0, 1, 3, 4, 0, 0});
   const Finding longer = judge(c, yes({1, 0.6 * 1.25, 0.8 * 1.25, 0, -0.6, -0.8, 0}), {}, Detail::full);
@@ -146,9 +147,10 @@ TEST(NormalError, IsTheLesserOfNumbersAndDirection) {
   EXPECT_LE(as_given.forward_ulps, 1.5);
 }
 
-/// A cone's directions have up to three components: a normal whose every number is an ulp off is told as one.
+/// A cone's directions have up to three components: a normal with an error of one ulp in each component has distance
+/// one.
 TEST(NormalError, OfAConeIsOneOfComponents) {
-  // A point on the edge of a box that is turned about (1, 2, 3): the normals there lie across the edge.
+  // A point on the edge of a box rotated about (1, 2, 3): the normals there are perpendicular to the edge.
   const Case c = asked("moving_point_box", {0, 1, 1, 0, -1, -1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1});
   const double d = 0x1p-50;  // 4 ulps of 0.70710678
   const Finding f = judge(c, yes({0, 0, 1, 1, d, 0.70710678118654757, 0.70710678118654757}), {}, Detail::full);
@@ -156,7 +158,7 @@ TEST(NormalError, OfAConeIsOneOfComponents) {
   EXPECT_GE(f.forward_ulps, 8 - 0.5);
 }
 
-/// An enclosure without bounds accepts every number next door; an infinite one is wrong here.
+/// An unbounded enclosure allows every nearby finite number, but an infinite number is wrong here.
 TEST(InfiniteNumbers, AreNoneWhereTheExactOneIsOrdinary) {
   const Case c = asked("sphere_sphere_penetration", {-1e200, 0, 0, 1, 1e200, 0, 0, 1});
   Answer apart = yes({-infinity, 0, 0, 0, 0, 0, 0});

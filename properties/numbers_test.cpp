@@ -1,4 +1,4 @@
-/// The number types below the tiers keep their bounds: seen against rationals and 512 bits.
+/// The number types below the tiers keep their error bounds, compared with rationals and 512-bit numbers.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 #include <collide/certified.hpp>
@@ -15,7 +15,7 @@ using Wide = DoubleWord<double>;
 Q exact(double x) { return Q(x); }
 Q exact(const Wide& x) { return Q(x.high) + Q(x.low); }
 
-/// Doubles of few bits (ties, exact results, zeros) and of many, of moderate exponents.
+/// Doubles with few bits (ties, exact results, zeros) and with many, of moderate exponents.
 double draw(std::mt19937_64& random) {
   const double sign = random() % 2 == 0 ? 1 : -1;
   if (random() % 4 == 0) return sign * double(random() % 8);
@@ -25,7 +25,7 @@ Wide draw_wide(std::mt19937_64& random) {
   return Wide::two_sum(draw(random), random() % 3 == 0 ? 0.0 : draw(random) * 0x1p-53);
 }
 
-/// A number off by at most `error`, and the number it stands for.
+/// A number with an error of at most `error`, and the exact number.
 template <class N>
 struct Known {
   N number;
@@ -48,7 +48,7 @@ class NumberWithBound : public testing::Test {};
 using NumbersWithBound = testing::Types<Bounded<double>, WideBounded<double>>;
 TYPED_TEST_SUITE(NumberWithBound, NumbersWithBound);
 
-/// |value - truth| <= error, up to the rounding of the error itself; a doubt excuses.
+/// |value - truth| <= error, up to the rounding of the error itself; a number marked as doubtful passes.
 template <class N>
 void expect_within(const N& n, const Q& truth, const char* operation) {
   if (Doubt::any) return;
@@ -102,7 +102,7 @@ TYPED_TEST(NumberWithBound, ComparesRightlyOrRecordsADoubt) {
   EXPECT_GT(equal, 1000);
 }
 
-/// A text with cancellation, divisions and a root.
+/// A kernel with cancellation, divisions and a root.
 template <class N>
 N text(const std::array<N, 6>& x) {
   const N d = x[0] * x[3] - x[1] * x[2], e = (x[4] - x[5]) / (x[2] * x[2] + N(1));

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A hit at a time of at most 1, exactly: asked as the sign of (exact time) - 1.
+/// Whether a hit has a time of at most 1, exactly: by the sign of (exact time) - 1.
 bool hits_within_one(const Case& c) {
   Answer at_one;
   at_one.yes = true;
@@ -55,7 +55,7 @@ TEST(NyuCcdSample, HasTheTruthThatTheOracleFinds) {
   EXPECT_LE(hits, std::ptrdiff_t(truths.fit.size()) - 4);
 }
 
-/// The folder of the benchmark: NEARMISS_NYU_CCD, or beside the sources.
+/// The folder of the benchmark: NEARMISS_NYU_CCD, or a folder beside the sources.
 fs::path benchmark_folder() {
   const char* told = std::getenv("NEARMISS_NYU_CCD");
   return told != nullptr && *told != '\0' ? fs::path(told) : corpus_folder() / ".." / ".." / "shared" / "nyu-ccd";

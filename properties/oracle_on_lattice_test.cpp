@@ -1,5 +1,5 @@
 /// The oracle against slow, obvious derivations on small integer lattices, where touches, ties and degenerate shapes
-/// are common. Decisions are compared, and the derivation's numbers to one unit in the last place.
+/// are common. Compares decisions, and the derivation's numbers to one unit in the last place.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -13,7 +13,7 @@
 namespace nearmiss::derived {
 namespace {
 
-/// Different cases of each query. CI asks about fewer; the nightly job about NEARMISS_LATTICE_CASES.
+/// The number of different cases per query. CI runs the default, the nightly job NEARMISS_LATTICE_CASES.
 int cases_per_query() {
   const char* told = std::getenv("NEARMISS_LATTICE_CASES");
   return told != nullptr ? std::stoi(told) : 45000;
@@ -21,11 +21,11 @@ int cases_per_query() {
 
 struct Compared {
   int cases = 0, hits = 0;
-  std::string difference;  ///< the first; empty where there is none
+  std::string difference;  ///< the first one; empty if there is none
 };
 
-/// Compares decisions, and the reference's numbers to one unit in the last place, of so many different cases; of fewer
-/// where the lattice has hardly more.
+/// Compares decisions, and the reference's numbers to one unit in the last place, over `count` different cases, or over
+/// fewer if the lattice has hardly more.
 Compared compare(const Query& query, int range, int cases) {
   const Derivation derivation = derivation_of(query);
   std::mt19937_64 random(20240601 + unsigned(range));

@@ -13,7 +13,7 @@
 namespace nearmiss {
 namespace {
 
-/// A row of a table: the text of its cells, and in which section it stands.
+/// A row of a table: the text of its cells, and its section.
 struct Row {
   std::string section;
   std::vector<std::string> cells;
@@ -49,7 +49,7 @@ std::vector<Row> rows_of_queries() {
 }
 
 TEST(ReferenceTable, HasRowsOfItsForm) {
-  constexpr int functions_of_reference = 45;  // overloads counted apart
+  constexpr int functions_of_reference = 45;  // overloads count separately
   const std::vector<Row> rows = rows_of_queries();
   EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !beyond(row); }),
             functions_of_reference);

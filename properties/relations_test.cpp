@@ -1,4 +1,4 @@
-/// Answers to related cases are related as the exact ones are: each tier, and the oracle.
+/// The answers to related cases are related like the exact answers: for each tier, and for the oracle.
 #include "corpus/relations/verdict.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
 #include "corpus/case_builder.hpp"
+#include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/store.hpp"
 #include "oracles/confirmed.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 Answer asked_here(const Subject& subject, const Case& c) { return subject.offering(c.query->name).answer(c.values); }
 
-/// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
+/// A bitwise claim concerns our own tiers only: they use no epsilon.
 std::optional<RelationFinding> examined(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s,
                                         bool bit_for_bit) {
   return examine(
@@ -37,7 +37,7 @@ TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswers) {
   EXPECT_EQ(failure_of_relations(*query, *subject, stream(11), cases), "");
 }
 
-/// Each by eight changes of each relation.
+/// Eight changes per relation.
 TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswersToStoredCases) {
   const auto [query, subject] = GetParam();
   for (const StoredCase& s : stored_cases(*query)) {
@@ -55,7 +55,7 @@ TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswersToStoredCases) {
 INSTANTIATE_TEST_SUITE_P(Relations, EveryTierRelated, testing::ValuesIn(our_pairings()),
                          testing::PrintToStringParamName());
 
-/// What follows from the answer alone, or from another query asked at the time of impact.
+/// Consequences of the answer alone, or of another query asked at the time of impact.
 class CertifiedPostconditions : public testing::TestWithParam<Pairing> {};
 
 std::size_t output(const Query& q, std::string_view name) {
@@ -69,7 +69,7 @@ std::size_t input(const Query& q, std::string_view name) {
   return i;
 }
 
-/// A point has normals in every direction, and so have two things without a size where they meet.
+/// A point has normals in every direction, and so have two operands of size 0 where they meet.
 bool has_no_size_somewhere(const Case& c) {
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (c.query->inputs[i].role == Role::size && c.values[i] == 0) return true;
@@ -77,7 +77,7 @@ bool has_no_size_somewhere(const Case& c) {
   return false;
 }
 
-/// normal . velocity; each number of the normal is within 2 ulp, after a division by a length within 4 epsilon.
+/// normal . velocity; each component of the normal is within 2 ulp, after a division by a length within 4 epsilon.
 bool against_the_motion(const Case& c, const Answer& a) {
   const std::size_t n = output(*c.query, "normal.x"), v = input(*c.query, "velocity.x");
   const double eps = unit_roundoff(c.scalar);
@@ -89,7 +89,7 @@ bool against_the_motion(const Case& c, const Answer& a) {
   return along <= bound;
 }
 
-/// Weights are within 2 ulp of the largest.
+/// Weights are within 2 ulp of the largest weight.
 bool weights_add_up(const Case& c, const Answer& a) {
   const std::size_t w = output(*c.query, "weights.x");
   const double sum = a.values[w] + a.values[w + 1] + a.values[w + 2];
@@ -97,7 +97,7 @@ bool weights_add_up(const Case& c, const Answer& a) {
   return std::abs(sum - 1) <= 8 * ulp(largest, c.scalar);
 }
 
-/// At the time of impact the sphere, grown by what the rounding of its place can amount to, overlaps the solid.
+/// At the time of impact the sphere overlaps the solid, if enlarged by the possible rounding error of its place.
 bool touches_at_impact(const Case& c, const Answer& a, const Subject& s) {
   const std::map<std::string_view, std::string_view> overlaps{{"moving_sphere_sphere", "sphere_sphere_overlap"},
                                                               {"moving_sphere_box", "sphere_box_overlap"},
@@ -123,7 +123,7 @@ bool touches_at_impact(const Case& c, const Answer& a, const Subject& s) {
   return asked_here(s, there).yes;
 }
 
-/// The location is as far from a sphere's center, or from a plane, as it must be, but for 2 ulp of each number.
+/// The location has the right distance from a sphere's center, or from a plane, within 2 ulp of each number.
 bool lies_on_the_surface(const Case& c, const Answer& a) {
   const std::size_t x = output(*c.query, "location.x");
   const auto distance = [&](const char* center, long double& rounding) {
@@ -158,7 +158,7 @@ bool lies_on_the_surface(const Case& c, const Answer& a) {
   return std::abs(value) <= bound + 1e-18L * std::abs(c.values[n + 3]);
 }
 
-/// How the answer breaks what follows from it; "" where it does not.
+/// Which consequence the answer violates; "" if none.
 std::string broken_postcondition(const Case& c, const Subject& s) {
   const Query& query = *c.query;
   const std::size_t time = output(query, "time"), solid = input(query, "solid");
@@ -168,7 +168,7 @@ std::string broken_postcondition(const Case& c, const Subject& s) {
     return "the weights do not add up to 1";
   if (query.kind != Kind::impact) return {};
   if (!touches_at_impact(c, a, s)) return "there is no touch at the time of impact";
-  // A point that starts inside of a solid is there already.
+  // A point that starts inside a solid is in contact at the start.
   if (a.values[time] > 0 && !lies_on_the_surface(c, a)) return "the location is not on the surface";
   const bool leaves_a_shell = solid < query.inputs.size() && c.values[solid] == 0;
   const bool arrives = a.values[time] > 0 && !leaves_a_shell && !has_no_size_somewhere(c);
@@ -223,13 +223,13 @@ TEST_P(RelatedTruths, KeepEveryRelationOfTheirDecisions) {
 
 INSTANTIATE_TEST_SUITE_P(Every, RelatedTruths, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
-/// A subject that leaves out some numbers of its answers, others of each; 1e308 and NaN stand in their place.
+/// A subject that leaves out some numbers of its answers, differently in each; 1e308 and NaN take their place.
 class ForgetfulSubject : public testing::TestWithParam<NamedQuery> {};
 
 TEST_P(ForgetfulSubject, MakesNobodyContradictThemselves) {
   const Query& query = *GetParam().query;
   const Subject& subject = *find_subject("collide-certified-double");
-  Random random(stream(23));  // of what is left out
+  Random random(stream(23));  // chooses the numbers to leave out
   const auto forgetful = [&](const Case& c) {
     Answer a = asked_here(subject, c);
     a.given = random.bits();
@@ -283,7 +283,7 @@ TEST(Relations, GiveFollowUpsThatAreValidAndExactInTheirScalar) {
   }
 }
 
-/// The certified tier with a mistake of the kind that libraries make.
+/// The certified tier with a typical mistake of collision libraries.
 using Mistake = Answer (*)(std::span<const double>);
 
 const Answer& right(std::string_view query, std::span<const double> values) {
@@ -300,8 +300,8 @@ Subject mistaken(std::string_view query, Mistake answer) {
   return s;
 }
 
-/// A point that leaves a box by 3.5 times the error that is promised: two places and a half-extent may move, and a
-/// radius as well where there is one.
+/// A point misses a box by 3.5 times the promised error: two places and a half-extent may move, and a radius as well if
+/// there is one.
 TEST(Relations, AnAnswerThatALostNumberMakesRightIsNoContradiction) {
   constexpr double error = 0x1p-6;
   const Relation& relation = *find_relation("sphere-as-point");
@@ -325,7 +325,7 @@ TEST(Relations, AnAnswerThatALostNumberMakesRightIsNoContradiction) {
   EXPECT_EQ(found.oracle, "");
 }
 
-/// Near a bound the proof is found for one order of a capsule's ends and not for the other.
+/// Near a bound the proof succeeds for one order of a capsule's ends and fails for the other.
 TEST(Relations, AnAnswerThatIsNotProvedToBeWrongIsNotYetRight) {
   const Relation& relation = *find_relation("turned-corners");
   const Case c{find_query("moving_sphere_capsule"),
@@ -404,7 +404,7 @@ INSTANTIATE_TEST_SUITE_P(
                               if (v[0] > 8) a.yes = false, a.values[0] = HUGE_VAL;
                               return a;
                             }},
-                    Planted{"rotated", "moving_sphere_sphere",  // the larger of two coordinates for a length
+                    Planted{"rotated", "moving_sphere_sphere",  // the larger of two coordinates instead of a length
                             [](std::span<const double> v) {
                               std::vector<double> w(v.begin(), v.end());
                               w[3] = v[3] * (std::abs(v[4]) > std::abs(v[5]) ? 1 : 0.5);
@@ -429,7 +429,7 @@ INSTANTIATE_TEST_SUITE_P(
                               w[6] = 2 * v[6] - v[9], w[7] = 2 * v[7] - v[10], w[8] = 2 * v[8] - v[11];
                               return right("moving_point_triangle", w);
                             }},
-                    Planted{"reversed-corners", "sphere_triangle_overlap",  // seen from its front only
+                    Planted{"reversed-corners", "sphere_triangle_overlap",  // tested from its front only
                             [](std::span<const double> v) {
                               Answer a = right("sphere_triangle_overlap", v);
                               const double ax = v[7] - v[4], ay = v[8] - v[5], bx = v[10] - v[4], by = v[11] - v[5];
@@ -454,7 +454,8 @@ INSTANTIATE_TEST_SUITE_P(
                               if (a.yes && a.values[0] > 0.75) a.yes = false, a.values[0] = HUGE_VAL;
                               return a;
                             }},
-                    Planted{"grown-size", "sphere_sphere_penetration",  // a contained sphere as if it were apart
+                    Planted{"grown-size",
+                            "sphere_sphere_penetration",  // a contained sphere treated as if it were apart
                             [](std::span<const double> v) {
                               Answer a = right("sphere_sphere_penetration", v);
                               if (v[3] > 1.5) a.yes = false, a.values[0] = -1;

@@ -1,4 +1,4 @@
-/// What is inside of a precondition, and that the generator's cases can be fitted to each.
+/// Which cases meet a precondition, and that the generator's cases can be fitted to each precondition.
 #include "oracles/requirements.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ bool outside(std::string_view query, std::vector<double> values) {
   return meets(with(query, std::move(values)), Precondition::starts_outside);
 }
 
-/// Touching is not outside; one step further is.
+/// A touching start is not outside; a start one step further is outside.
 TEST(Preconditions, StartsAreDecidedExactly) {
   const double next = std::nextafter(3.0, 4.0);
   EXPECT_FALSE(outside("moving_sphere_sphere", {3, 0, 0, 1, -1, 0, 0, 0, 0, 0, 2}));
@@ -41,7 +41,7 @@ TEST(Preconditions, StartsAreDecidedExactly) {
   EXPECT_TRUE(outside("ray_aabox", {1.5, 0.5, 0.5, 1, 0, 0, 0, 0, 0, 1, 1, 1}));
 }
 
-/// Both triangles of a rectangle count, whatever its four corners are.
+/// Both triangles of a rectangle count, wherever its four corners are.
 TEST(Preconditions, AStartOutsideOfARectangleIsOutsideOfBothTriangles) {
   const auto at = [](double x, double y, double z) {
     return outside("moving_point_rectangle", {x, y, z, 0, 0, -1, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
@@ -157,7 +157,7 @@ TEST_P(FittedToAll, AreInsideAndMixYesAndNo) {
   expect_served(*GetParam().query, all, "all of them");
 }
 
-/// Without a precondition the stream is the generator's, and a case that is inside stays as it is.
+/// Without a precondition the stream is the generator's, and a case that meets the preconditions stays unchanged.
 TEST_P(FittedToAll, ChangeOnlyWhatIsOutside) {
   const Query& query = *GetParam().query;
   for (std::uint64_t i = 0; i < 200; ++i) {

@@ -1,6 +1,6 @@
-/// Directions after a contact have the lengths of directions: 1 for a bounce, at most 1 for a slide. No other input
-/// explains another length, so an answer that is exact for some input, to one unit in the last place of each number,
-/// has it to as much. The oracle's enclosures are too wide to see that.
+/// Directions after a contact have the right lengths: 1 for a bounce, at most 1 for a slide. No other input has another
+/// length. So an answer that is exact for some input, to one unit in the last place of each number, has the right
+/// length to the same precision. The oracle's enclosures are too wide to test that.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,15 +19,15 @@ Number length(const Answer& a) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
-/// How much a length changes where each number does by one unit in the last place of the largest, and what rounding
-/// makes of the length itself.
+/// The change of a length if each component changes by one unit in the last place of the largest, plus the rounding of
+/// the length itself.
 Number slack(const Answer& a, Scalar scalar) {
   const double x = std::abs(a.values[0]), y = std::abs(a.values[1]), z = std::abs(a.values[2]);
   const Number change = ulp(std::max({x, y, z}), scalar), sum = Number(x) + y + z;
   return change * sum / length(a) + 2 * change * change + 8 * std::numeric_limits<Number>::epsilon();
 }
 
-/// Says what is wrong with the length of an answer; "" where nothing is.
+/// What is wrong with the length of an answer; "" if it is right.
 std::string fault(const Case& c, const Answer& a) {
   if (length(a) == 0) return "";
   const Number excess = length(a) - 1;

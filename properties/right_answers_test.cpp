@@ -1,6 +1,6 @@
-/// Where many answers are right, a given one is held against the nearest of them: a member of the set is never told
-/// more than it was rounded by, and what is off by more than a few ulps from every member is told. Members are built
-/// here, in long double, from what the query means; the oracle is asked about them.
+/// For sets of right answers, the given answer is compared with the nearest member. A member is never judged further
+/// off than its rounding, and an answer more than a few ulps from every member is detected. The test builds the members
+/// in long double from the definition of the query, and asks the oracle about them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ std::string text(const Asked& a) {
          testing::PrintToString(Numbers(a.answer.values.begin(), a.answer.values.begin() + 11));
 }
 
-/// A promise that nothing but an exact answer, rounded once, keeps; but for the length of normals.
+/// A contract that only a correctly rounded exact answer keeps, apart from the length of normals.
 constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 8};
 
 Finding told(const Asked& a, Detail detail = Detail::full) { return judge(a.question, a.answer, strict, detail); }
@@ -79,7 +79,7 @@ void expect_wrong(const Asked& a, double ulps) {
   EXPECT_GE(f.forward_ulps, ulps) << text(a);
 }
 
-// Smallest cases.
+// Minimal cases.
 
 TEST(RightAnswers, OfConcentricSpheresArePairsOfANormalAndItsContact) {
   expect_right(asked("sphere_sphere_penetration", {-3, -4, 0, 5, -3, -4, 0, 1}, true, {6, 0.6, 0.8, 0, 0, 0, 0}));
@@ -103,8 +103,8 @@ TEST(RightAnswers, WeightsWithoutAreaAreComparedNumberByNumber) {
 }
 
 TEST(RightAnswers, WeightsWithoutAreaAreNotNegative) {
-  // (0, 0), (1, 0), (2, 0) and (0, 0): twice the first less the second and some of the third give the point, all the
-  // same.
+  // The corners are (0, 0), (1, 0), (2, 0) and (0, 0): twice the first minus the second plus some of the third also
+  // gives the point.
   expect_right(asked("point_in_triangle", {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 1, -1, 0, 0, 0}, true, {1, 0, 0}));
   expect_wrong(asked("point_in_triangle", {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 1, -1, 0, 0, 0}, true, {2, -2, 1}), 0x1p45);
   expect_right(asked("point_in_triangle", {3, 4, 5, 3, 4, 5, 3, 4, 5, 0, 0, 1, -1, 3, 4, 0}, true, {0.25, 0.75, 0}));
@@ -134,7 +134,7 @@ TEST(RightAnswers, OfAFlatBoxTheNormalIsThatOfTheSideThatIsMet) {
   for (const Asked& a : normal({0, 0, 2}, {0, 0, -1}, 2, -1)) expect_wrong(a, 0x1p45);
   for (const Asked& a : normal({0, 0, 0}, {0, 0, -1}, 0, 1)) expect_right(a);
   for (const Asked& a : normal({0, 0, 0}, {0, 0, -1}, 0, -1)) expect_wrong(a, 0x1p45);
-  for (const double side : {-1.0, 1.0}) {  // along the plane either side
+  for (const double side : {-1.0, 1.0}) {  // along the plane on either side
     for (const Asked& a : normal({2, 0, 0}, {-1, 0, 0}, 1, side)) expect_right(a);
     for (const Asked& a : normal({0, 0, 0}, {-1, 0, 0}, 0, side)) expect_right(a);
   }
@@ -150,7 +150,7 @@ TEST(RightAnswers, AMissByItsTimeStartsOutside) {
   expect_wrong(asked("moving_point_aabox", far, false, {1}), 0);
 }
 
-// Random members. All coordinates are small dyadic numbers, so that the sets are where they are meant to be.
+// Random members. All coordinates are small dyadic numbers, so that the sets are exactly as intended.
 
 class Draw {
  public:
@@ -168,7 +168,7 @@ class Draw {
       if (dot(v, v) > 0.01L && dot(v, v) < 1) return unit(v);
     }
   }
-  /// Of small whole numbers, not zero.
+  /// A vector of small integers, not zero.
   Vec axis() {
     for (;;) {
       const Vec v{Real(below(7) - 3), Real(below(7) - 3), Real(below(7) - 3)};
@@ -180,8 +180,8 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-/// A question and one of its right answers: `before`, the vectors that belong to the set, `after`. Whoever moves vector
-/// `leaving` along `way` leaves the set by as much; -1: no such way is known.
+/// A case and one of its right answers: `before`, the vectors that belong to the set, `after`. Moving vector `leaving`
+/// along `way` moves the answer out of the set by the same distance; -1: no such direction is known.
 struct Member {
   const char* query;
   Numbers inputs, before;
@@ -191,8 +191,8 @@ struct Member {
   Numbers after{};
 };
 
-constexpr int octaves = 10;     // of sizes beside places
-constexpr int box_octaves = 3;  // of sizes that have to add up exactly, in floats too
+constexpr int octaves = 10;     // of sizes relative to positions
+constexpr int box_octaves = 3;  // of sizes whose sums must be exact, in float too
 
 Member concentric(Draw& d) {
   const Vec c = d.place(), n = d.direction();
@@ -209,7 +209,7 @@ Member on_the_center(Draw& d) {
           0,
           n};
 }
-/// On the axis of a capsule: in its middle out at a right angle, at an end at a right angle or further away.
+/// On the axis of a capsule: in its middle perpendicular to it, at an end perpendicular or further outward.
 Member on_the_axis(Draw& d) {
   const Vec p0 = d.place(), along = d.axis();
   const int halves = d.below(3);
@@ -227,7 +227,7 @@ Member on_the_axis(Draw& d) {
           0,
           halves == 1 && d.below(2) == 0 ? unit(along) : n};
 }
-/// A capsule without a radius: the normals at a right angle to it, against the motion.
+/// A capsule of radius 0: the normals perpendicular to it, against the motion.
 Member on_a_segment(Draw& d) {
   const Vec p0 = d.place(), along = d.axis(), v = d.axis(), center = p0 + 0.5L * along;
   Vec n = unit(cross(along, d.direction()));
@@ -240,9 +240,9 @@ Member on_a_segment(Draw& d) {
           unit(along)};
 }
 
-/// A box turned about one axis by cosine 3/5 and sine 4/5, or not at all; its half extents are multiples of 5.
+/// A box rotated about one axis by cosine 3/5 and sine 4/5, or unrotated; its half extents are multiples of 5.
 struct ExactBox {
-  std::array<Vec, 3> five_axes{Vec{5, 0, 0}, Vec{0, 5, 0}, Vec{0, 0, 5}};  ///< times 5: whole numbers
+  std::array<Vec, 3> five_axes{Vec{5, 0, 0}, Vec{0, 5, 0}, Vec{0, 0, 5}};  ///< times 5: integers
   std::array<Vec, 3> axes{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};       ///< rounded
   Vec half{};
   Numbers orientation{0, 0, 0, 1};
@@ -261,7 +261,7 @@ struct ExactBox {
   Vec along(int axis, Real length) const { return length / 5 * five_axes[axis]; }
 };
 
-/// Onto an edge or a vertex, from outside or at the start; `as_ball`: by a ball of radius 0.
+/// Contact with an edge or a vertex, from outside or at the start; `as_ball`: by a ball of radius 0.
 Member onto_a_box(Draw& d, bool as_ball) {
   const ExactBox box(d, d.below(4) - 1);
   const int level = d.below(4);  // the axis along the edge; 3: a vertex
@@ -285,12 +285,12 @@ Member onto_a_box(Draw& d, bool as_ball) {
 Member point_onto_a_box(Draw& d) { return onto_a_box(d, false); }
 Member no_ball_onto_a_box(Draw& d) { return onto_a_box(d, true); }
 
-/// A point onto the face, an edge or a vertex of a triangle, from its front or at the start.
+/// Contact of a point with the face, an edge or a vertex of a triangle, from its front or at the start.
 Member no_ball_onto_a_triangle(Draw& d) {
   const Vec e = d.axis(), f = d.axis(), normal = cross(e, f), corner = d.place();
   if (dot(normal, normal) == 0) return no_ball_onto_a_triangle(d);
   const std::array<Vec, 3> v{corner, corner + 4 * e, corner + 4 * f};
-  const int feature = d.below(3);  // vertex, edge, face, each the first
+  const int feature = d.below(3);  // vertex, edge or face; the first of each
   const std::array<Vec, 3> weights{Vec{1, 0, 0}, Vec{0.5L, 0.5L, 0}, Vec{0.5L, 0.25L, 0.25L}};
   const Vec& w = weights[feature];
   const Vec place = w[0] * v[0] + w[1] * v[1] + w[2] * v[2], velocity = d.axis();
@@ -310,7 +310,7 @@ Member no_ball_onto_a_triangle(Draw& d) {
           Numbers{} + w};
 }
 
-/// Box 2 before a face of box 1: its own face, turned in the plane, or an edge of it.
+/// Box 2 before a face of box 1: with its own face, rotated in the plane, or with an edge.
 Member on_a_patch(Draw& d) {
   const int about = d.below(3) - 1;
   const ExactBox box1(d, -1);
@@ -337,13 +337,13 @@ Member on_a_patch(Draw& d) {
           way};
 }
 
-/// Three corners on a line, or all in one point, seen along z.
+/// Three corners on a line, or all at one point, projected along z.
 Member weights_without_area(Draw& d) {
   const Vec base = d.place(), along = Real(d.below(3)) * d.axis();
   const std::array<Real, 3> at{0, Real(d.below(9) - 4), Real(d.below(9) - 4)};
   Vec w{d.uniform(0, 1), d.uniform(0, 1), d.uniform(0, 1)};
   w = 1 / (w[0] + w[1] + w[2]) * w;
-  // A place on the line of few bits, and weights of it that are not far from those.
+  // A point of few bits on the line, and approximate weights of it.
   const Real wish = w[0] * at[0] + w[1] * at[1] + w[2] * at[2], share = std::round(wish * 8) / 8;
   const Real end = share < wish ? std::min({at[0], at[1], at[2]}) : std::max({at[0], at[1], at[2]});
   if (end != wish) {
@@ -371,7 +371,7 @@ class SetOfRightAnswers : public testing::TestWithParam<Set> {
  protected:
   static constexpr int members = 64;
 
-  /// Calls f(draw, member, scalar) for as many random members in each scalar.
+  /// Calls f(draw, member, scalar) for the same number of random members in each scalar.
   template <class F>
   void for_each_member(F&& f) const {
     for (const Scalar scalar : {Scalar::float64, Scalar::float32}) {
@@ -407,7 +407,7 @@ TEST_P(SetOfRightAnswers, AMemberThatIsPushedByAnUlpIsToldNoFurtherOff) {
 
 TEST_P(SetOfRightAnswers, WhatLeavesThemIsTold) {
   constexpr Real far = 24;
-  constexpr double at_least = 8;  // by each component, of the root of three and what rounding takes
+  constexpr double at_least = 8;  // in each component, to cover sqrt(3) and rounding
   int asked_about = 0;
   for_each_member([&](Draw&, const Member& m, Scalar scalar) {
     if (m.leaving < 0) return;
@@ -430,10 +430,10 @@ INSTANTIATE_TEST_SUITE_P(Sets, SetOfRightAnswers,
                                          Set{"weights_without_area", weights_without_area}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// A ball of radius 0 is a point, and what is right at a contact does not depend on where the motion starts.
+// A ball of radius 0 is a point, and the right answers at a contact do not depend on where the motion starts.
 
-/// The word on an answer, exactly. Of a right answer a set tells no distance, nor of one further off than `far_off`,
-/// and any other to one part in 128.
+/// The exact finding on an answer. A set gives no distance for a right answer and for one beyond `far_off`, and any
+/// other distance to one part in 128.
 struct Word {
   bool yes, matches;
   double ulps;
@@ -462,7 +462,7 @@ std::vector<Vec> some_normals(Draw& draw, int besides) {
   return list;
 }
 
-/// A point of the whole numbers and a box of them, flat as often as not; often on its surface.
+/// An integer point and an integer box, in half of the cases flat; the point is often on its surface.
 struct PointAndBox {
   Vec point, velocity;
   Numbers box;
@@ -472,7 +472,7 @@ struct PointAndBox {
     const Vec half{Real(d.below(3)), Real(d.below(3)), Real(d.below(3))};
     point = {small(), small(), small()};
     velocity = {small(), small(), small()};
-    // Turned by a right angle about an axis, so that its vertices are whole numbers too.
+    // Rotated by a right angle about an axis, so that its vertices have integer coordinates too.
     Numbers orientation{0, 0, 0, 1};
     if (d.below(2) == 0) orientation[d.below(3)] = d.sign();
     box = Numbers{0, 0, 0} + half + orientation;
@@ -510,7 +510,7 @@ TEST(RightAnswers, AtAContactAreTheSameWhereverThePointStarts) {
   int asked_about = 0;
   for (int i = 0; i < cases; ++i) {
     const Vec corner{0, 0, 0}, e = draw.axis(), f = draw.axis(), velocity = draw.axis();
-    if (dot(cross(e, f), velocity) >= 0) continue;  // along the plane it may be met earlier
+    if (dot(cross(e, f), velocity) >= 0) continue;  // along the plane it may be hit earlier
     const int on = draw.below(3);
     const Vec place = on == 0 ? corner : on == 1 ? 0.5L * e : 0.25L * (e + f);
     const auto word = [&](const Vec& start, double time, const Vec& n) {

@@ -1,4 +1,4 @@
-/// The shrinker finds simple cases and never leaves what it is told to keep.
+/// The shrinker finds simple cases and keeps the required property.
 #include "corpus/shrink.hpp"
 
 #include <gtest/gtest.h>
@@ -60,8 +60,8 @@ TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
       EXPECT_LE(questions, 500);
       const std::set<double> before(c.values.begin(), c.values.end()), after(small.values.begin(), small.values.end());
       EXPECT_LE(after.size(), before.size());
-      // A hit on something small needs all numbers of a point and its velocity to change at once: there 8 remain. A
-      // decision that a change by a sixty-fourth turns is left by nearly every change of a single number.
+      // A hit on a small target needs all numbers of a point and its velocity to change at once: there 8 numbers
+      // remain. If a change by 1/64 flips the decision, nearly every change of a single number flips it.
       const bool thin = query.name.starts_with("moving_point_");
       const double margin = truth_of(c).margin_at_least * unit_roundoff(scalar);
       if (margin < 1.0 / 64) continue;

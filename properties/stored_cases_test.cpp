@@ -1,4 +1,4 @@
-/// Every stored case is what its file name and its expectations say.
+/// Every stored case agrees with its file name and its expectations.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -43,7 +43,8 @@ TEST_P(StoredCases, AreNamedAfterTheTruth) {
   }
 }
 
-/// Our own are asked in this process, where a sanitizer sees them; others may crash, as some are stored for.
+/// Our own subjects run in this process, where a sanitizer sees them; others may crash, and some cases are stored for
+/// that.
 Finding found(const Case& c, const Subject& subject, Worker& worker) {
   if (subject.name.starts_with("collide-")) return examined(c, subject);
   const Offering& offering = subject.offering(c.query->name);

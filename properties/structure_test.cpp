@@ -1,5 +1,5 @@
-/// The direction of includes: a room includes itself and what stands to its left in the order of docs/architecture.md.
-/// An oracle sees nothing of the implementation but shapes, answers and their members.
+/// The direction of includes: a folder includes only itself and folders to its left in the order of
+/// docs/architecture.md. An oracle includes nothing of the implementation but shapes, answers and their members.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const fs::path root = NEARMISS_SOURCE_FOLDER;
 constexpr std::string_view collide_headers = "impl/collide/include/";
 
-/// Rooms of the same rank do not include each other.
+/// Folders of the same rank do not include each other.
 struct Room {
   std::string_view folder;
   int rank;
@@ -35,7 +35,7 @@ constexpr Room rooms[] = {
     {"benchmarks", 11},
 };
 
-/// The innermost that holds the file.
+/// The innermost folder of the list that contains the file.
 const Room& room_of(const std::string& file) {
   const Room* found = nullptr;
   for (const Room& r : rooms) {
@@ -50,7 +50,7 @@ bool is_source(const fs::path& p) {
   return p.extension() == ".cpp" || p.extension() == ".hpp" || p.extension() == ".h";
 }
 
-/// Each source and header of a room, from the top of the project; the overlay of another query is of other rooms.
+/// Each source and header of a folder, relative to the top of the project, without the overlay of another query.
 std::vector<std::string> sources() {
   std::set<std::string> tops;
   for (const Room& r : rooms) tops.insert(std::string(r.folder.substr(0, r.folder.find('/'))));
@@ -65,7 +65,7 @@ std::vector<std::string> sources() {
   return files;
 }
 
-/// The file of this project that an include names; empty for what is not of it, or made by CMake.
+/// The project file that an include names; empty for files outside the project or made by CMake.
 std::optional<std::string> named_by(std::string_view line) {
   if (!line.starts_with("#include ")) return std::nullopt;
   const char open = line[9];
@@ -100,7 +100,7 @@ TEST(Structure, IncludesPointToTheLeft) {
   EXPECT_GT(includes, 500u);
 }
 
-/// What an oracle may know of the library: the words in which questions and answers are written.
+/// The headers of the library that an oracle may include: shapes, inputs and answers.
 TEST(Structure, NoOracleSeesTheImplementation) {
   const std::set<std::string> vocabulary{"answers.hpp",      "members.hpp",    "shapes.hpp",
                                          "strict_begin.hpp", "strict_end.hpp", "vec3.hpp"};
@@ -119,7 +119,7 @@ TEST(Structure, NoOracleSeesTheImplementation) {
   }
 }
 
-/// `collide` is a library and nothing else.
+/// `collide` includes nothing but itself.
 TEST(Structure, TheLibraryKnowsNothingOfItsExaminers) {
   for (const std::string& file : sources()) {
     if (!file.starts_with("impl/collide/")) continue;

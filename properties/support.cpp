@@ -29,7 +29,7 @@ std::ostream& operator<<(std::ostream& out, const NamedQuery& q) { return out <<
 
 namespace {
 
-/// Our own subjects, plugins, and those that the environment variable NEARMISS_SUBJECTS names, separated by commas.
+/// Our own subjects, plugins, and those in the environment variable NEARMISS_SUBJECTS, separated by commas.
 bool is_held_to_its_word(const Subject& s) {
   const char* told = std::getenv("NEARMISS_SUBJECTS");
   const std::string names = fmt::format(",{},", told == nullptr ? "" : told);
@@ -71,7 +71,7 @@ Finding examined(const Case& question, const Subject& subject) {
 
 namespace {
 
-/// Writes the report where nightly runs and people look, and says how to see it again.
+/// Writes the report where nightly runs look for it, and returns the command that replays it.
 template <class AnyReport>
 std::string left_behind(AnyReport report, const Subject& subject, const Query& query, std::string_view fault) {
   const std::filesystem::path file =
@@ -120,7 +120,7 @@ std::string told(const Case& question, const Subject& subject) {
 
 namespace {
 
-/// A bit-for-bit demand is one on our own tiers: no epsilon of theirs decides anything.
+/// A bitwise claim concerns our own tiers only: they use no epsilon.
 std::optional<RelationFinding> examined_here(const Relation& r, const Case& c, std::uint64_t seed, const Subject& s) {
   return examine(
       r, c, seed, s, [&](const Case& asked) { return ask_here(s, asked); }, claims_same_bits(s));

@@ -1,4 +1,4 @@
-/// What the properties share: which subjects they hold to their word, and how a failure is told.
+/// Shared by the properties: the subjects under test, and the text of a failure.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace nearmiss {
 
-/// A query and a subject that answers it. Shows as <query>__<subject>, fit for a test's name.
+/// A query and a subject that answers it. Prints as <query>__<subject>, valid in a test's name.
 struct Pairing {
   const Query* query;
   const Subject* subject;
 };
 std::ostream& operator<<(std::ostream& out, const Pairing& p);
-/// Every query with every tier of `collide`, every plugin and every subject that NEARMISS_SUBJECTS names ("added":
-/// those of NEARMISS_ADD), that answers it.
+/// Every query with each subject that answers it: every tier of `collide`, every plugin, and every subject that
+/// NEARMISS_SUBJECTS names ("added": those of NEARMISS_ADD).
 std::vector<Pairing> our_pairings();
 /// Every query with the certified tier in each scalar.
 std::vector<Pairing> certified_pairings();
 
-/// A query; shows as its name.
+/// A query; prints as its name.
 struct NamedQuery {
   const Query* query;
 };
@@ -34,34 +34,34 @@ std::vector<NamedQuery> every_query();
 
 inline constexpr Scalar scalars[] = {Scalar::float32, Scalar::float64};
 
-/// The subject's answer, given in this process, and the judge's word on it.
+/// The subject's answer, computed in this process, and its finding.
 Finding examined(const Case& question, const Subject& subject);
 inline bool is_violation(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
-/// A violation as a person needs it: the finding, its seed, the command that replays it, the shrunk case as JSON and as
-/// C++. It leaves a report in properties/QUERY/ of runs_folder().
+/// The text of a violation: the finding, its seed, the command that replays it, the shrunk case as JSON and as C++.
+/// Leaves a report in properties/QUERY/ of runs_folder().
 std::string told(const Case& question, const Subject& subject);
-/// The same for a sentence of which `failure_of` says how a case breaks it; "" where it does not.
+/// The same for a property that `failure_of` checks: it returns how a case violates the property, "" if it does not.
 std::string told(const Case& question, const Subject& subject,
                  const std::function<std::string(const Case&)>& failure_of);
-/// The same for a broken relation, with all cases that it is about.
+/// The same for a broken relation, with all of its cases.
 std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject);
 
-/// The stream of generated cases that a property with the seed `usual` asks about: that one, or the one that the
-/// environment variable NEARMISS_SEED makes of it.
+/// The stream of generated cases for a property whose default seed is `usual`. The environment variable NEARMISS_SEED
+/// changes it.
 std::uint64_t stream(std::uint64_t usual);
 
-/// The first of `cases` cases of the stream whose answer breaks the subject's contract, as told() has it; "" where none
-/// does.
+/// The text, by told(), of the first of `cases` cases of the stream whose answer breaks the subject's contract; "" if
+/// there is none.
 std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);
-/// The first that breaks one of the relations.
+/// The text of the first case that breaks one of the relations.
 std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);
 
-/// The exact decision; the exact stage is asked only where the interval cannot tell.
+/// The exact decision. Asks the exact stage only if the intervals cannot tell.
 bool truth_is_yes(const Case& question);
 
-/// Checks with RapidCheck that `failure_of` says "" for 200 streams (seeds) of the generator; what it
-/// says otherwise is printed with the stream. The environment variable RC_PARAMS overrides the number
-/// (max_success) and RapidCheck's own seed.
+/// Checks with RapidCheck that `failure_of` returns "" for 200 streams (seeds) of the generator. Prints any other
+/// result with its stream. The environment variable RC_PARAMS overrides the number (max_success) and RapidCheck's own
+/// seed.
 bool holds_for_streams(const std::string& sentence, const std::function<std::string(std::uint64_t)>& failure_of);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-/// A place that an answer gives lies on a surface, and the judge says so where it does not: by hand for each query, and
-/// for generated cases whose right places must never be told to be off.
+/// An answer's place lies on a surface, and the judge detects if it does not: by hand for each query, and for generated
+/// cases, whose right places must never be judged off the surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Only an exact answer, rounded once, keeps it.
+/// A contract that only a correctly rounded exact answer keeps.
 constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
 constexpr double four_ulps = 0x1p-50;  ///< of numbers from 1 to 2
 
@@ -34,7 +34,7 @@ const Values cube{0, 0, 0, 1, 1, 1, 0, 0, 0, 1};
 const Values turned{0, 0, 0, 1, 1, 1, 0, 0, 1, 2};  ///< about z, with cosine 3/5 and sine 4/5
 const Values aligned{-1, -1, -1, 1, 1, 1};
 const Values x_and_raised_y{0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 1, 0};
-/// Of the cube around (0, 0, 1/2) the lower corners lie behind z = 0; this one, the first, is asked about.
+/// The lower corners of the cube around (0, 0, 1/2) lie behind z = 0; the test concerns the first one.
 Values corners(double x, double y, double z) {
   Values all{0.5, 0, 0, 1,  //
              1,   x, y, z, 1, 1, -1, -0.5, 1, -1, 1, -0.5, 1, 1, 1, -0.5};
@@ -42,7 +42,7 @@ Values corners(double x, double y, double z) {
   return all;
 }
 
-/// Everything but one place is right, and that place lies on the surface, or not.
+/// Everything but one place is right, and that place lies on the surface or not.
 struct Placed {
   std::string name;
   const char* query;
@@ -52,13 +52,13 @@ struct Placed {
 void PrintTo(const Placed& p, std::ostream* out) { *out << p.query << ' ' << p.name; }
 
 const Placed placed[] = {
-    // The foot of (2, 0, 0) is (1, 1, 0). The line goes on beyond (2, 2, 0), the segment does not.
+    // The foot of (2, 0, 0) is (1, 1, 0). The line extends beyond (2, 2, 0), the segment does not.
     {"elsewhere", "closest_point_segment", diagonal + Values{2, 0, 0}, {1.5, 1.5, 0}, true},
     {"beside", "closest_point_segment", diagonal + Values{2, 0, 0}, {1, 1, four_ulps}, false},
     {"beyond", "closest_point_segment", diagonal + Values{2, 0, 0}, {2.5, 2.5, 0}, false},
     {"elsewhere", "closest_point_segment_unit", diagonal + Values{2, 0, 0}, {1.5, 1.5, 0}, true},
     {"beyond", "closest_point_segment_unit", diagonal + Values{2, 0, 0}, {2.5, 2.5, 0}, false},
-    // Nearest to (1, -1, 0) is (1, 0, 0); the triangle's inside is no perimeter.
+    // The nearest point to (1, -1, 0) is (1, 0, 0); the triangle's interior is not on its perimeter.
     {"other_edge", "closest_point_triangle_perimeter", triangle + Values{1, -1, 0}, {0, 1, 0}, true},
     {"inside", "closest_point_triangle_perimeter", triangle + Values{1, -1, 0}, {1, 1, 0}, false},
     {"other_place", "closest_point_triangle_perimeter_edges", triangle + Values{1, -1, 0}, {2, 0, 0, 0}, true},
@@ -67,12 +67,12 @@ const Placed placed[] = {
     {"above", "closest_point_rectangle", square + Values{1, 1, 3}, {1, 1, four_ulps}, false},
     {"other_edge", "closest_point_rectangle_perimeter", square + Values{1, -1, 0}, {0, 1, 0}, true},
     {"on_the_diagonal", "closest_point_rectangle_perimeter", square + Values{1, -1, 0}, {1, 1, 0}, false},
-    // Nearest are (0, 0, 0) and (0, 0, 2): each point has a line of its own.
+    // The nearest points are (0, 0, 0) and (0, 0, 2): each point has its own line.
     {"along_first", "closest_points_lines", x_and_raised_y, {1, 0, 0, 0, 0, 2}, true},
     {"off_first", "closest_points_lines", x_and_raised_y, {0, 1, 0, 0, 0, 2}, false},
     {"along_second", "closest_points_lines", x_and_raised_y, {0, 0, 0, 0, 1, 2}, true},
     {"off_second", "closest_points_lines", x_and_raised_y, {0, 0, 0, 1, 0, 2}, false},
-    // Down from height 2 at speed 1: after 2.
+    // Down from height 2 at speed 1: at time 2.
     {"elsewhere", "moving_point_plane", Values{1, 1, 2, 0, 0, -1} + floor_plane, {2, 3, 1, 0, 0, 0, 1}, true},
     {"above", "moving_point_plane", Values{1, 1, 2, 0, 0, -1} + floor_plane, {2, 1, 1, four_ulps, 0, 0, 1}, false},
     {"elsewhere", "moving_point_triangle", Values{1, 1, 2, 0, 0, -1} + triangle, {2, 2, 1, 0, 0, 0, 1}, true},
@@ -86,7 +86,7 @@ const Placed placed[] = {
      false},
     {"other_half", "moving_point_rectangle", Values{2, 1, 2, 0, 0, -1} + square, {2, 1, 3, 0, 0, 0, 1}, true},
     {"in_the_plane", "moving_point_rectangle", Values{2, 1, 2, 0, 0, -1} + square, {2, 5, 1, 0, 0, 0, 1}, false},
-    // Radius 3 around 0: from (-5, 0, 0) at speed 2, and from inside, where a solid ball is met at the start.
+    // Radius 3 around 0: from (-5, 0, 0) at speed 2, and from inside, where a solid ball is hit at the start.
     {"other_side", "moving_point_sphere", {-5, 0, 0, 2, 0, 0, 0, 0, 0, 3, 1}, {1, 0, 3, 0, -1, 0, 0}, true},
     {"inside", "moving_point_sphere", {-5, 0, 0, 2, 0, 0, 0, 0, 0, 3, 1}, {1, -2, 0, 0, -1, 0, 0}, false},
     {"pushed_out", "moving_point_sphere", {1, 0, 0, 1, 0, 0, 0, 0, 0, 3, 1}, {0, 3, 0, 0, 1, 0, 0}, true},
@@ -106,7 +106,7 @@ const Placed placed[] = {
     {"inside", "ray_aabox", Values{3, 0, 0, -1, 0, 0} + aligned, {0, 0.5, 0, 0}, false},
     {"elsewhere", "ray_aabox", Values{3, 0, 0, -1, 0, 0} + aligned, {0, 0, -1, 0}, true},
     {"at_its_origin", "ray_aabox", Values{3, 0, 0, -1, 0, 0} + aligned, {0, 3, 0, 0}, true},
-    // A ball of radius 1 above: what it touches with is on the ball, not on what it meets.
+    // A ball of radius 1 above: its contact point is on the ball, not on the obstacle.
     {"elsewhere", "moving_sphere_plane", Values{1, 1, 5, 1, 0, 0, -1} + floor_plane, {4, 2, 1, 0, 0, 0, 1}, true},
     {"on_the_ball", "moving_sphere_plane", Values{1, 1, 5, 1, 0, 0, -1} + floor_plane, {4, 1, 2, 1, 0, 0, 1}, false},
     {"elsewhere",
@@ -127,20 +127,20 @@ const Placed placed[] = {
     {"on_the_axis", "moving_sphere_capsule", Values{2, 0, 5, 1, 0, 0, -1} + capsule, {3, 2, 0, 0, 0, 0, 1}, false},
     {"other_face", "moving_sphere_box", Values{5, 0, 0, 1, -1, 0, 0} + cube, {3, 0, 1, 0, 1, 0, 0}, true},
     {"beside", "moving_sphere_box", Values{5, 0, 0, 1, -1, 0, 0} + cube, {3, 1, 2, 0, 1, 0, 0}, false},
-    // Along the turned cube's first axis: (3/5, 4/5, 0) is its face's middle, (1, 0, 0) lies 2/5 within that face and
-    // 1/5 within the one across.
+    // Along the rotated cube's first axis: (3/5, 4/5, 0) is its face's middle; (1, 0, 0) is 2/5 inside that face and
+    // 1/5 inside the adjacent one.
     {"turned_elsewhere",
      "moving_sphere_box",
      Values{6, 8, 0, 1, -3, -4, 0} + turned,
      {1.6, -0.6, -0.8, 0, 0.6, 0.8, 0},
      true},
     {"turned_inside", "moving_sphere_box", Values{6, 8, 0, 1, -3, -4, 0} + turned, {1.6, 1, 0, 0, 0.6, 0.8, 0}, false},
-    // Balls of radius 2 that are 3 apart: the first one's deepest point is (2, 0, 0), the second one's (1, 0, 0).
+    // Balls of radius 2 at distance 3: the first one's deepest point is (2, 0, 0), the second one's (1, 0, 0).
     {"other_side", "sphere_sphere_penetration", {0, 0, 0, 2, 3, 0, 0, 2}, {1, 1, 0, 0, 0, 2, 0}, true},
     {"of_the_other", "sphere_sphere_penetration", {0, 0, 0, 2, 3, 0, 0, 2}, {1, 1, 0, 0, 1, 0, 0}, false},
     {"other_side", "sphere_plane_penetration", Values{0, 0, 0.5, 1} + floor_plane, {0.5, 0, 0, 1, 1, 0, 0.5}, true},
     {"on_the_plane", "sphere_plane_penetration", Values{0, 0, 0.5, 1} + floor_plane, {0.5, 0, 0, 1, 0, 0, 0}, false},
-    // The box's nearest point (1, 0, 0) is meant, or else the ball's deepest.
+    // The box's nearest point (1, 0, 0), or the ball's deepest point.
     {"other_face", "sphere_box_penetration", Values{3, 0, 0, 3} + cube, {1, -1, 0, 0, 0, 0, 1}, true},
     {"deepest", "sphere_box_penetration", Values{3, 0, 0, 3} + cube, {1, -1, 0, 0, 0, 0, 0}, true},
     {"between", "sphere_box_penetration", Values{3, 0, 0, 3} + cube, {1, -1, 0, 0, 0.5, 0, 0}, false},
@@ -169,7 +169,7 @@ TEST_P(PlaceByHand, IsToldFromOneOffTheSurface) {
 INSTANTIATE_TEST_SUITE_P(Placed, PlaceByHand, testing::ValuesIn(placed),
                          [](const auto& test) { return std::string(test.param.query) + "_" + test.param.name; });
 
-/// Every query that answers with a place, but those whose place lies between two surfaces or is a vector of numbers.
+/// Every query that answers with a place, except those whose place lies between two surfaces or is a vector of numbers.
 bool answers_with_a_place(const Query& query) {
   if (query.kind == Kind::measure || query.name == "box_box_penetration") return false;
   return std::any_of(query.outputs.begin(), query.outputs.end(),
@@ -185,14 +185,14 @@ TEST(Surfaces, AreNamedByEveryQueryThatAnswersWithAPlace) {
   }
 }
 
-/// A number from -1 to 1 that depends on nothing but its arguments.
+/// A number from -1 to 1 that depends on the arguments alone.
 double wobble(std::uint64_t a, std::uint64_t b) {
   std::uint64_t z = a * 0x9e3779b97f4a7c15u + b * 0xd1342543de82ef95u + 0x2545f4914f6cdd1du;
   z = (z ^ (z >> 31)) * 0xbf58476d1ce4e5b9u;
   return double(std::int64_t(z ^ (z >> 29))) * 0x1p-63;
 }
 
-/// An input within the widening of the given one; empty where it breaks a rule.
+/// An input within the widening of the given one; empty if it breaks a rule.
 std::optional<Case> perturbed(const Case& c, std::span<const double> wide, std::uint64_t salt) {
   Case p = c;
   for (std::size_t i = 0; i < p.values.size(); ++i) {
@@ -209,7 +209,7 @@ class OnSurface : public testing::TestWithParam<NamedQuery> {
   static constexpr std::uint64_t cases = 600;
 
   const Query& query() const { return *GetParam().query; }
-  /// The first numbers of its places.
+  /// The indices of the first numbers of its places.
   std::vector<std::size_t> places() const {
     std::vector<std::size_t> first;
     for (std::size_t i = 0; i < query().outputs.size(); i += query().outputs[i].role == Role::position ? 3 : 1) {
@@ -217,7 +217,7 @@ class OnSurface : public testing::TestWithParam<NamedQuery> {
     }
     return first;
   }
-  /// Every right yes, rounded.
+  /// Every right yes-answer, rounded.
   static std::vector<Answer> right_answers(const Case& c) {
     std::vector<Alternative> list;
     (void)oracle_of(*c.query).exact(c.values, Answer{}, c.scalar, &list);
@@ -235,7 +235,7 @@ class OnSurface : public testing::TestWithParam<NamedQuery> {
   }
 };
 
-/// The right place of an input lies on the surface of that input, and of any that it is a widening's distance from.
+/// The right place of an input lies on the surface of that input, and of every input whose widening contains it.
 TEST_P(OnSurface, IsEveryRightPlace) {
   int asked = 0;
   for (std::uint64_t i = 0; i < cases; ++i) {
@@ -255,7 +255,7 @@ TEST_P(OnSurface, IsEveryRightPlace) {
   EXPECT_GT(asked, int(cases) / 10);
 }
 
-/// A place that is off by a thousandth of its size is nearly always found out, and by no less than by 2^20 epsilon.
+/// A place that is off by a thousandth of its size is nearly always detected, and by at least 2^20 epsilon.
 TEST_P(OnSurface, IsHardlyAPlaceThatIsMovedAtRandom) {
   int found = 0, found_widened = 0, asked = 0;
   for (std::uint64_t i = 0; i < cases; ++i) {

@@ -1,6 +1,6 @@
-/// Where no operation of a query's text rounds, the answer of every tier is the exact one, touches included: decision
-/// and numbers. Asked on lattices of small integers and dyadic fractions, where contacts that only touch are common;
-/// the processor's flag tells whether anything was rounded.
+/// If no operation of a query's kernel rounds, the answer of every tier is the exact one, touches included: decision
+/// and numbers. Tested on lattices of small integers and dyadic fractions, where touching contacts are common. The
+/// processor's inexact flag tells whether any operation rounded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace nearmiss {
 namespace {
 
-/// The text of a query in plain numbers, whatever other texts `Fast` has.
+/// The scalar kernel of a query, whatever other kernels `Fast` has.
 struct TextAlone : collide::Fast {};
 
 using AnswerTo = Answer (*)(std::span<const double> inputs);
@@ -37,8 +37,8 @@ constexpr Texts texts[] = {
 #undef NEARMISS_QUERY
 std::ostream& operator<<(std::ostream& out, const Texts& t) { return out << t.query; }
 
-/// Draws cases of numbers of few bits: lattice points, many of them together, or apart along one axis or by a vector
-/// whose length is an integer; half of the rotations are none, others quarter turns and turns by small integers.
+/// Draws cases of numbers with few bits: lattice points, many of them equal, or apart along one axis or by a vector of
+/// integer length. Half of the rotations are the identity, the others quarter turns and rotations by small integers.
 class SmallLattice {
  public:
   explicit SmallLattice(std::uint64_t seed) : random_(seed) {}
@@ -114,7 +114,7 @@ Asked ask(const AnswerFunction& answer_to, const Case& c) {
   return {answer, std::fetestexcept(FE_INEXACT) != 0};
 }
 
-/// The axis that the answers name: of several right ones a tier may choose one along which it has to round.
+/// The axis that the answers name: among several right axes a tier may choose one along which it has to round.
 bool name_the_same(const Query& query, const Answer& a, const Answer& b) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     if (query.outputs[i].role == Role::index && a.values[i] != b.values[i]) return false;
@@ -123,7 +123,7 @@ bool name_the_same(const Query& query, const Answer& a, const Answer& b) {
 }
 bool same(const Answer& a, const Answer& b) { return a.yes == b.yes && a.given == b.given && a.values == b.values; }
 
-/// Cases of each query and scalar. CI asks about fewer; the nightly job about NEARMISS_LATTICE_CASES.
+/// Cases per query and scalar. CI runs fewer, the nightly job NEARMISS_LATTICE_CASES.
 int cases_per_query() {
   const char* told = std::getenv("NEARMISS_LATTICE_CASES");
   return told != nullptr ? std::atoi(told) : 4000;
@@ -135,7 +135,7 @@ struct Counts {
 
 class WhereNothingRounds : public testing::TestWithParam<Texts> {
  protected:
-  /// What a tier answers that did not round, or whose text did not, is exact.
+  /// If a tier, or its kernel, did not round, the tier's answer is exact.
   void expect_exact(const Case& c, const char* who, const Answer& answer) {
     const Finding f = judge(c, answer, collide::Contract{.forward = 0, .exact_decisions = true}, Detail::full);
     truth_yes_ = f.truth_yes;

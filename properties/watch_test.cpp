@@ -1,7 +1,7 @@
-/// Who watches the judge: of answers that are right by construction nothing may be proved that they are not off by, and
-/// answers that are wrong by construction must be told. What is right comes from the derivations (derivation.hpp),
-/// which share no code with the oracle: the exact answer to an input that is moved by at most k epsilon, of several
-/// right ones any, rounded, and pushed by an ulp.
+/// Tests of the judge. For an answer that is right by construction, the judge may prove no error larger than the known
+/// one. An answer that is wrong by construction must be detected. The right answers come from the derivations
+/// (derivation.hpp), which share no code with the oracle: the exact answer to an input moved by at most k epsilon, any
+/// one if several are right, rounded, and pushed by an ulp.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using derived::Choice;
 using derived::Reference;
 using Numbers = std::vector<double>;
 
-/// Answers about each query. CI asks about fewer; a long night about more.
+/// Answers per query. CI runs the default; a long night runs more.
 int answers_per_query() {
   const char* told = std::getenv("NEARMISS_WATCH_ANSWERS");
   return told != nullptr ? std::stoi(told) : 100'000;
@@ -30,9 +30,9 @@ int answers_per_query() {
 
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
 
-/// An answer with the first numbers of the reference; empty where a number is beyond the scalar's range, and where a
-/// time is at its end: a time beyond the largest number is a miss, and the reference, which is truncated, does not tell
-/// it from one that is not.
+/// An answer with the first numbers of the reference. Empty if a number is beyond the scalar's range, or if a time is
+/// at the end of the range: a time beyond the largest number is a miss, and the truncated reference cannot tell the two
+/// apart.
 std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Reference& reference) {
   Answer a;
   a.yes = reference.yes;
@@ -58,7 +58,7 @@ class Watch : public testing::TestWithParam<NamedQuery> {
   double uniform() { return std::ldexp(double(random_() >> 11), -53) * 2 - 1; }
 
   /// Near misses of the generator, families of shapes and sizes, lattices, where ties and touches are common, and cases
-  /// that are beside those by an ulp.
+  /// one ulp away from those.
   Case draw(std::uint64_t index) {
     const Scalar scalar = scalars[index / 4 % 2];
     switch (index % 4) {
@@ -68,7 +68,7 @@ class Watch : public testing::TestWithParam<NamedQuery> {
       default: return moved(derived::lattice_case(query(), scalar, 1 + below(3), random_), 1 + below(2));
     }
   }
-  /// The derivation's answer to a case, one of its right ones.
+  /// One of the right answers to a case, by the derivation.
   Reference right_answer(const Case& c) {
     const bool moderate = std::all_of(c.values.begin(), c.values.end(), [](double x) {
       return x == 0 || (std::abs(x) > 0x1p-64 && std::abs(x) < 0x1p64);
@@ -76,7 +76,7 @@ class Watch : public testing::TestWithParam<NamedQuery> {
     derived::set_bits(moderate ? derived::usual_bits : derived::bits_for_any_magnitude);
     return derived::derivation_of(query())(derived::Reader(c.values, Choice(random_)));
   }
-  /// A valid case within k epsilon of c, exact in its scalar; c itself where none is found.
+  /// A valid case within k epsilon of c, exact in its scalar; c itself if none is found.
   Case moved(const Case& c, double k) {
     Case near = c;
     const Numbers most = widening(query(), c.values, c.scalar, k);
@@ -87,7 +87,7 @@ class Watch : public testing::TestWithParam<NamedQuery> {
       near.values[i] = rounded_to(c.scalar, c.values[i] + by * most[i]);
       if (query().inputs[i].role == Role::size) near.values[i] = std::abs(near.values[i]);
     }
-    // Measured from where it arrived: the largest numbers of the groups are other ones there.
+    // The bound is measured at the moved input, whose groups have other largest numbers.
     for (int again = 0; again < 3; ++again) {
       const Numbers may = widening(query(), near.values, c.scalar, k);
       bool within = true;
@@ -99,7 +99,7 @@ class Watch : public testing::TestWithParam<NamedQuery> {
     }
     return c;
   }
-  /// A rung, mostly a low one.
+  /// A rung, usually a low one.
   double any_rung() { return rung(std::min(below(32), below(32))); }
 
   static std::string text(const Case& c, const Answer& a, const Finding& f) {
@@ -120,7 +120,7 @@ class Watch : public testing::TestWithParam<NamedQuery> {
   std::mt19937_64 random_{seed_};
 };
 
-/// Rounded once: a promise of exactly so much is kept, and nothing is proved that exceeds it.
+/// A correctly rounded answer: the contract with exactly that bound is kept, and no larger error is proved.
 std::string false_word(const Finding& f, double k) {
   if (f.is_proved()) return "breaks a promise that it keeps: " + f.clause;
   if (f.backward && f.backward->above >= k) return "is told to be further off than it is";
@@ -157,7 +157,7 @@ TEST_P(Watch, NothingIsProvedAgainstWhatIsRight) {
   EXPECT_TRUE(yes > asked / 100 && yes < asked) << yes << " of " << asked;
 }
 
-/// The watch has teeth: a judge that told 64 times too much would be seen, for every query.
+/// This test can fail: for every query it detects a judge that reports 64 times the error.
 TEST_P(Watch, SeesAJudgeThatTellsTooMuch) {
   constexpr double too_much = 64;
   constexpr int cases = 4000;
@@ -198,8 +198,8 @@ TEST_P(Watch, APushByAnUlpIsToldAsNoMore) {
     if (!exact) continue;
     ++asked;
     const Answer answer = pushed(query(), c.scalar, *exact, random_);
-    if (query().kind == Kind::depth && answer.yes && answer.values[0] < 0) continue;  // pushed apart
-    // A derivation's doubles are truncated, not rounded to the nearest.
+    if (query().kind == Kind::depth && answer.yes && answer.values[0] < 0) continue;  // the push made the boxes apart
+    // A derivation's doubles are truncated, not rounded to nearest.
     const double ulps = c.scalar == Scalar::float32 ? 1.5 : 2;
     const Finding f =
         judge(c, answer, collide::Contract{.forward = ulps * (1 + 0x1p-20), .exact_decisions = true}, Detail::full);
@@ -207,7 +207,7 @@ TEST_P(Watch, APushByAnUlpIsToldAsNoMore) {
   }
 }
 
-/// The right answers that are drawn have all of this member in common.
+/// All drawn right answers have the same value of this member.
 bool alike(const std::vector<Reference>& all, const Layout::Part& part) {
   for (const Reference& r : all) {
     if (r.values.size() < part.end) return false;
@@ -218,7 +218,7 @@ bool alike(const std::vector<Reference>& all, const Layout::Part& part) {
   return true;
 }
 
-/// The number of a unit vector by which it is turned most: its length is judged on its own.
+/// The component of a unit vector whose change rotates it most; its length is judged separately.
 std::size_t across(const Layout::Part& part, const Answer& a) {
   std::size_t least = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
@@ -228,10 +228,10 @@ std::size_t across(const Layout::Part& part, const Answer& a) {
 }
 
 TEST_P(Watch, WhatIsWrongIsTold) {
-  // Of two faces that are as near, or of a cone of normals whose edges are drawn one time in six, forty draws are the
-  // same once in 10^11 cases.
+  // For two equally near faces, or a cone of normals whose edges are drawn one time in six, forty draws are equal once
+  // in 10^11 cases.
   constexpr std::size_t draws = 40;
-  constexpr double least = 16, told_at_least = 7;  // an ulp of what is pushed may be two of what is exact
+  constexpr double least = 16, told_at_least = 7;  // an ulp of the pushed number may be two of the exact one
   const int wanted = answers_per_query() / 8;
   int asked = 0, by_part[32] = {};
   const std::vector<Layout::Part>& parts = query().layout.parts;
@@ -240,7 +240,7 @@ TEST_P(Watch, WhatIsWrongIsTold) {
     const Case c = draw(index);
     const std::mt19937_64 before = random_;
     std::vector<Reference> all{right_answer(c)};
-    const bool has_choice = random_ != before;  // else this is the only one
+    const bool has_choice = random_ != before;  // otherwise this answer is the only one
     const auto have_in_common = [&](const Layout::Part& part) {
       const bool is_unique = part.role == Role::time || (part.role == Role::depth && all.front().yes);
       if (is_unique) return true;

@@ -1,5 +1,5 @@
-/// No case makes the oracle or the certified tier hang. What their exact stages cost is the memory that their numbers
-/// take, steps and bits together, so that is what is bounded: the same on every machine, however busy.
+/// No case makes the oracle or the certified tier hang. The cost of their exact stages is the memory that their numbers
+/// take, steps and bits together. The test bounds that memory, which is the same on every machine under any load.
 #include <gmp.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace nearmiss {
 namespace {
 
-/// What the numbers of GMP and MPFR took since the last reset.
+/// The memory that the numbers of GMP and MPFR took since the last reset.
 struct Work {
   std::uint64_t allocations = 0, bytes = 0;
 };
@@ -26,7 +26,7 @@ void count_bytes(std::size_t bytes) {
   work.bytes += bytes;
 }
 
-/// Counts for its lifetime; memory stays that of malloc, so that what was taken before can be freed within.
+/// Counts during its lifetime. Memory still comes from malloc, so that earlier allocations can be freed meanwhile.
 class CountedWork {
  public:
   CountedWork() {
@@ -50,8 +50,8 @@ Work larger(const Work& a, const Work& b) {
   return {std::max(a.allocations, b.allocations), std::max(a.bytes, b.bytes)};
 }
 
-/// Asks `answer` about numbers of any magnitude, scenes far from 1, stored cases, and touches on lattices of which a
-/// few numbers are of another magnitude; the largest work that a case took.
+/// Asks `answer` about numbers of any magnitude, scenes far from 1, stored cases, and touches on lattices with a few
+/// numbers of another magnitude. Returns the largest cost of a case.
 template <class F>
 Work largest_work(const Query& query, Scalar scalar, std::uint64_t raw_cases, const Work& most, F answer) {
   Work largest;
@@ -80,7 +80,7 @@ void record(const Work& largest) {
   testing::Test::RecordProperty("bytes", std::to_string(largest.bytes));
 }
 
-/// Four times what the costliest case takes (two boxes' penetration: 27,000 allocations, 2.2 MB).
+/// Four times the cost of the costliest case (two boxes' penetration: 27,000 allocations, 2.2 MB).
 constexpr Work most_of_the_oracle{100'000, 8'000'000};
 
 class WorkOfTheOracle : public testing::TestWithParam<NamedQuery> {};
@@ -98,8 +98,8 @@ TEST_P(WorkOfTheOracle, IsBoundedWhateverTheNumbers) {
 
 INSTANTIATE_TEST_SUITE_P(Every, WorkOfTheOracle, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
-/// Four times what the costliest of 10^6 cases takes (a sphere past a rectangle: 11,000 allocations; the penetration of
-/// two boxes: 1.1 MB).
+/// Four times the cost of the costliest of 10^6 cases (a sphere past a rectangle: 11,000 allocations; the penetration
+/// of two boxes: 1.1 MB).
 constexpr Work most_of_the_certified{45'000, 4'500'000};
 
 class WorkOfTheCertified : public testing::TestWithParam<Pairing> {};

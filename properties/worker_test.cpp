@@ -1,4 +1,4 @@
-/// A subject may do anything in a worker: it costs one case, and the reason is told.
+/// In a worker, any misbehaviour of a subject costs one case, and the finding gives the reason.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -28,7 +28,7 @@ namespace {
 
 enum Misdeed { none, aborts, crashes, throws, throws_an_int, hangs, sleeps, eats_memory, exits };
 
-/// Does what the first input says; otherwise answers with the second.
+/// Misbehaves as the first input says; otherwise answers with the second.
 Answer misbehave(std::span<const double> inputs) {
   switch (Misdeed(int(inputs[0]))) {
     case aborts: std::fputs("subject: assertion depth > 0 failed\n", stderr); std::abort();
@@ -63,7 +63,7 @@ TEST_P(WorkerSurvives, AndOnlyTheCaseBreaks) {
   if (misdeed == eats_memory) GTEST_SKIP() << "AddressSanitizer leaves no address space to limit";
 #endif
   WorkerLimits limits = nearmiss::limits();
-  if (misdeed == eats_memory) limits.patience = 30;  // a sanitizer takes its time for memory
+  if (misdeed == eats_memory) limits.patience = 30;  // a sanitizer is slow at allocating memory
   Worker worker(limits);
   const std::vector<double> inputs{none, 1, double(misdeed), 2, none, 3};
   const std::vector<Answer> answers = worker.ask(offering(), inputs, 2);
@@ -103,7 +103,7 @@ TEST(Worker, SurvivesWhenEveryCaseBreaks) {
   for (const Answer& a : worker.ask(offering(), inputs, 2)) EXPECT_EQ(a.status, Answer::Status::broke);
 }
 
-/// Works for a tenth of a second of processor time.
+/// Uses a tenth of a second of processor time.
 Answer work(std::span<const double>) {
   const auto worked = [] {
     timespec t{};
@@ -115,7 +115,7 @@ Answer work(std::span<const double>) {
   return {};
 }
 
-/// This process and those that it starts have one processor to share with `others` that never rest.
+/// This process and its children share one processor with `others` busy processes.
 class Crowd {
  public:
   explicit Crowd(int others) {
@@ -127,7 +127,7 @@ class Crowd {
     for (int i = 0; i < others; ++i) {
       others_.push_back(fork());
       if (others_.back() == 0) {
-        alarm(60);  // whatever becomes of the test
+        alarm(60);  // a safeguard if the test fails
         for (volatile bool forever = true; forever;) {
         }
       }
@@ -153,7 +153,7 @@ TEST(Worker, HasPatienceWithASubjectThatWaitsForItsTurn) {
   EXPECT_GT(Clock::now() - begin, std::chrono::seconds(1)) << "the machine was not busy: this shows nothing";
 }
 
-/// A pipe with a name, whose end is seen when every process that has opened it has ended.
+/// A named pipe whose end of file is seen when every process that has opened it has ended.
 class Lifeline {
  public:
   Lifeline() {
@@ -181,7 +181,7 @@ class Lifeline {
     }
     return false;
   }
-  /// The name of the one that is there: a subject, which is a copy of this process, has no other way to it.
+  /// The name of the current pipe. A subject, which is a copy of this process, has no other access to it.
   static inline std::string current;
 
  private:
@@ -196,7 +196,8 @@ class Lifeline {
 
 enum Leaving { in_its_group, in_its_own_session, twice_removed };
 
-/// Starts a process that would live for a minute and holds the lifeline, says so, then does what the first input says.
+/// Starts a process that would live for a minute and holds the pipe, reports that, then misbehaves as the first input
+/// says.
 Answer leave_something_behind(std::span<const double> inputs) {
   const auto leaving = Leaving(int(inputs[1]));
   const int lifeline = open(Lifeline::current.c_str(), O_WRONLY);
@@ -213,7 +214,7 @@ Answer leave_something_behind(std::span<const double> inputs) {
 
 Offering leaving() { return {"leaving", Offer::answers, "", {}, leave_something_behind}; }
 
-/// What a subject starts: in its group, or wherever it hides. In a namespace of its own, and without one.
+/// A process that a subject starts, in its group or hidden elsewhere. In a process namespace, and without one.
 class WhatASubjectStarted : public testing::TestWithParam<std::tuple<Leaving, bool>> {
  protected:
   double how() const { return double(std::get<0>(GetParam())); }
@@ -274,7 +275,7 @@ INSTANTIATE_TEST_SUITE_P(Anywhere, WhatASubjectStarted,
                                           testing::Bool()),
                          how_it_left);
 
-/// The names of the open files of this process, as a number with a bit for each; of whoever counts, none.
+/// The open files of this process as a bit set, without the file used for counting.
 Answer count_files(std::span<const double>) {
   Answer a;
   for (int file = 0; file < 1000; ++file) {
@@ -341,8 +342,8 @@ TEST(Worker, StopsWaitingWhenItIsTold) {
   EXPECT_EQ(answers[0].values[0], 1);
 }
 
-/// The host's side in a thread in place of a process, so that a sanitizer sees both: answers are taken while others are
-/// written, each whole.
+/// Runs the host's side in a thread instead of a process, so that a sanitizer sees both: answers are taken while others
+/// are being written, each one complete.
 TEST(Wire, CarriesAnswersWholeWhileOthersAreWritten) {
   constexpr int rounds = 20;
   const auto asked = std::make_unique<wire::Asked>();

@@ -1,4 +1,4 @@
-/// Sums and products that a scalar holds exactly.
+/// Sums and products that are exact in a scalar.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace nearmiss::metamorphic {
 
-/// a + b where the scalar holds it exactly.
+/// a + b if the scalar can hold it exactly.
 inline std::optional<double> exact_sum(double a, double b, Scalar scalar) {
   const double sum = a + b, b_part = sum - a, a_part = sum - b_part;
   if (!std::isfinite(sum) || (a - a_part) + (b - b_part) != 0 || !representable(sum, scalar)) return std::nullopt;
@@ -25,7 +25,7 @@ inline std::optional<double> exact_product(double a, double b, Scalar scalar) {
   return product;
 }
 
-/// x + factor * y where the scalar holds it exactly.
+/// x + factor * y if the scalar can hold it exactly.
 inline std::optional<double> exact_step(double x, double factor, double y, Scalar scalar) {
   const auto step = exact_product(factor, y, scalar);
   return step ? exact_sum(x, *step, scalar) : std::nullopt;

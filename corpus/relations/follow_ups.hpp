@@ -1,4 +1,4 @@
-/// The cases that follow from a case by a relation, and what their answers must have in common.
+/// Follow-ups: the cases that a relation derives from a case, and how their answers must agree.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,26 @@
 
 namespace nearmiss {
 
-/// How two answers that have the same exact ones, but for a known change, compare.
+/// How two answers compare whose exact answers are equal up to a known change.
 enum class Agreement {
-  same,              ///< in every number, bit for bit but for the sign of zero
-  numbers_differ,    ///< the same decision
+  same,              ///< every number is bitwise equal, apart from the sign of zero
+  numbers_differ,    ///< the decisions are equal
   decisions_differ,  ///< at least one of the two decisions is wrong
 };
 std::string_view name_of(Agreement a);
 
-/// The follow-up cases of a case, and what all their answers must have in common.
+/// The follow-ups of a case, and how all answers must agree.
 struct FollowUps {
   std::vector<Case> cases;
-  /// Compares the answer to the case itself with those to its follow-ups, in order.
+  /// Compares the answer to the case with the answers to its follow-ups, in order.
   std::function<Agreement(const Answer& own, std::span<const Answer> others)> compare;
-  /// Where there is one follow-up and its right answers are those of the case, changed: that change. What has
-  /// no counterpart is not given.
+  /// If there is one follow-up, whose right answers are those of the case under a known change: that change. Leaves out
+  /// numbers without a counterpart.
   std::function<Answer(const Answer& own)> image;
-  /// What is right within an ulp has such an image. Not so where the change moves numbers to another grid.
+  /// Whether the image of an answer within an ulp is also within an ulp. False if the change moves numbers to another
+  /// grid.
   bool image_keeps_ulps = true;
-  /// Decisions that contradict each other are so whatever the numbers are; otherwise a wrong number may be at fault.
+  /// Whether contradicting decisions are wrong whatever the numbers are; otherwise a wrong number may be the cause.
   bool decisions_alone = true;
 };
 
@@ -38,19 +39,19 @@ namespace metamorphic {
 
 /// One follow-up whose right answers are those of the case, changed by `image`.
 FollowUps counterpart(Case other, std::function<Answer(const Answer&)> image);
-/// Empty where the other case breaks a rule or is not exact in its scalar.
+/// Empty if the other case breaks a rule or is not exact in its scalar.
 std::optional<FollowUps> counterpart_if_valid(Case other, std::function<Answer(const Answer&)> image);
-/// Follow-ups of which only something in particular is known.
+/// Follow-ups of which only one particular consequence is known.
 FollowUps ordered(std::vector<Case> others, std::function<Agreement(const Answer&, std::span<const Answer>)> compare);
 
 bool valid(const Case& c);
 
-/// More than the distance of two answers, each within 2 ulp of the same number, and of a rounded difference.
+/// An upper bound of the distance of two answers, each within 2 ulp of the same number, plus that of a rounded
+/// difference.
 double slack(Scalar scalar, double a, double b);
 inline constexpr double ulps_of_slack = 2;
 
-/// The relations' own functions: the follow-ups of a case, chosen by `seed` where there is a choice; empty where there
-/// are none.
+/// The relations' functions: the follow-ups of a case, chosen by `seed` if there is a choice; empty if there are none.
 using Follow = std::optional<FollowUps>(const Case& c, std::uint64_t seed);
 Follow scaled_lengths, scaled_time, scaled_directions, scaled_rotations, negated_rotations;
 Follow reflected, permuted_axes;

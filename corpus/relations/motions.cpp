@@ -1,4 +1,4 @@
-/// The same motion from a later time on, and in parts.
+/// Relations in time: the same motion from a later start, and in parts.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace nearmiss::metamorphic {
 
 namespace {
 
-/// The position of what moves, its first number; empty where nothing does.
+/// The index of the moving operand's position; empty if no operand moves.
 std::optional<std::size_t> moving_position(const Case& c) {
   const auto& fields = c.query->inputs;
   const std::size_t velocity = index_of(fields, "velocity.x");
@@ -23,7 +23,7 @@ std::optional<std::size_t> moving_position(const Case& c) {
   return std::nullopt;
 }
 
-/// The case at a later time, where it is exact.
+/// The case at a later time, if it is exact.
 std::optional<Case> later(const Case& c, double time) {
   const auto at = moving_position(c);
   if (!at) return std::nullopt;
@@ -51,13 +51,13 @@ std::optional<FollowUps> later_start(const Case& c, std::uint64_t seed) {
     if (!own.yes) return shifted.yes ? Agreement::decisions_differ : Agreement::same;
     if (!own.gives(time)) return Agreement::same;
     const double t = own.values[time];
-    if (t <= shift + slack(scalar, t, shift)) return Agreement::same;  // it may start after the contact
+    if (t <= shift + slack(scalar, t, shift)) return Agreement::same;  // the later start may be after the contact
     if (!shifted.yes) return Agreement::decisions_differ;
     if (!shifted.gives(time)) return Agreement::same;
     const double s = shifted.values[time];
     return std::abs((t - shift) - s) <= slack(scalar, t, s) ? Agreement::same : Agreement::numbers_differ;
   });
-  follow_ups.decisions_alone = false;  // the time says from when on there is no contact
+  follow_ups.decisions_alone = false;  // the time tells from when on there is no contact
   return follow_ups;
 }
 

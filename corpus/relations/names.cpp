@@ -1,4 +1,4 @@
-/// Other names of the same operands: corners in another order, operands exchanged, directions turned around, hints.
+/// Relations that rename operands: corners in another order, operands exchanged, directions reversed, hints changed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ int swapped_box_axis(int axis) {
   return 6 + 3 * ((axis - 6) % 3) + (axis - 6) / 3;
 }
 
-/// Of the first two directions.
+/// The index of the first two directions.
 bool nearly_parallel_directions(const Case& c) {
   std::vector<long double> v;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
@@ -59,7 +59,7 @@ std::optional<FollowUps> turned_corners(const Case& c, std::uint64_t) {
   });
 }
 
-/// Corners the other way around, where a shape has no front.
+/// Reverses the corners of a shape that has no front.
 std::optional<FollowUps> reversed_corners(const Case& c, std::uint64_t) {
   if (c.query->traits.one_sided) return std::nullopt;
   Case other = c;
@@ -78,7 +78,7 @@ std::optional<FollowUps> reversed_corners(const Case& c, std::uint64_t) {
   });
 }
 
-/// The operands whose names end with 1 and 2 change places.
+/// Exchanges the operands whose names end with 1 and 2.
 std::optional<FollowUps> swapped(const Case& c, std::uint64_t) {
   const Query& query = *c.query;
   const Exchange allowed = query.traits.exchange;
@@ -119,7 +119,7 @@ std::optional<FollowUps> swapped(const Case& c, std::uint64_t) {
   });
 }
 
-/// The sign of a direction that only names a line or an axis.
+/// Reverses a direction that only names a line or an axis.
 std::optional<FollowUps> reversed_directions(const Case& c, std::uint64_t) {
   if (!c.query->traits.directions_are_lines) return std::nullopt;
   Case other = c;
@@ -135,7 +135,7 @@ std::optional<FollowUps> another_hint(const Case& c, std::uint64_t seed) {
   value(other, "hint") = Random(seed).between(-1, 14);
   const Query& query = *c.query;
   return counterpart(std::move(other), [&query](Answer a) {
-    // Apart, any axis that separates is right, with the separation along it.
+    // If the boxes are apart, any axis that separates them is right, with the separation along it.
     for (std::size_t i = 0; i < query.outputs.size() && !a.yes; ++i) a = without(a, i);
     return a;
   });

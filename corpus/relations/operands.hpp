@@ -1,4 +1,4 @@
-/// A case and an answer seen by the names of their numbers, for relations between cases.
+/// Access to a case's and an answer's numbers by name, for relations between cases.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace nearmiss::metamorphic {
 
 inline std::string_view last(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
-/// The number of fields where none has that name.
+/// The number of fields if none has that name.
 inline std::size_t index_of(const std::vector<Field>& fields, std::string_view name) {
   const auto at = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
   return std::size_t(at - fields.begin());
@@ -28,7 +28,7 @@ inline bool has(const Case& c, std::string_view name) {
 inline double& value(Case& c, std::string_view name) { return c.values.at(index_of(c.query->inputs, name)); }
 inline double value(const Case& c, std::string_view name) { return c.values.at(index_of(c.query->inputs, name)); }
 
-/// Three numbers in a row with the names x, y, z.
+/// Three consecutive numbers with the names x, y, z.
 inline bool vector_at(const std::vector<Field>& fields, std::size_t i) {
   return i + 2 < fields.size() && last(fields[i].name) == "x" && last(fields[i + 1].name) == "y" &&
          last(fields[i + 2].name) == "z";
@@ -42,21 +42,21 @@ inline Answer without(Answer a, std::size_t output) {
   return a;
 }
 
-/// Sets output `i` to output `from` of another answer, times `factor`; it is given where that is.
+/// Sets output `i` to output `from` of another answer, times `factor`; it is given if that one is.
 inline void carry(Answer& a, std::size_t i, const Answer& own, std::size_t from, double factor = 1) {
   a.values[i] = factor * own.values[from];
   a.given = (a.given & ~(std::uint64_t{1} << i)) | (own.given >> from & 1u) << i;
 }
 
-/// A subject's number as one of few things that are counted from 0; -1 where it is none.
+/// A subject's number as an index from 0; -1 if it is none.
 inline int as_index(double x) { return x >= 0 && x < 15 && x == std::floor(x) ? int(x) : -1; }
 
-/// Exchanges the numbers of two vectors of a case.
+/// Exchanges the components of two vectors of a case.
 inline void exchange(Case& c, const std::string& a, const std::string& b) {
   for (const char* k : {".x", ".y", ".z"}) std::swap(value(c, a + k), value(c, b + k));
 }
 
-/// The names of the operands that have these points: "triangle" for v0, v1, v2.
+/// The names of the operands with these points: "triangle" for v0, v1, v2.
 inline std::vector<std::string> operands_with(const Case& c, std::string_view point, std::string_view and_not) {
   std::vector<std::string> names;
   for (const Field& f : c.query->inputs) {

@@ -1,4 +1,4 @@
-/// Different queries about the same thing, by the links of the catalogue.
+/// Relations between different queries about the same operands, by the links of the catalogue.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ bool is_part_of(std::string_view member, std::string_view name) {
   return !member.empty() && name.starts_with(member) && (name.size() == member.size() || name[member.size()] == '.');
 }
 
-/// The same answer in the members that both answer types have by the same name.
+/// The same answer in the members that both answer types have under the same name.
 FollowUps same_answer(const Case& c, const Link& link) {
   Case other = recast(c, link);
   const Query &from = *c.query, &to = *other.query;
@@ -36,12 +36,12 @@ FollowUps same_answer(const Case& c, const Link& link) {
     }
     return a;
   });
-  // What has fewer numbers has fewer moves that make an answer right.
+  // If one answer has fewer numbers, fewer changes of the input make the answer right.
   follow_ups.image_keeps_ulps = to.inputs.size() >= from.inputs.size();
   return follow_ups;
 }
 
-/// What hits here, hits there, no later; at the same time, unless it may be earlier.
+/// A hit of the first query is a hit of the second, no later; at the same time, unless it may be earlier.
 FollowUps hit_at_the_same_time(const Case& c, const Link& link, bool or_earlier = false) {
   Case other = recast(c, link);
   const std::size_t ours = index_of(c.query->outputs, "time"), theirs = index_of(other.query->outputs, "time");
@@ -66,7 +66,7 @@ bool has_no_extents(const Case& c) {
   return value(c, "box.half.x") == 0 && value(c, "box.half.y") == 0 && value(c, "box.half.z") == 0;
 }
 
-/// The times of two answers to halves and of the whole, or what can be told of them.
+/// The times of the answers to two halves and to the whole, as far as they can be compared.
 Agreement first_of_two(const Answer& own, std::span<const Answer> halves, std::size_t ours, std::size_t theirs,
                        Scalar scalar) {
   const auto tells = [theirs](const Answer& a) { return !a.yes || a.gives(theirs); };
@@ -83,8 +83,8 @@ std::optional<FollowUps> prepared(const Case& c, std::uint64_t) {
   return link == nullptr ? std::nullopt : std::optional(same_answer(c, *link));
 }
 
-/// A capsule whose ends are one point, and a box without extents, as the sphere or point that they are. Of a capsule
-/// the inside may differ, where a point starts: then the times alone are compared.
+/// A capsule whose ends coincide as a sphere, and a box without extents as a point. A capsule's inside may differ for a
+/// point that starts there: then only the times are compared.
 std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::capsule_as_sphere);
   if (link != nullptr && are_equal(c, "capsule.p0", "capsule.p1")) {
@@ -95,8 +95,8 @@ std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
   return same_answer(c, *link);
 }
 
-/// A moving sphere of radius 0 as the point that it is, and a point as such a sphere, which sees the edges of a
-/// one-sided shape as well.
+/// A moving sphere of radius 0 as a point, and a point as such a sphere, which also hits the edges of a one-sided
+/// shape.
 std::optional<FollowUps> sphere_as_point(const Case& c, std::uint64_t) {
   if (const Link* link = link_of(c, Link::Kind::point_as_sphere)) return hit_at_the_same_time(c, *link, true);
   const Link* link = link_of(c, Link::Kind::sphere_as_point);
@@ -104,7 +104,7 @@ std::optional<FollowUps> sphere_as_point(const Case& c, std::uint64_t) {
   return same_answer(c, *link);
 }
 
-/// A rectangle is hit, or seen in, where one of its triangles is.
+/// A rectangle is hit, or contains a point, if one of its triangles is hit or contains it.
 std::optional<FollowUps> two_triangles(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::halves);
   if (link == nullptr) return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<FollowUps> two_triangles(const Case& c, std::uint64_t) {
                  });
 }
 
-/// Two queries one of whose yes implies the other's, or is the other's.
+/// Two queries where the yes of one implies the yes of the other, or both are equal.
 std::optional<FollowUps> same_decision(const Case& c, std::uint64_t) {
   std::vector<Case> others;
   std::vector<bool> both_ways;
@@ -141,7 +141,7 @@ std::optional<FollowUps> same_decision(const Case& c, std::uint64_t) {
   });
 }
 
-/// What hits, passes through.
+/// If a motion hits, it passes through.
 std::optional<FollowUps> hits_pass(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::within_any_time);
   if (link == nullptr) return std::nullopt;
@@ -150,7 +150,7 @@ std::optional<FollowUps> hits_pass(const Case& c, std::uint64_t) {
   });
 }
 
-/// From the two sides of a flat one-sided shape at most one sees a point come.
+/// A point hits a flat one-sided shape from at most one of its two sides.
 std::optional<FollowUps> other_side(const Case& c, std::uint64_t) {
   if (!c.query->traits.one_sided || !has(c, "point.x") || !rectangles_of(c).empty()) return std::nullopt;
   Case other = c;

@@ -8,7 +8,7 @@ namespace nearmiss::metamorphic {
 
 namespace {
 
-/// The name here of what has that name there; empty where the beginning of the name is another one.
+/// The name in this query of a field of the linked query; empty if the beginning of the name differs.
 std::optional<std::string> renamed_by(const Link::Renamed& r, const std::string& name) {
   const bool begins = !r.there.empty() && name.starts_with(r.there);
   if (!begins || (name.size() > r.there.size() && name[r.there.size()] != '.')) return std::nullopt;

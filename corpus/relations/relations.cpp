@@ -4,7 +4,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The closed table. The first group follows from the roles of the numbers alone, and holds for every query.
+/// The closed table. The first group depends on the roles of the numbers alone and holds for every query.
 constexpr Relation table[] = {
     {"scaled-lengths", "all lengths times a power of two: lengths of the answer alike, times unchanged", true,
      metamorphic::scaled_lengths},

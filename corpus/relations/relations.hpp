@@ -1,5 +1,5 @@
-/// Relations between the exact answers of cases: what a change of the input that is exactly representable must do to
-/// the answer. No tolerance takes part, and no truth is needed to see that one is broken.
+/// Metamorphic relations: an exactly representable change of a case, and the change of the exact answer that follows.
+/// No tolerance is involved, and a violation shows without knowing the truth.
 #pragma once
 
 #include "corpus/relations/follow_ups.hpp"
@@ -10,13 +10,13 @@ namespace nearmiss {
 struct Relation {
   std::string_view name;  ///< "scaled-lengths"
   std::string_view what;  ///< one line for people
-  /// Every operation of an implementation without epsilons commutes with the change, rounding included.
+  /// Every operation of an implementation without epsilons commutes with the change, including its rounding.
   bool bitwise = false;
-  /// The follow-ups of a case, chosen by `seed` where there is a choice; empty where there are none.
+  /// The follow-ups of a case, chosen by `seed` if there is a choice; empty if there are none.
   std::optional<FollowUps> (*of)(const Case& question, std::uint64_t seed) = nullptr;
 };
 std::span<const Relation> relations();
-/// nullptr when there is none of that name.
+/// nullptr if there is none of that name.
 const Relation* find_relation(std::string_view name);
 
 }  // namespace nearmiss

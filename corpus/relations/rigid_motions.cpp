@@ -1,4 +1,4 @@
-/// Translations, and rotations by whole quaternions.
+/// Translations, and rotations by integer quaternions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-/// Adds `shift` to every position, and moves planes with it; false where that is not exact.
+/// Adds `shift` to every position and moves planes with it; false if that is not exact.
 bool translate(Case& c, const Vector& shift) {
   const auto& fields = c.query->inputs;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -24,7 +24,7 @@ bool translate(Case& c, const Vector& shift) {
         if (!sum) return false;
         c.values[i + k] = *sum;
       }
-    } else if (fields[i].role == Role::offset) {  // after its normal
+    } else if (fields[i].role == Role::offset) {  // it follows the plane's normal
       for (std::size_t k = 0; k < 3; ++k) {
         const auto moved = exact_step(c.values[i], -c.values[i - 3 + k], shift[k], c.scalar);
         if (!moved) return false;
@@ -40,7 +40,7 @@ bool translate(Case& c, const Vector& shift) {
 std::optional<FollowUps> translated(const Case& c, std::uint64_t seed) {
   Random random(seed);
   const double unit = random.power_of_two(-2, c.scalar == Scalar::float32 ? 6 : 20);
-  for (const double step : {unit, 1.0, 0.5}) {  // a coarse one where a fine one is not exact
+  for (const double step : {unit, 1.0, 0.5}) {  // a coarser one if the finer one is not exact
     Vector shift;
     for (double& x : shift) x = step * random.between(-8, 8);
     Case other = c;
@@ -51,7 +51,7 @@ std::optional<FollowUps> translated(const Case& c, std::uint64_t seed) {
         const bool place = query.outputs[i].role == Role::position && query.kind != Kind::measure;
         if (!place || !vector_at(query.outputs, i)) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-          // Zero stands for no place where there is no contact, and for a corner in front.
+          // Zero stands for no place if there is no contact, and for a corner in front.
           if (!a.yes || query.outputs[i].name.starts_with("corners.")) a = without(a, i + k);
           if (a.values[i + k] + shift[k] - shift[k] != a.values[i + k]) a = without(a, i + k);
           a.values[i + k] += shift[k];
@@ -67,7 +67,7 @@ std::optional<FollowUps> translated(const Case& c, std::uint64_t seed) {
 
 namespace {
 
-/// A rotation whose matrix, times `factor`, has whole numbers only.
+/// A rotation whose matrix, times `factor`, has integer entries.
 struct WholeRotation {
   std::array<int, 4> quaternion{};  ///< x, y, z, w
   int factor = 0;                   ///< its squared length
@@ -87,7 +87,7 @@ WholeRotation draw_whole_rotation(Random& random) {
   return r;
 }
 
-/// The sum of factor times number, where the scalar holds every partial sum exactly.
+/// The sum of factor times number, if the scalar holds every partial sum exactly.
 template <std::size_t N>
 std::optional<double> exact_combination(const std::array<int, N>& factors, const double* numbers, Scalar scalar) {
   double sum = 0;
@@ -99,7 +99,7 @@ std::optional<double> exact_combination(const std::array<int, N>& factors, const
   return sum;
 }
 
-/// The case turned by the rotation and made `factor` times as large; empty where that is not exact.
+/// The case rotated and scaled by `factor`; empty if that is not exact.
 std::optional<Case> turned(const Case& c, const WholeRotation& r) {
   Case other = c;
   const auto& fields = c.query->inputs;
@@ -114,7 +114,7 @@ std::optional<Case> turned(const Case& c, const WholeRotation& r) {
         break;
       }
       case Role::rotation: {
-        const auto [a, b, d, w] = r.quaternion;  // the product of the two, a row for each of its numbers
+        const auto [a, b, d, w] = r.quaternion;  // the product of both, one row per component
         const std::array<std::array<int, 4>, 4> product{{{w, -d, b, a}, {d, w, -a, b}, {-b, a, w, d}, {-a, -b, -d, w}}};
         const std::size_t k = std::string_view("xyzw").find(last(fields[i].name));
         x = exact_combination(product[k], &c.values[i - k], c.scalar);
@@ -133,8 +133,8 @@ std::optional<Case> turned(const Case& c, const WholeRotation& r) {
 }  // namespace
 
 std::optional<FollowUps> rotated(const Case& c, std::uint64_t seed) {
-  // What is seen along an axis of space, or stands upright in it, is not the same when turned; directions and normals
-  // are not exact when turned.
+  // A projection along a coordinate axis, or an axis-aligned box, changes under rotation. Directions and normals are
+  // not exact after rotation.
   const auto& fields = c.query->inputs;
   const bool upright =
       std::any_of(fields.begin(), fields.end(), [](const Field& f) { return f.name.ends_with(".min.x"); });

@@ -11,12 +11,12 @@ namespace nearmiss::metamorphic {
 
 namespace {
 
-/// The largest difference of two places in one coordinate.
+/// The largest difference of two positions in one coordinate.
 double apart(const double* a, const double* b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-/// Whether any two places are the same or `least` apart.
+/// Whether any two positions are equal or at least `least` apart.
 bool places_are_apart(const Case& c, double least) {
   std::vector<const double*> places;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
@@ -31,8 +31,8 @@ bool places_are_apart(const Case& c, double least) {
   return true;
 }
 
-/// Room for every product of eight of its numbers, and of the distances of its places: in float places within 2^6 may
-/// be 2^-29 apart, and the product of eight such distances would underflow.
+/// Range for every product of eight numbers of the case and of the distances of its positions: in float, positions
+/// within 2^6 may be 2^-29 apart, and the product of eight such distances would underflow.
 bool far_from_overflow_and_underflow(const Case& c) {
   const bool is_float = c.scalar == Scalar::float32;
   const int orders = is_float ? 6 : 80, orders_apart = is_float ? 13 : 110;
@@ -47,7 +47,7 @@ int length_order(Role role) {
   return role == Role::position || role == Role::size || role == Role::velocity || role == Role::depth ? 1 : 0;
 }
 
-/// Multiplies each number by 2^(orders of its role), inputs and answers alike.
+/// Multiplies each input and each output by 2^(orders of its role).
 template <class Orders>
 std::optional<FollowUps> scaled(const Case& c, Orders orders) {
   if (!far_from_overflow_and_underflow(c)) return std::nullopt;

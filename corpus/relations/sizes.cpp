@@ -1,4 +1,4 @@
-/// Larger solids, balls inside of solids, and longer limits: what must not become a miss, later or shallower.
+/// Larger solids, balls inside solids, and longer limits: their answers must not become a miss, later or shallower.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ Agreement no_fewer(const Answer& own, std::span<const Answer> others) {
   return yes_stays_yes(own, others[0]) ? Agreement::same : Agreement::decisions_differ;
 }
 
-/// The radius of the ball around the middle of a box, or around an end of a capsule, that lies inside.
+/// The radius of the ball inside the solid, about the middle of a box or about an end of a capsule.
 double inner_radius(const Case& c) {
   if (!has(c, "box.half.x")) return value(c, "capsule.radius");
   return std::min({value(c, "box.half.x"), value(c, "box.half.y"), value(c, "box.half.z")});
@@ -45,7 +45,7 @@ std::string ball_of(const Link& link) {
   return {};
 }
 
-/// Where a sphere of radius 0 only touches, its point may slide along a small solid and lead away from a larger.
+/// A sphere of radius 0 that only touches may slide along a small solid and move away from a larger one.
 bool may_slide_away(const Case& c) { return has(c, "velocity.x") && value(c, "sphere.radius") == 0; }
 
 }  // namespace
@@ -70,7 +70,7 @@ std::optional<FollowUps> grown_size(const Case& c, std::uint64_t seed) {
   });
 }
 
-/// A ball inside of a box or a capsule is met by nothing that does not meet these, and not before them.
+/// A motion that misses a box or a capsule misses a ball inside it, and hits the ball no earlier.
 std::optional<FollowUps> contained_ball(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::contained_ball);
   if (link == nullptr || may_slide_away(c)) return std::nullopt;

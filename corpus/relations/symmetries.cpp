@@ -1,4 +1,4 @@
-/// Reflections and permutations of the axes of space.
+/// Reflections, and permutations of the coordinate axes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,17 +11,17 @@ namespace nearmiss::metamorphic {
 
 namespace {
 
-/// Coordinate k of the image is sign[k] times coordinate from[k]. A box's own axes are permuted alike, so that
-/// its rotation stays one: R' = M R M^-1.
+/// Coordinate k of the image is sign[k] times coordinate from[k]. A box's own axes are permuted in the same way, so
+/// that its rotation stays a rotation: R' = M R M^-1.
 struct SignedPermutation {
   std::array<std::size_t, 3> from{0, 1, 2};
   std::array<double, 3> sign{1, 1, 1};
 
   bool permutes() const { return from[0] != 0; }
   bool turns_over() const { return sign[0] * sign[1] * sign[2] < 0; }  // permutations are cyclic here
-  /// Where axis k goes.
+  /// The image of axis k.
   std::size_t to(std::size_t k) const { return std::size_t(std::find(from.begin(), from.end(), k) - from.begin()); }
-  /// Of the fifteen axes of two boxes.
+  /// The image of one of the fifteen axes of two boxes.
   int box_axis(int axis) const {
     if (axis < 0 || axis > 14) return axis;
     if (axis < 3) return int(to(std::size_t(axis)));
@@ -34,7 +34,7 @@ void apply(const SignedPermutation& m, const double* from, double* to, bool with
   for (std::size_t k = 0; k < 3; ++k) to[k] = (with_signs ? m.sign[k] : 1.0) * from[m.from[k]];
 }
 
-/// The largest magnitude of the normal, along whose axis a point is seen, belongs to one axis only.
+/// Whether only one axis has the normal's component of largest magnitude, along which a point is projected.
 bool one_axis_to_look_along(const Case& c) {
   if (!c.query->traits.projects) return true;
   std::array<double, 3> m{std::abs(value(c, "normal.x")), std::abs(value(c, "normal.y")),
@@ -49,7 +49,7 @@ Case image_of(const Case& c, const SignedPermutation& m) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double* at = &c.values[i];
     if (is_quaternion(fields, i)) {
-      apply(m, at, &other.values[i], true);  // an axis: a reflection reverses it once more
+      apply(m, at, &other.values[i], true);  // a rotation axis: a reflection reverses it once more
       for (std::size_t k = 0; m.turns_over() && k < 3; ++k) other.values[i + k] = -other.values[i + k];
     } else if (vector_at(fields, i) && fields[i].role != Role::rotation) {
       apply(m, at, &other.values[i], fields[i].role != Role::size);
@@ -65,7 +65,7 @@ Case image_of(const Case& c, const SignedPermutation& m) {
       if (other.values[k] < other.values[k - 3]) std::swap(other.values[k], other.values[k - 3]);
     }
   }
-  if (m.turns_over()) {  // the same front
+  if (m.turns_over()) {  // keeps the front
     for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
     for (const std::string& t : rectangles_of(c)) exchange(other, t + ".v1", t + ".v3");
   }

@@ -43,10 +43,10 @@ std::string said_of(const RelationFinding& r, const Subject& subject, const Foll
   return {};
 }
 
-/// Promises nothing, everywhere: only what is true counts.
+/// A contract without any bounds: only the truth counts.
 constexpr collide::Contract no_promise{};
 
-/// One of the decisions is wrong: the judge says which, whatever was promised.
+/// One of the decisions is wrong: the judge tells which one, whatever the contract.
 bool some_decision_is_wrong(const RelationFinding& r) {
   for (std::size_t i = 0; i < r.cases.size(); ++i) {
     if (confirmed(r.cases[i], r.answers[i], no_promise, Detail::verdict).truth_yes != r.answers[i].yes) return true;
@@ -54,7 +54,7 @@ bool some_decision_is_wrong(const RelationFinding& r) {
   return false;
 }
 
-/// The judge's words on a case and on its image must not contradict each other.
+/// The findings on a case and on its image must not contradict each other.
 std::string said_of_the_oracle(const RelationFinding& r, const Subject& subject, const FollowUps& follow_ups) {
   if (!follow_ups.image) return {};
   if (r.findings[0].verdict == Verdict::out_of_domain || r.findings[1].verdict == Verdict::out_of_domain) return {};
@@ -64,7 +64,7 @@ std::string said_of_the_oracle(const RelationFinding& r, const Subject& subject,
   const collide::Contract contract = subject.standard_for(r.cases[1].query->name).contract;
   const collide::Contract own = subject.standard_for(r.cases[0].query->name).contract;
   if (!follow_ups.image_keeps_ulps || contract.backward < own.backward || contract.forward < own.forward) return {};
-  if (r.findings[0].verdict != Verdict::agrees) return {};  // not proved to be wrong is not yet right
+  if (r.findings[0].verdict != Verdict::agrees) return {};  // an answer that is not proved wrong need not be right
   const Finding image = confirmed(r.cases[1], follow_ups.image(r.answers[0]), contract, Detail::verdict);
   if (proves_wrong(image)) {
     return fmt::format("an answer is right, but its image is wrong: {}, {}", name_of(image.disagreement), image.clause);

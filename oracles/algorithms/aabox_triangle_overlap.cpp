@@ -1,5 +1,4 @@
-/// Truth: thirteen separating axes, each with the shadows of all corners; a cross product that is zero is no
-/// axis.
+/// Truth: thirteen separating axes, each with the projections of all corners. A zero cross product is no axis.
 #include "impl/catalogue/queries/aabox_triangle_overlap.hpp"
 
 #include "oracles/algorithms/nearest_piece.hpp"
@@ -8,7 +7,7 @@ namespace nearmiss::oracle {
 
 namespace {
 
-/// The ends of a shadow on an axis.
+/// The ends of a projection on an axis.
 template <class N>
 struct Shadow {
   N low, high;
@@ -25,7 +24,7 @@ Shadow<N> shadow(const Vector<N>& axis, const std::array<Vector<N>, n>& points) 
   return s;
 }
 
-/// An upright box and a triangle seen from a corner of it.
+/// An axis-aligned box and a triangle, relative to a corner of the box.
 template <class N>
 struct BoxAndTriangle {
   Vector<N> low, high;
@@ -38,17 +37,18 @@ struct BoxAndTriangle {
     return e;
   }
   bool surely_within(const N& x, int k) const { return !may_be_less(x, low[k]) && !may_be_less(high[k], x); }
-  /// A corner, seen along axis k.
+  /// A corner, projected along axis k.
   bool surely_in_shadow(int i, int k) const {
     return surely_within(corner[i][(k + 1) % 3], (k + 1) % 3) && surely_within(corner[i][(k + 2) % 3], (k + 2) % 3);
   }
-  /// Edge i along axis k.
+  /// Edge i, projected along axis k.
   bool surely_meets_along(int i, int k) const {
     const N &a = corner[i][k], &b = corner[(i + 1) % 3][k];
     return (!may_be_less(a, low[k]) || !may_be_less(b, low[k])) &&
            (!may_be_less(high[k], a) || !may_be_less(high[k], b));
   }
-  /// Edge i across itself, seen along axis k: or one of its corners is in the box's shadow.
+  /// Whether, projected along axis k, the line of edge i certainly meets the box, or a corner of the edge lies in the
+  /// box.
   bool surely_meets_across(int i, int k) const {
     if (surely_in_shadow(i, k) || surely_in_shadow((i + 1) % 3, k)) return true;
     const Vector<N> axis = cross(unit(k), edge[i]);
@@ -56,8 +56,9 @@ struct BoxAndTriangle {
     const N at = inner(axis, corner[i]);
     return !may_be_less(at, of_box.low) && !may_be_less(of_box.high, at);
   }
-  /// Does the box meet an edge of the triangle, seen along axis k? Then no axis at a right angle to that one separates
-  /// them, and so no cross product with it, which may be of an edge that is nothing as so seen.
+  /// Whether the projections of the box and of an edge of the triangle along axis k meet. Then no axis perpendicular to
+  /// axis k separates box and triangle, and so no cross product with axis k, including that of an edge parallel to axis
+  /// k.
   bool surely_meet_seen_along(int k) const {
     for (int i = 0; i < 3; ++i) {
       const bool beside = surely_meets_along(i, (k + 1) % 3) && surely_meets_along(i, (k + 2) % 3);
@@ -65,7 +66,8 @@ struct BoxAndTriangle {
     }
     return false;
   }
-  /// Does it meet an edge? Then no axis separates them, nor does the normal of a triangle that may have no area.
+  /// Whether the box meets an edge. Then no axis separates box and triangle, including the normal of a triangle that
+  /// may have no area.
   bool surely_meet_at_an_edge() const {
     for (int i = 0; i < 3; ++i) {
       bool meets = true;
@@ -90,7 +92,7 @@ void aabox_triangle_overlap(const inputs::aabox_triangle_overlap<N>& q, Out& out
     for (int k = 0; k < 3; ++k) both.box[i][k] = (i >> k & 1) != 0 ? both.high[k] : both.low[k];
   }
   bool may_separate = false;
-  /// The axis; whether they surely meet along whatever it may be is asked where it may separate them.
+  /// Tests one axis. Only if the axis may separate them, asks whether they certainly meet whatever the axis is.
   const auto separated = [&](const Vector<N>& axis, const auto& surely_meet) {
     const Shadow<N> of_box = shadow(axis, both.box), of_triangle = shadow(axis, both.corner);
     const bool surely = !may_be_at_most(of_triangle.low, of_box.high) || !may_be_at_most(of_box.low, of_triangle.high);

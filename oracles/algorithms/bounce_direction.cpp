@@ -1,4 +1,4 @@
-/// Truth: the Householder reflection of the velocity's direction; rational but for one root.
+/// Truth: the Householder reflection of the velocity's direction; rational apart from one root.
 #include "impl/catalogue/queries/bounce_direction.hpp"
 
 #include "oracles/exact/answer_sink.hpp"

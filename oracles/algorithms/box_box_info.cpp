@@ -1,4 +1,4 @@
-/// Truth: the numbers' definitions, over exact rotations.
+/// Truth: the definitions of the numbers, over exact rotations.
 #include "impl/catalogue/queries/box_box_info.hpp"
 
 #include "oracles/algorithms/two_boxes.hpp"

@@ -1,5 +1,5 @@
-/// Truth: the fifteen separating axes over exact rotations; a cross product that is zero is no axis. Where
-/// the boxes are apart, each axis that strictly separates them is right.
+/// Truth: the fifteen separating axes over exact rotations. A zero cross product is no axis. If the boxes are apart,
+/// each axis that strictly separates them is right.
 #include "impl/catalogue/queries/box_box_overlap.hpp"
 
 #include <optional>
@@ -10,7 +10,8 @@ namespace nearmiss::oracle {
 
 namespace {
 
-/// Cross products of edges that may be parallel: do the boxes overlap along whatever is at a right angle to both?
+/// For cross products of edges that may be parallel: whether the boxes overlap along every direction perpendicular to
+/// both edges.
 template <class N>
 class Parallels {
  public:

@@ -1,5 +1,5 @@
-/// Truth: the first pair that may reach the cosine while every pair before it may fail to. Nearly parallel
-/// unit vectors a, b are compared by |a -+ b|^2 = 2 (1 -+ cosine), which is tight where a cosine is not.
+/// Truth: the first pair of axes that may reach the cosine while every pair before it may fail to. For nearly parallel
+/// unit vectors a, b the comparison uses |a -+ b|^2 = 2 (1 -+ cosine), which is tight where the cosine is not.
 #include "impl/catalogue/queries/box_box_parallel_axis.hpp"
 
 #include "oracles/algorithms/two_boxes.hpp"

@@ -1,5 +1,5 @@
-/// Truth: shadows on the fifteen axes in the world, each divided by the axis's length; the least of them,
-/// with every vertex or pair of edges that supports the boxes along that axis.
+/// Truth: projections on the fifteen axes in the world frame, each divided by the axis's length; the least overlap,
+/// with every vertex or pair of edges that supports the boxes along its axis.
 #include "impl/catalogue/queries/box_box_penetration.hpp"
 
 #include "oracles/algorithms/tuples.hpp"
@@ -14,7 +14,7 @@ constexpr int axis_count = inputs::box_box_axes;
 inline Interval at_most(const Interval& x, double most) { return {std::min(x.inf(), most), std::min(x.sup(), most)}; }
 inline const Exact& at_most(const Exact& x, double) { return x; }
 
-/// x, or the nearer end of [-half, half]; both move with the numbers that they depend on.
+/// x, clamped to [-half, half]. Both depend on the same inputs.
 inline Interval clamped(const Interval& x, const Interval& half) {
   const double low = x.inf() >= 0 ? std::min(x.inf(), half.inf()) : std::max(x.inf(), -half.sup());
   const double high = x.sup() >= 0 ? std::min(x.sup(), half.sup()) : std::max(x.sup(), -half.inf());
@@ -76,7 +76,7 @@ class Penetration {
   }
 
  private:
-  /// Cuts off what no depth reaches; what is not known of edges that may be parallel is known here.
+  /// Intersects the depth with the bounds of all depths. These also bound the depth along edges that may be parallel.
   void bound_depths() {
     const double apart = root(norm2(boxes_.between)).sup();
     N most(0);
@@ -112,8 +112,8 @@ class Penetration {
 
   Vector<N> middle_of(const Vector<N>& a, const Vector<N>& b) const { return times(plus(a, b), N(N(1) / N(2))); }
 
-  /// Where a box may reach furthest along a direction, of which `along` are the components in its frame: at a vertex
-  /// or, where some of its axes are at a right angle to the direction, on the hull of several.
+  /// Where a box extends furthest along a direction; `along` has the direction's components in the box's frame. It is a
+  /// vertex or, if some axes of the box are perpendicular to the direction, the hull of several vertices.
   struct Furthest {
     const Vector<N>& center;
     const std::array<Vector<N>, 3>& axes;
@@ -144,7 +144,7 @@ class Penetration {
       yes_to_any_of(hull(furthest, shift), contact, out_, answer);
     }
   }
-  /// The vertices of that hull, one after the other around it.
+  /// The vertices of that hull in cyclic order.
   static std::vector<Vector<N>> hull(const Furthest& f, const Vector<N>& shift) {
     std::vector<std::array<N, 3>> places{{f.end(0), f.end(1), f.end(2)}};
     for (int l = 0; l < 3; ++l) {
@@ -168,7 +168,7 @@ class Penetration {
          times(normal, N(-depth / N(2))));
   }
 
-  /// Every pair of edges that supports the boxes along the normal.
+  /// Reports every pair of edges that supports the boxes along the normal.
   void edges(int k, const Vector<N>& normal, const N& depth) {
     const int i = (k - 6) / 3, j = (k - 6) % 3;
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -187,13 +187,13 @@ class Penetration {
     });
   }
 
-  /// One place on each edge: `along` the two axes from the edges' middles.
+  /// One place on each edge; `along` has the distances from the edges' middles.
   struct Places {
     N along1, along2, distance2;
     bool always;  // it is on both edges for every input
   };
 
-  /// The nearest points of both edges lie within both or at an end of one.
+  /// The nearest points of the two edges lie inside both edges or at an end of one.
   void edge_pair(int k, const Vector<N>& normal, const N& depth, const Vector<N>& on1, const Vector<N>& on2) {
     const int i = (k - 6) / 3, j = (k - 6) % 3;
     const Vector<N>&a = boxes_.axes1[i], &b = boxes_.axes2[j];
@@ -227,7 +227,7 @@ class Penetration {
     }
   }
 
-  /// Edges that may be parallel: the normal is at right angles to both, the contact somewhere between.
+  /// Edges that may be parallel: the normal is perpendicular to both, and the contact lies between them.
   void nearly_parallel(int k, const N& depth) {
     if constexpr (is_enclosure<N>) {
       const int i = (k - 6) / 3, j = (k - 6) % 3;

@@ -1,4 +1,4 @@
-/// Truth: the shadows of both boxes on the axis itself, in the world.
+/// Truth: the projections of both boxes on the given axis, in the world frame.
 #include "impl/catalogue/queries/box_box_projected_distance.hpp"
 
 #include "oracles/algorithms/two_boxes.hpp"

@@ -1,4 +1,4 @@
-/// Truth: the axis in the world, by the rotations' matrices.
+/// Truth: the axis in the world frame, by the rotation matrices.
 #include "impl/catalogue/queries/box_box_separating_axis.hpp"
 
 #include "oracles/algorithms/two_boxes.hpp"

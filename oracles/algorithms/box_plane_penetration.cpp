@@ -28,7 +28,7 @@ void box_plane_penetration(const inputs::box_plane_penetration<N>& q, Out& out) 
     const Vector<N> corner = plus(center, out_of(axes, local));
     a.corners[i] = {N(1), answer_vector(corner)};
     if (!may_be_positive(height)) continue;
-    // In front or behind, the number and the point that goes with it.
+    // In front or behind: the number and the point that belongs to it.
     a.corners[i].behind = join(N(0), N(1));
     a.corners[i].point = answer_vector(Vector<N>{join(N(0), corner[0]), join(N(0), corner[1]), join(N(0), corner[2])});
   }
@@ -39,7 +39,7 @@ void box_plane_penetration(const inputs::box_plane_penetration<N>& q, Out& out) 
   out.yes(a);
 }
 
-/// A corner that is a contact.
+/// A corner of the box as a contact.
 template <class N>
 bool on_surface(const inputs::box_plane_penetration<N>& q, const GivenPlace<N>& place) {
   return place.about.values[place.number - 1] == 0 || may_be_on_box(place, q.box);

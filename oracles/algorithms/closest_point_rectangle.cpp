@@ -1,5 +1,5 @@
-/// Truth: the least squared distance of two faces, four edges and the diagonal; a face by the sides of its
-/// edges, measured in its plane.
+/// Truth: the least squared distance from two faces, four edges and the diagonal. The signed distances from a face's
+/// edges, in its plane, decide whether the foot lies in the face.
 #include "impl/catalogue/queries/closest_point_rectangle.hpp"
 
 #include "oracles/algorithms/nearest_piece.hpp"

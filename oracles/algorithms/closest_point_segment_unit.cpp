@@ -1,4 +1,4 @@
-/// Truth: as of closest_point_segment; what is computed beforehand never changes the answer.
+/// Truth: that of closest_point_segment. Precomputed inputs never change the answer.
 #include "impl/catalogue/queries/closest_point_segment_unit.hpp"
 
 #include "oracles/algorithms/nearest_piece.hpp"

@@ -1,4 +1,5 @@
-/// Truth: each edge by the sign of the distance's derivative at its ends; the least squared distance.
+/// Truth: the least squared distance from the edges; on each edge the sign of the distance's derivative at both ends
+/// decides.
 #include "impl/catalogue/queries/closest_point_triangle_perimeter_edges.hpp"
 
 #include "oracles/algorithms/nearest_piece.hpp"

@@ -1,4 +1,4 @@
-/// Truth: both points by Cramer's rule for the two right angles, the determinant by Lagrange's identity.
+/// Truth: both points by Cramer's rule for the two orthogonality conditions; the determinant by Lagrange's identity.
 #include "impl/catalogue/queries/closest_points_lines.hpp"
 
 #include "oracles/algorithms/surface.hpp"
@@ -6,7 +6,8 @@
 
 namespace nearmiss::oracle {
 
-/// What every point of the line satisfies: at a right angle to its direction the point is where the line is.
+/// Equations that every point of the line satisfies: perpendicular to the line's direction it has the line's
+/// coordinates.
 std::vector<Form> forms_of(const collide::Line<Interval>& line) {
   std::vector<Form> forms;
   for (int i = 0; i < 3; ++i) {
@@ -17,7 +18,7 @@ std::vector<Form> forms_of(const collide::Line<Interval>& line) {
   return forms;
 }
 
-/// Points of which little is known but that each lies on its line.
+/// Reports points known only to lie on their lines.
 template <class Out>
 void points_on_lines(const inputs::closest_points_lines<Interval>& q, const collide::ClosestPoints<Interval>& points,
                      Out& out) {
@@ -46,13 +47,13 @@ void closest_points_lines(const inputs::closest_points_lines<N>& q, Out& out) {
     return out.yes({answer_vector(p1), answer_vector(minus(p2, times(d2, N(inner(between, d2) / length2))))});
   }
   const N along1 = inner(between, d1), along2 = inner(between, d2), cosine = inner(d1, d2);
-  // The same numerators with their cancellation done beforehand: (between x d2) . (d1 x d2), and with d1.
+  // The same numerators with their cancellation carried out: (between x d2) . (d1 x d2), and with d1.
   const Vector<N> normal = cross(d1, d2);
   const N numerator1 = meet(N(inner(cross(between, d2), normal)), N(along1 * length2 - along2 * cosine));
   const N numerator2 = meet(N(inner(cross(between, d1), normal)), N(along1 * cosine - along2 * length1));
   const collide::ClosestPoints<N> points{answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
                                          answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))};
-  if constexpr (is_enclosure<N>) {  // more is known of a place that is little known along its line
+  if constexpr (is_enclosure<N>) {  // tightens a place that is poorly known along its line
     if (determinant.sup() > (1 + 0x1p-40) * determinant.inf()) return points_on_lines(q, points, out);
   }
   out.yes(points);

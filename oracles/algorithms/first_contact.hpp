@@ -1,4 +1,4 @@
-/// Where in time a first contact may lie. Shared by the oracles of queries with motions.
+/// Bounds on the time of first contact. Shared by the oracles of queries with motions.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace nearmiss::oracle {
 
-/// A range of times, as doubles that enclose it; for culling only.
+/// A range of times, enclosed by doubles. Used for culling only.
 struct Window {
   double from = 0, to = std::numeric_limits<double>::infinity();
 
@@ -20,15 +20,15 @@ struct Window {
     from = std::max(from, w.from);
     to = std::min(to, w.to);
   }
-  /// Encloses both.
+  /// Encloses both ranges.
   void include(const Window& w) {
     if (w.empty()) return;
     *this = empty() ? w : Window{std::min(from, w.from), std::max(to, w.to)};
   }
 };
 
-/// Encloses the times t >= 0 at which a + b t <= 0 for some a and b of the enclosures: since t is not
-/// negative, that depends on their lower bounds alone.
+/// Encloses the times t >= 0 at which a + b t <= 0 for some a and b of the enclosures. Because t is not negative, only
+/// their lower bounds matter.
 template <class N>
 Window times_not_positive(const N& a, const N& b) {
   const double a_low = bounds(a).low, b_low = bounds(b).low;
@@ -39,7 +39,7 @@ Window times_not_positive(const N& a, const N& b) {
   return {std::max(0.0, std::nextafter(crossing, 0.0)), Window{}.to};
 }
 
-/// When a coordinate is on `side` of [-half, half].
+/// The times at which a coordinate is on `side` of [-half, half].
 template <class N>
 Window times_on_side(const N& start, const N& step, const N& half, int side) {
   if (side > 0) return times_not_positive(N(half - start), N(-step));
@@ -49,8 +49,8 @@ Window times_on_side(const N& start, const N& step, const N& half, int side) {
   return w;
 }
 
-/// Encloses the times at which a point at w that moves by u is as near to the origin as the root of `reach2`; `moment2`
-/// is |w x u|^2. For enclosures.
+/// Encloses the times at which a point at w with velocity u is within sqrt(`reach2`) of the origin; `moment2` is |w x
+/// u|^2. For enclosures only.
 inline Window times_within(const Vector<Interval>& w, const Vector<Interval>& u, const Interval& reach2,
                            const Interval& moment2) {
   const Interval closing = -inner(w, u), speed2 = norm2(u), chord2 = speed2 * reach2 - moment2;
@@ -67,8 +67,8 @@ inline Window times_within(const Vector<Interval>& w, const Vector<Interval>& u,
   return times;
 }
 
-/// The quotient, known to lie in the window, so that it is bounded even where the divisor may be zero; empty where it
-/// does not.
+/// The quotient, intersected with the window, so that it is bounded even if the divisor may be zero. Empty if the
+/// intersection is empty.
 inline std::optional<Interval> time_within(const Window& w, const Interval& numerator, const Interval& divisor) {
   Interval time(w.from, w.to);
   if (!may_be_zero(divisor) && !narrow(time, numerator / divisor)) return std::nullopt;

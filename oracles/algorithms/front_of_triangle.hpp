@@ -1,4 +1,4 @@
-/// A moving point and the front of a triangle. Shared by the oracles of triangles and rectangles.
+/// A moving point and the front side of a triangle. Shared by the oracles of triangles and rectangles.
 #pragma once
 
 #include "oracles/algorithms/residual.hpp"
@@ -6,7 +6,7 @@
 
 namespace nearmiss::oracle {
 
-/// What the motion may do with the triangle; `impact` and `normals` are those of a hit.
+/// The possible results of the motion; `impact` and `normals` are those of a hit.
 template <class N>
 struct FrontHit {
   bool may_hit = false, may_miss = true;
@@ -14,7 +14,7 @@ struct FrontHit {
   Normals<N> normals{};
 };
 
-/// The plane's linear equation, then the line's moments about the edges.
+/// Solves the plane's linear equation, then compares the line's moments about the edges with zero.
 template <class N>
 FrontHit<N> front_hit(const Vector<N>& p, const Vector<N>& v, const std::array<Vector<N>, 3>& corner) {
   const Vector<N> n = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
@@ -23,14 +23,14 @@ FrontHit<N> front_hit(const Vector<N>& p, const Vector<N>& v, const std::array<V
   FrontHit<N> hit;
   if (!may_be_positive(approach) || !may_be_at_least_zero(height)) return hit;
   bool may_miss = may_be_at_most_zero(approach) || may_be_negative(height);
-  // The line of motion passes edge i on its inner side when its moment about the edge is not negative.
+  // The line of motion passes edge i on its inner side if its moment about the edge is not negative.
   for (int i = 0; i < 3; ++i) {
     const Vector<N> a = minus(corner[i], p), b = minus(corner[(i + 1) % 3], p);
     const N moment = -inner(v, cross(a, b));
     if (!may_be_at_least_zero(moment)) return hit;
     may_miss = may_miss || may_be_negative(moment);
   }
-  Vector<N> low = corner[0], high = corner[0];  // of the triangle
+  Vector<N> low = corner[0], high = corner[0];  // the triangle's bounds
   if constexpr (is_enclosure<N>) {
     for (int i = 0; i < 3; ++i) low[i] = join(join(corner[0][i], corner[1][i]), corner[2][i]);
     high = low;

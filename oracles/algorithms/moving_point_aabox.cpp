@@ -23,7 +23,7 @@ void moving_point_aabox(const inputs::moving_point_aabox<N>& q, Out& out) {
   if (may_miss(r)) out.no(Entry{}, 1);
   for_each_entry(r, [&](const N& time, const Vector<N>& place) {
     for_each_face_at(r, place, [&](int axis, int side) {
-      if (!may_be_at_most_zero(N(N(side) * r.step[axis]))) return;  // it leads along the motion
+      if (!may_be_at_most_zero(N(N(side) * r.step[axis]))) return;  // the normal points along the motion
       Vector<N> normal{N(0), N(0), N(0)};
       normal[axis] = N(side);
       Entry a;

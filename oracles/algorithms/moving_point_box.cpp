@@ -1,5 +1,4 @@
-/// Truth: in the box's frame separating axes decide; each face through which the point may enter gives its
-/// time.
+/// Truth: in the box's frame separating axes decide, and each face through which the point may enter gives its time.
 #include "impl/catalogue/queries/moving_point_box.hpp"
 
 #include "oracles/algorithms/point_enters_box.hpp"

@@ -1,4 +1,4 @@
-/// Truth: the first contact with the tube or one of the balls at its ends, for a ball without size.
+/// Truth: the first contact of a ball of radius 0 with the tube or with one of the balls at its ends.
 #include "impl/catalogue/queries/moving_point_capsule.hpp"
 
 #include "oracles/algorithms/moving_sphere_and_capsule.hpp"

@@ -8,7 +8,7 @@ namespace nearmiss::oracle {
 
 namespace {
 
-/// `outward` from the center, as a unit vector; any unit vector at the center itself.
+/// `outward` from the center as a unit vector; any unit vector at the center itself.
 template <class N, class Out, class Impact>
 void contact(Out& out, Impact impact, const Vector<N>& outward) {
   const N length2 = norm2(outward);
@@ -39,7 +39,7 @@ void moving_point_sphere(const inputs::moving_point_sphere<N>& q, Out& out) {
   // speed2 t^2 - 2 closing t + outside = 0
   const N discriminant = speed2 * square(radius) - norm2(cross(m, v));
   const auto at = [&](const N& time, const Vector<N>& along, const Normals<N>& of_a_point) {
-    // On the surface by definition, so the normal needs no root of its own; radius 0 has many normals.
+    // The point is on the surface by definition, so the normal needs no root of its own. Radius 0 has many normals.
     if (may_be_zero(radius)) {
       out.yes(Impact{time, answer_vector(plus(p, along)), {}}, of_a_point);
     } else {
@@ -62,7 +62,7 @@ void moving_point_sphere(const inputs::moving_point_sphere<N>& q, Out& out) {
   at(time, times(v, time), Normals<N>::any().against(v));
 }
 
-/// A start in the solid ball is a contact where it is.
+/// A start in the solid ball is a contact at the start.
 template <class N>
 bool on_surface(const inputs::moving_point_sphere<N>& q, const GivenPlace<N>& place) {
   return may_be_on_sphere(place, q.sphere) || (q.solid && may_be_point(place, vector(q.point)));

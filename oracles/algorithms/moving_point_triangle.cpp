@@ -1,4 +1,4 @@
-/// Truth: the plane's linear equation, then the hit point's side of each edge, measured in the plane.
+/// Truth: the plane's linear equation, then the signed distances of the hit point from each edge in the plane.
 #include "impl/catalogue/queries/moving_point_triangle.hpp"
 
 #include "oracles/algorithms/front_of_triangle.hpp"

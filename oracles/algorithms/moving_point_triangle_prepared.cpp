@@ -1,4 +1,4 @@
-/// Truth: that of the plain triangle; helps never change an answer.
+/// Truth: that of the plain triangle. Precomputed inputs never change an answer.
 #include "impl/catalogue/queries/moving_point_triangle_prepared.hpp"
 
 #include "oracles/algorithms/front_of_triangle.hpp"

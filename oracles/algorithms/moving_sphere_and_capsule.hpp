@@ -1,7 +1,7 @@
-/// A ball that moves past a fixed ball or capsule: one quadratic for each end, one for the tube between them;
-/// its earlier root counts where the contact then belongs to that part. The distance from a convex set is
-/// convex along a line, so the least of these roots is the first contact. Shared by the oracles of round
-/// things.
+/// A ball that moves past a fixed ball or capsule. One quadratic belongs to each end of the axis and one to the tube
+/// between the ends; the earlier root counts if the contact at that time lies on the same part. The distance from a
+/// convex set is convex along a line, so the least of these roots is the first contact. Shared by the oracles of
+/// spheres and capsules.
 #pragma once
 
 #include <algorithm>
@@ -15,23 +15,23 @@
 
 namespace nearmiss::oracle {
 
-/// The moving ball, and all points within `radius` of the segment between two ends.
+/// The moving ball, and the fixed set of all points within `radius` of the segment between two ends.
 template <class N>
 struct SphereAndCapsule {
   Vector<N> at, step;  // of the moving center
-  N own;               // its radius
+  N own;               // the moving ball's radius
   std::array<Vector<N>, 2> end;
-  N radius;      // of the fixed thing
-  bool is_ball;  // one end
+  N radius;      // of the fixed set
+  bool is_ball;  // both ends are one point
 
   N reach() const { return own + radius; }
   Vector<N> axis() const { return minus(end[1], end[0]); }
 };
 
-/// The parts of a capsule; a ball has the first alone.
+/// The parts of a capsule; a ball has only the first.
 enum class Part { first_end, second_end, tube };
 
-/// A contact: the nearest point of the axis and what leads from there to the moving center.
+/// A contact: the nearest point of the axis, and the vector from that point to the moving center.
 template <class N>
 struct CapsuleContact {
   N time;
@@ -45,7 +45,7 @@ struct CapsuleContacts {
   const Vector<N> d = m.axis();
   const N length2 = norm2(d);
 
-  /// The share of the second end, for a center between the ends.
+  /// The barycentric weight of the second end, for a center between the ends.
   N share(const Vector<N>& from_first) const {
     if (may_be_zero(length2)) return is_enclosure<N> ? join(N(0), N(1)) : N(0);
     return assume_within(N(inner(d, from_first) / length2), 0.0, 1.0);
@@ -62,14 +62,14 @@ struct CapsuleContacts {
     return surely_zero(x[0]) && surely_zero(x[1]) && surely_zero(x[2]);
   }
 
-  /// The normals at a center on the axis: those that lead out of that part. Any other normal of the part is one of
+  /// The normals for a center on the axis: those that point out of that part. Every other normal of the part is one of
   /// them.
   Normals<N> normals_of_axis(Part part) const {
     if (m.is_ball || surely_zero(length2)) return Normals<N>::any();
     return Normals<N>::cone({{d, part == Part::first_end ? -1 : 0, part == Part::second_end ? 1 : 0}});
   }
-  /// Where the center lies on the axis every normal out of it is right, with the place that it leads to. Of a fixed
-  /// thing that is but its axis, all surface, only those against the motion.
+  /// For a center on the axis every outward normal is right, with the place that belongs to it. If the fixed set has
+  /// radius 0, it is only its axis, and only the normals against the motion are right.
   template <class Out>
   void yes_on_axis(const CapsuleContact<N>& c, Normals<N> normals, Out& out) const {
     constexpr std::size_t location = 1, normal = 4;
@@ -79,8 +79,8 @@ struct CapsuleContacts {
                });
   }
 
-  /// Where `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does
-  /// not start there, meets no normal that leads along its motion.
+  /// `away` is the exact vector from the axis to the center, of length `distance`. A ball that arrives, and does not
+  /// start in contact, has no contact whose normal points along its motion.
   template <class Out>
   void yes(const CapsuleContact<N>& c, const N& distance, bool arrives, Out& out) const {
     if (may_be_zero(distance)) {
@@ -97,7 +97,7 @@ struct CapsuleContacts {
     };
     const Vector<N> normal{unit(c.away[0]), unit(c.away[1]), unit(c.away[2])};
     Vector<N> location = plus(c.on_axis, times(normal, m.radius));
-    if constexpr (is_enclosure<N>) {  // as seen from the moving center
+    if constexpr (is_enclosure<N>) {  // also computed from the moving center
       if (c.time.sup() > 0 && is_moderate(c.time) && is_moderate(m.at) && is_moderate(m.step)) {
         const Vector<N> seen = minus(plus(m.at, times(m.step, c.time)), times(normal, m.own));
         for (int i = 0; i < 3; ++i) location[i] = meet(location[i], seen[i]);
@@ -108,7 +108,7 @@ struct CapsuleContacts {
 
   // The start.
 
-  /// A contact at time 0 of that part; tells whether the ball may start apart.
+  /// Reports a contact of that part at time 0. Returns whether the ball may start apart.
   template <class Out>
   bool start(const CapsuleContact<N>& c, const N& distance2, Out& out) const {
     const N outside = distance2 - square(m.reach());
@@ -144,7 +144,7 @@ struct CapsuleContacts {
 
   // The roots.
 
-  /// Encloses the times at which the moving center may be within reach; false: never.
+  /// Encloses the times at which the moving center may be within reach; false if there are none.
   bool may_be_near(N& time) const {
     Vector<N> low = m.end[0], high = m.end[0];
     if constexpr (is_enclosure<N>) {
@@ -157,7 +157,7 @@ struct CapsuleContacts {
     return narrow_to_range(time, m.at, m.step, low, high);
   }
 
-  /// The earlier root of a t^2 - 2 closing t + c, with half the root of the discriminant; narrows `time`.
+  /// The earlier root of a t^2 - 2 closing t + c, with half the root of the discriminant. Narrows `time`.
   static bool earlier_root(const N& a, const N& closing, const N& c, const N& half, N& time) {
     const N far = assume_at_least_zero(closing) + half;
     if constexpr (is_enclosure<N>) {
@@ -170,7 +170,7 @@ struct CapsuleContacts {
     }
   }
 
-  /// The contacts that may be the first, and a time by which the ball surely reaches the fixed thing.
+  /// The contacts that may be the first, and a time by which the ball certainly reaches the fixed set.
   struct Roots {
     std::vector<CapsuleContact<N>> list;
     double surely_by = std::numeric_limits<double>::infinity();
@@ -191,7 +191,7 @@ struct CapsuleContacts {
 
   void root_of_tube(N time, Roots& roots) const {
     const Vector<N> from = minus(m.at, m.end[0]);
-    if constexpr (is_enclosure<N>) {  // the tube lies in a ball about an end; tells something of short ones alone
+    if constexpr (is_enclosure<N>) {  // the tube lies in a ball about an end; tightens only short tubes
       const N reach = m.reach() + root(length2);
       const Window near = times_within(from, m.step, square(reach), norm2(cross(from, m.step)));
       if (near.empty() || !narrow(time, N(near.from, near.to))) return;
@@ -203,8 +203,8 @@ struct CapsuleContacts {
     const N outside = norm2(from_d) - square(m.reach()) * length2;
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     const N half = root(discriminant);
-    // Does it surely touch the line between the ends? What `time` has been narrowed by assumes that it does, and is
-    // left out.
+    // Whether the ball certainly touches the line between the ends. Ignores the narrowing of `time`, which assumes that
+    // it does.
     N of_line = any_time<N>();
     const bool touches_line = !may_be_at_most_zero(closing) && !may_be_negative(discriminant) &&
                               earlier_root(a, closing, outside, half, of_line);
@@ -221,7 +221,7 @@ struct CapsuleContacts {
     }
     roots.list.push_back(c);
   }
-  /// `from_first` moved on by a time that has an end: surely between the ends?
+  /// Whether `from_first`, moved on by a bounded time, is certainly between the ends.
   bool surely_beside(const N& time, const Vector<N>& from_first) const {
     if constexpr (is_enclosure<N>) {
       if (!(time.sup() < std::numeric_limits<double>::infinity())) return false;
@@ -234,7 +234,7 @@ struct CapsuleContacts {
     if constexpr (is_enclosure<N>) roots.surely_by = std::min(roots.surely_by, time.sup());
   }
 
-  /// The same about a fixed time and a fixed share of the second end; false where nothing is left.
+  /// The same about a fixed time and a fixed weight of the second end; false if the intersection is empty.
   bool narrow_about_middle(CapsuleContact<N>& c, const N& s) const {
     if constexpr (is_enclosure<N>) {
       if (!is_moderate(m.at) || !is_moderate(m.step) || !is_moderate(m.end[0]) || !is_moderate(m.end[1])) return true;
@@ -250,7 +250,7 @@ struct CapsuleContacts {
     return true;
   }
 
-  /// `from` moved on; unknown where the time has no end.
+  /// `from` moved on by the time; unknown if the time is unbounded.
   bool place_of(const N& time, const Vector<N>& from, Vector<N>& place) const {
     if constexpr (is_enclosure<N>) {
       if (!(time.sup() < std::numeric_limits<double>::infinity())) {
@@ -265,7 +265,7 @@ struct CapsuleContacts {
     place = plus(from, times(m.step, time));
     return true;
   }
-  /// What leads from the axis to a contact is as long as both radii; false where it cannot be.
+  /// The vector from the axis to a contact is as long as the sum of the radii. False if that is impossible.
   bool narrow_to_reach(Vector<N>& away) const {
     if constexpr (is_enclosure<N>) {
       const N any(-m.reach().sup(), m.reach().sup());
@@ -304,13 +304,13 @@ struct CapsuleContacts {
     return found;
   }
 
-  /// Does the ball surely reach the fixed thing at that time, with that share of the second end?
+  /// Whether the ball certainly reaches the fixed set at that time, at that weight of the second end.
   bool surely_reaches(double time, double share_of_second) const {
     const Vector<N> on_axis = plus(m.end[0], times(d, N(share_of_second)));
     const Vector<N> away = minus(plus(m.at, times(m.step, N(time))), on_axis);
     return !may_be_positive(N(norm2(away) - square(m.reach())));
   }
-  /// The same near the closest approach: found in plain doubles, so it proves nothing by itself.
+  /// The same near the closest approach. Plain doubles locate it, so the location itself proves nothing.
   bool surely_reaches_somewhere() const {
     const auto middle = [](const Vector<N>& x, int i) {
       const Bounds b = bounds(x[i]);
@@ -321,7 +321,7 @@ struct CapsuleContacts {
       c[i] = middle(m.at, i) - middle(m.end[0], i), v[i] = middle(m.step, i), e[i] = middle(d, i);
       speed2 += v[i] * v[i], length2_ += e[i] * e[i];
     }
-    // Two closest points in turn: each step is a projection, so it converges, slowly near a parallel.
+    // Alternating projection onto the two lines. It converges slowly near a parallel.
     double time = 0, s = 0.5;
     for (int step = 0; step < 30; ++step) {
       double along_v = 0, along_e = 0;
@@ -336,7 +336,7 @@ struct CapsuleContacts {
   }
 };
 
-/// All right answers about the ball and the fixed thing.
+/// Reports all right answers about the ball and the fixed set.
 template <class N, class Out>
 void report_first_contact(const SphereAndCapsule<N>& m, Out& out) {
   const CapsuleContacts<N> past{m};

@@ -1,7 +1,7 @@
-/// Truth: in the box's frame, one quadratic for each of the 26 regions around the box; its earlier
-/// root counts where the center is then in that region. The distance from a convex set is convex along
-/// a line, so the least of these roots is the first contact; others end a graze of constant distance. A ball
-/// without size is a point that enters.
+/// Truth: in the box's frame, one quadratic for each of the 26 regions around the box. Its earlier root counts if the
+/// center is in that region at that time. The distance from a convex set is convex along a line, so the least of these
+/// roots is the first contact; the other roots end a graze of constant distance. A ball of radius 0 is a point that
+/// enters.
 #include "impl/catalogue/queries/moving_sphere_box.hpp"
 
 #include <cmath>
@@ -20,23 +20,23 @@ namespace {
 template <class N>
 struct Motion {
   std::array<Vector<N>, 3> axes;
-  Vector<N> origin;             // the box's center, in the world
+  Vector<N> origin;             // the box's center, in the world frame
   Vector<N> start, step, half;  // of the sphere's center, in the box's frame
   N radius;
-  Vector<N> from, velocity;  // the same start and step, in the world
+  Vector<N> from, velocity;  // the same start and step, in the world frame
 
   Vector<N> at(const N& time) const { return plus(start, times(step, time)); }
   Vector<N> to_world(const Vector<N>& local) const { return plus(origin, out_of(axes, local)); }
 };
 
-/// A root of some region's quadratic.
+/// A root of one region's quadratic.
 template <class N>
 struct Contact {
   collide::Impact<N> impact;
   Normals<N> normals;
 };
 
-/// The center at that time in the box's frame, turned only after it has moved; empty near overflow.
+/// The center at that time in the box's frame, rotated after the motion; empty near overflow.
 template <class N>
 std::optional<Vector<N>> turned_last(const Motion<N>& m, const N& time) {
   if constexpr (is_enclosure<N>) {
@@ -47,8 +47,8 @@ std::optional<Vector<N>> turned_last(const Motion<N>& m, const N& time) {
   return std::nullopt;
 }
 
-/// Narrows the time about a fixed one: by the distance from the region's feature that is left there, over
-/// its slope. False where nothing is left.
+/// Narrows the time about a fixed one: by the remaining distance from the region's feature at the fixed time, over its
+/// slope. False if the intersection is empty.
 template <class N>
 bool narrow_about_middle(const Motion<N>& m, const Sides& sides, N& time) {
   if constexpr (is_enclosure<N>) {
@@ -75,8 +75,8 @@ bool narrow_about_middle(const Motion<N>& m, const Sides& sides, N& time) {
   return true;
 }
 
-/// Appends the earlier root of the region's quadratic, where the center is then in that region; `w`
-/// encloses the times at which it is.
+/// Appends the earlier root of the region's quadratic if the center is in that region at that time; `w` encloses the
+/// times at which it is.
 template <class N>
 void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::vector<Contact<N>>& roots) {
   Vector<N> e{N(0), N(0), N(0)}, v{N(0), N(0), N(0)};
@@ -127,7 +127,7 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
   roots.push_back({impact, {}});
 }
 
-/// Among exact roots the least; among enclosures each may be the least.
+/// The least of the exact roots. Of enclosures, each root may be the least.
 template <class N, class Out>
 void report_first(const std::vector<Contact<N>>& roots, Out& out) {
   const auto later_than_another = [&](const Contact<N>& c) {
@@ -139,13 +139,13 @@ void report_first(const std::vector<Contact<N>>& roots, Out& out) {
   }
 }
 
-/// What a start may be.
+/// The possible results at the start.
 struct Start {
   bool may_be_apart = false, may_be_contact = false;
 };
 
-/// A start outside the box or on its surface, in that region: a contact at time 0 if the sphere
-/// overlaps, or touches and does not leave.
+/// A start outside the box or on its surface, in that region: a contact at time 0 if the sphere overlaps the box, or
+/// touches it and does not leave.
 template <class N, class Out>
 Start start_in_region(const Motion<N>& m, const Sides& sides, Out& out) {
   const FromFeature<N> from = from_feature(m.start, m.half, sides);
@@ -178,7 +178,8 @@ bool starts_on_surface(const Motion<Exact>& m) {
   return on_some_face;
 }
 
-/// The center on the surface: the normals against the motion are right or, where it leads away from every face, all.
+/// A center on the surface: the normals against the motion are right. If the center moves away from every face, all
+/// normals are right.
 template <class Out>
 void start_on_surface(const Motion<Exact>& m, Out& out) {
   const collide::Impact<Exact> impact{Exact(0), answer_vector(m.to_world(m.start)), {}};
@@ -193,7 +194,7 @@ void start_on_surface(const Motion<Exact>& m, Out& out) {
   });
 }
 
-/// Contacts at time 0 of a ball with a size.
+/// Contacts at time 0 of a ball with positive radius.
 template <class N, class Out>
 Start start(const Motion<N>& m, Out& out) {
   if constexpr (!is_enclosure<N>) {
@@ -218,13 +219,13 @@ Start start(const Motion<N>& m, Out& out) {
   return start;
 }
 
-/// A center that comes from outside into the box, however thin that and small the sphere.
+/// Whether a center that starts outside certainly enters the box, however thin the box and small the sphere.
 template <class N>
 bool surely_enters(const Motion<N>& m) {
   return !may_miss(RayAndBox<N>{m.start, m.step, negated(m.half), m.half});
 }
 
-/// Does the sphere surely overlap the box at that time?
+/// Whether the sphere certainly overlaps the box at that time.
 template <class N>
 bool surely_overlaps(const Motion<N>& m, double time) {
   const Vector<N> c = m.at(N(time));
@@ -236,7 +237,7 @@ bool surely_overlaps(const Motion<N>& m, double time) {
   return !may_be_positive(N(distance2 - square(m.radius)));
 }
 
-/// A time near that of the least distance: found in plain doubles, so it proves nothing by itself.
+/// A time near that of the least distance. Plain doubles locate it, so the time itself proves nothing.
 template <class N>
 double time_of_least_distance(const Motion<N>& m, Window w) {
   if (!(w.to < Window{}.to)) return w.from;
@@ -281,7 +282,7 @@ void moving_sphere_box(const inputs::moving_sphere_box<N>& q, Out& out) {
   const Start at_start = start(m, out);
   if (!at_start.may_be_apart) return;
 
-  Window near;  // the sphere's shadow on each axis reaches the box's
+  Window near;  // the times at which the projections of sphere and box on each axis meet
   Window on_side[3][3];
   for (int i = 0; i < 3; ++i) {
     near.clip(times_on_side(m.start[i], m.step[i], N(m.half[i] + m.radius), 0));

@@ -1,8 +1,8 @@
-/// Truth: the squared distance from the box along the motion, a convex function of time, is compared with
-/// the squared radius where it is least. Exactly: it is least at an end of the motion, where a coordinate
-/// crosses a face plane, or where one of the quadratics of the 26 regions around the box is; the distances
-/// at all these times are tried. Enclosed: whatever the time in question, its distance is an upper bound,
-/// and the tangent there with the signs of the slope on both sides a lower one.
+/// Truth: the minimum over the motion of the squared distance from the box, a convex function of time, compared with
+/// the squared radius. Exact stage: the minimum lies at an end of the motion, where a coordinate crosses a face plane,
+/// or at the minimum of the quadratic of one of the 26 regions around the box; the distances at all these times are
+/// tried. Interval stage: the distance at any time is an upper bound. The tangent at that time, with the signs of the
+/// slope on both sides, gives a lower bound.
 #include "impl/catalogue/queries/moving_sphere_passes_box.hpp"
 
 #include "oracles/algorithms/first_contact.hpp"
@@ -36,7 +36,7 @@ Vector<N> beyond_at(const Path<N>& path, const N& time) {
   return e;
 }
 
-/// Is the center ever as near as the radius, from 0 to `limit` (empty: for ever)?
+/// Whether the center is ever within the radius, from time 0 to `limit` (empty: without limit).
 bool passes(const Path<Exact>& path, const Exact& radius2, const std::optional<Exact>& limit) {
   std::vector<Exact> times{Exact(0)};
   if (limit) times.push_back(*limit);
@@ -60,7 +60,7 @@ bool passes(const Path<Exact>& path, const Exact& radius2, const std::optional<E
   });
 }
 
-/// A time near that of the least distance: found in plain doubles, so it proves nothing by itself.
+/// A time near that of the least distance. Plain doubles locate it, so the time itself proves nothing.
 double time_of_least_distance(const Path<Interval>& path, double limit) {
   double at[3], step[3], half[3];
   const auto middle = [](const Interval& x) { return 0.5 * x.inf() + 0.5 * x.sup(); };
@@ -81,7 +81,7 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
     return s;
   };
   std::sort(crossings.begin(), crossings.end());
-  // Where the center passes through the box, the middle of that time is the surest.
+  // If the center passes through the box, the middle of that time range is the safest choice.
   const auto within = [&](double t) {
     bool all = true;
     for (int i = 0; i < 3; ++i) all = all && std::abs(at[i] + step[i] * t) <= half[i];
@@ -103,13 +103,13 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
     }
     from = to, slope_from = slope_to;
   }
-  double speed2 = 0;  // past all crossings every coordinate that moves is beyond
+  double speed2 = 0;  // past all crossings every moving coordinate is beyond the box
   for (const double v : step) speed2 += v * v;
   const double last = speed2 > 0 ? from - slope_from / speed2 : from;
   return std::min(last < infinity ? last : from, limit);
 }
 
-/// A bound that no squared distance from 0 to `limit` is below.
+/// A lower bound of the squared distance from time 0 to `limit`.
 double least_distance2(const Path<Interval>& path, double near, double limit) {
   const auto slope_at = [&](double t) { return inner(path.step, beyond_at(path, Interval(t))); };
   const Vector<Interval> e = beyond_at(path, Interval(near));
@@ -121,8 +121,8 @@ double least_distance2(const Path<Interval>& path, double near, double limit) {
   const double width = slope.sup() - slope.inf();
   double first = 0x1p-50 * near + 0x1p-1000;
   if (speed2 > 0 && width < speed2 * 0x1p400) first = std::max(first, width / speed2);
-  // On each side as far as the slope's sign is sure: beyond, the distance grows. The reach is found by steps of
-  // four and halved into place, so that it does not depend on where the steps fall.
+  // On each side, extends as far as the slope's sign is certain; beyond, the distance grows. Steps of four and then
+  // bisection find the reach, so that it does not depend on where the steps fall.
   const auto least_reach = [&](double most, const auto& sure) {
     double reach = first;
     for (int i = 0; i < 300 && reach < most; ++i, reach *= 4) {

@@ -21,7 +21,7 @@ void moving_sphere_plane(const inputs::moving_sphere_plane<N>& q, Out& out) {
   if (may_be_at_most(height, reach)) {
     const Vector<N> foot = minus(c, times(n, N(height / length2)));
     out.yes({N(0), answer_vector(foot), answer_vector(normal)});
-    // As a set the plane has two sides, and the center is behind it.
+    // As a set the plane has two sides; here the center is behind it.
     if (may_be_at_most_zero(height)) out.yes({N(0), answer_vector(foot), answer_vector(negated(normal))});
   }
   if (!may_be_less(reach, height)) return;

@@ -1,5 +1,5 @@
-/// The nearest of several pieces, the edges and faces of flat shapes, to a point. Shared by the oracles of
-/// queries about triangles and rectangles.
+/// The point of several pieces (the edges and faces of flat shapes) that is nearest to a given point. Shared by the
+/// oracles of queries about triangles and rectangles.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ inline Interval lesser(const Interval& a, const Interval& b) {
 }
 inline const Exact& lesser(const Exact& a, const Exact& b) { return may_be_less(b, a) ? b : a; }
 
-/// What the pieces are seen from: the vertices of the shape, 0 to 3, and a rectangle's diagonal.
+/// The number of references: the shape's vertices 0 to 3, and a rectangle's diagonal.
 inline constexpr int diagonal = 4;
 
-/// A possible nearest point of a piece. `gain[s]` says how much nearer it is than what the piece is seen
-/// from: |point - s|^2 - |point - place|^2. Of two places near s, gains tell more than distances.
+/// A possible nearest point of a piece. `gain[s]` is |point - s|^2 - |point - place|^2: how much nearer the place is
+/// than reference s. For two places near s, gains are tighter than distances.
 template <class N>
 struct Place {
   Vector<N> point;
@@ -27,11 +27,11 @@ struct Place {
   std::array<N, 5> gain;
 };
 
-/// An edge or a face: its possible nearest points.
+/// An edge or a face, with its possible nearest points.
 template <class N>
 struct Piece {
   unsigned seen_from = 0;  ///< bit s: the gain over s is known
-  bool surely = true;      ///< one of the places is there; a face may have none
+  bool surely = true;      ///< one of the places exists for certain; a face may have none
   std::vector<Place<N>> places;
   Place<N> all;  ///< encloses distance and gains of every place
 
@@ -49,8 +49,8 @@ struct Piece {
   }
 };
 
-/// The edge from corner `i` to corner `j`: one of its ends, or the foot of the perpendicular. Distances by
-/// Lagrange's identity; of an edge that may have no length, from the box of its ends.
+/// The edge from corner `i` to corner `j`: its nearest point is one of the ends or the foot of the perpendicular.
+/// Distances use Lagrange's identity; for an edge that may have no length, the bounding box of its ends.
 template <class N, std::size_t n>
 Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const Vector<N>& p) {
   const Vector<N>&a = corner[i], &b = corner[j];
@@ -69,7 +69,7 @@ Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const 
   if (!may_be_positive(past_a) || !may_be_positive(before_b)) return piece;
   const N x = assume_at_least_zero(past_a), y = assume_at_least_zero(before_b);
   Vector<N> foot;
-  for (int k = 0; k < 3; ++k) foot[k] = join(a[k], b[k]);  // between the ends, whatever else
+  for (int k = 0; k < 3; ++k) foot[k] = join(a[k], b[k]);  // between the ends in any case
   N distance2(0), gain_a(0), gain_b(0);
   if constexpr (is_enclosure<N>) {
     distance2 = meet(norm2(minus(p, foot)), join(N(0), lesser(a2, b2)));
@@ -88,15 +88,16 @@ Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const 
   return piece;
 }
 
-/// Where the perpendicular onto the plane of the triangle of three corners meets the triangle.
+/// The foot of the perpendicular on the plane of three corners, if it lies in the triangle.
 template <class N>
 struct FacePiece {
   Piece<N> piece;
-  bool surely_within = false;  ///< off all three edges: they are further away
+  bool surely_within = false;  ///< off all three edges, so they are further away
 };
 
-/// The foot of the perpendicular in a triangle that may have no area: it lies in the box of the corners and near each
-/// edge, within the triangle's height over that edge and beside it, as the point does. Empty where that is impossible.
+/// The foot of the perpendicular in a triangle that may have no area. The foot lies in the bounding box of the corners.
+/// Along and across each edge it lies within the triangle's height over that edge, and beside the edge as the point
+/// does. Empty if that is impossible.
 template <class N>
 std::optional<Place<N>> thin_face(const std::array<Vector<N>, 3>& v, const N& normal2, const Vector<N>& p) {
   Place<N> place;
@@ -120,7 +121,7 @@ std::optional<Place<N>> thin_face(const std::array<Vector<N>, 3>& v, const N& no
   return place;
 }
 
-/// `c`: which corners; seen from them and, where `line` says so, from the line through the first two.
+/// `c` lists the corners. Gains are known over these corners and, if `line`, over the line through the first two.
 template <class N, std::size_t n>
 FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array<int, 3>& c, bool line,
                         const Vector<N>& p) {
@@ -173,7 +174,7 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
   return face;
 }
 
-/// Calls f(piece, place) for each place that may be nearest of all.
+/// Calls f(piece, place) for each place that may be the nearest of all.
 template <class N, class F>
 void for_each_nearest(const std::vector<Piece<N>>& pieces, F&& f) {
   const auto may_be_as_near = [](const Piece<N>& piece, const Place<N>& place, const Piece<N>& other) {
@@ -195,7 +196,7 @@ void for_each_nearest(const std::vector<Piece<N>>& pieces, F&& f) {
   }
 }
 
-/// The squared distance of the point from all of the pieces.
+/// The squared distance of the point from the union of the pieces.
 template <class N>
 N least_distance2(const std::vector<Piece<N>>& pieces) {
   bool any = false;
@@ -211,7 +212,7 @@ N least_distance2(const std::vector<Piece<N>>& pieces) {
   return least;
 }
 
-/// The pieces of a closed chain of edges: edge i from corner i to the next.
+/// The pieces of a closed chain of edges; edge i goes from corner i to the next one.
 template <class N, std::size_t n>
 std::vector<Piece<N>> perimeter(const std::array<Vector<N>, n>& corner, const Vector<N>& p) {
   std::vector<Piece<N>> pieces;

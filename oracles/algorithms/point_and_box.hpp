@@ -1,5 +1,5 @@
-/// A point beside a box, in the box's frame: which features may be nearest. Shared by the oracles of
-/// queries with boxes.
+/// A point and a box, in the box's frame: which features of the box may be nearest. Shared by the oracles of queries
+/// with boxes.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace nearmiss::oracle {
 
-/// Beyond which sides of the box, per axis: -1, 0 (between the two face planes), +1.
+/// The sides of the box beyond which a point lies, per axis: -1, 0 (between the two face planes), +1.
 using Sides = std::array<int, 3>;
 
 inline int beyond(const Sides& s) { return (s[0] != 0) + (s[1] != 0) + (s[2] != 0); }
 
-/// May `coordinate` lie on `side` of [-half, half]? Face planes belong to both neighbours.
+/// Whether `coordinate` may lie on `side` of [-half, half]. Face planes belong to both neighbours.
 template <class N>
 bool may_be_on_side(const N& coordinate, const N& half, int side) {
   if (side > 0) return may_be_at_most(half, coordinate);
@@ -21,7 +21,7 @@ bool may_be_on_side(const N& coordinate, const N& half, int side) {
   return may_be_at_most(N(-half), coordinate) && may_be_at_most(coordinate, half);
 }
 
-/// Calls f(sides) for each of the 26 regions around the box, not the inside.
+/// Calls f(sides) for each of the 26 regions around the box, without the inside.
 template <class F>
 void for_each_region(F&& f) {
   for (int x = -1; x <= 1; ++x) {
@@ -45,7 +45,7 @@ void for_each_possible_region(const Vector<N>& local, const Vector<N>& half, F&&
   });
 }
 
-/// The outward normals at the feature of that region, if the box's surface is all there is to go by.
+/// The outward normals of the box at the feature of that region.
 template <class N>
 Normals<N> normal_cone(const std::array<Vector<N>, 3>& axes, const Sides& sides) {
   std::vector<Facing<N>> facing;
@@ -53,8 +53,8 @@ Normals<N> normal_cone(const std::array<Vector<N>, 3>& axes, const Sides& sides)
   return Normals<N>::cone(std::move(facing));
 }
 
-/// Calls f(sides) for regions that meet where the point may be on the surface: the outward normals there are those of
-/// these. A region between two face planes has no others than its neighbour beyond one of them.
+/// Calls f(sides) for regions that together have all outward normals at a point that may lie on the surface. A region
+/// between two face planes has no further normals than its neighbour beyond one of them.
 template <class N, class F>
 void for_each_cone_at(const Vector<N>& local, const Vector<N>& half, F&& f) {
   for_each_possible_region(local, half, [&](const Sides& sides) {
@@ -65,7 +65,7 @@ void for_each_cone_at(const Vector<N>& local, const Vector<N>& half, F&& f) {
   });
 }
 
-/// May one of the outward normals there not lead along the motion?
+/// Whether one of the outward normals there may not point along the motion.
 template <class N>
 bool may_be_met(const Vector<N>& step, const Sides& sides) {
   for (int i = 0; i < 3; ++i) {
@@ -74,12 +74,12 @@ bool may_be_met(const Vector<N>& step, const Sides& sides) {
   return false;
 }
 
-/// From the box's nearest feature to a point in that region: `nearest` and `away` add up to the point.
+/// Splits a point of that region into the box's nearest point and the rest: `nearest` + `away` = the point.
 template <class N>
 struct FromFeature {
   Vector<N> nearest, away;
   N distance2;
-  /// Without a root where only one axis counts.
+  /// The length of `away`, without a square root if only one axis counts.
   N distance(const Sides& sides) const {
     return beyond(sides) == 1 ? magnitude(N(away[0] + away[1] + away[2])) : root(distance2);
   }

@@ -1,11 +1,11 @@
-/// A point and a triangle seen along a coordinate axis. Shared by the oracles of containment.
+/// A point and a triangle projected along a coordinate axis. Shared by the oracles of containment.
 #pragma once
 
 #include "oracles/algorithms/nearest_piece.hpp"
 
 namespace nearmiss::oracle {
 
-/// Calls f(axis) for each axis that may be that of the largest component: of several the first.
+/// Calls f(axis) for each axis that may have the component of largest magnitude; of equal components the first counts.
 template <class N, class F>
 void for_each_possible_axis(const Vector<N>& normal, F&& f) {
   for (int k = 0; k < 3; ++k) {
@@ -19,14 +19,14 @@ void for_each_possible_axis(const Vector<N>& normal, F&& f) {
   }
 }
 
-/// The point against the triangle, by the areas of the three triangles that it forms with the edges.
+/// Compares the point with the triangle by the areas of the three triangles that the point forms with the edges.
 template <class N>
 struct SeenAlong {
   bool may_be_inside = false, may_be_outside = false;
   bool may_be_flat = false;    ///< inside, and the triangle has no area
-  bool may_have_area = false;  ///< inside, and it has one
-  std::array<N, 3> weight;     ///< of the corners, where it has an area
-  std::array<int, 2> seen;     ///< the other two axes
+  bool may_have_area = false;  ///< inside, and the triangle has an area
+  std::array<N, 3> weight;     ///< of the corners, if the triangle has an area
+  std::array<int, 2> seen;     ///< the two axes of the projection plane
 
   SeenAlong(const std::array<Vector<N>, 3>& corner, int axis, const Vector<N>& p)
       : seen{(axis + 1) % 3, (axis + 2) % 3} {

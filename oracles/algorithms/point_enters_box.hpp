@@ -1,5 +1,5 @@
-/// A point, or a ball without size, that moves onto a box's surface from outside: in the box's frame separating axes
-/// decide; each face through which the point may enter gives its time. Shared by the oracles of boxes.
+/// A point, or a ball of radius 0, that meets a box's surface from outside. In the box's frame separating axes decide,
+/// and each face through which the point may enter gives its time. Shared by the oracles of boxes.
 #pragma once
 
 #include "oracles/algorithms/point_and_box.hpp"
@@ -10,7 +10,7 @@ namespace nearmiss::oracle {
 
 template <class N>
 struct PointAndBox {
-  Vector<N> point, velocity;  // in the world
+  Vector<N> point, velocity;  // in the world frame
   std::array<Vector<N>, 3> axes;
   Vector<N> origin, half;
 
@@ -23,13 +23,13 @@ struct PointAndBox {
         half(vector(box.half)) {}
 };
 
-/// All right answers: Impact's, with every outward normal against the motion.
+/// Reports all right answers: the impact with every outward normal against the motion.
 template <class N, class Out>
 void report_entry(const PointAndBox<N>& b, Out& out) {
   const RayAndBox<N> r{into(b.axes, minus(b.point, b.origin)), into(b.axes, b.velocity), negated(b.half), b.half};
   const auto contact = [&](const N& time, const Vector<N>& place) {
     Vector<N> location = plus(b.origin, out_of(b.axes, place));
-    if constexpr (is_enclosure<N>) {  // where the point has moved, with no box in it
+    if constexpr (is_enclosure<N>) {  // the point's place by its motion, without the box
       if (is_moderate(time) && is_moderate(b.point) && is_moderate(b.velocity)) {
         const Vector<N> moved = plus(b.point, times(b.velocity, time));
         for (int i = 0; i < 3; ++i) location[i] = meet(location[i], moved[i]);
@@ -47,7 +47,7 @@ void report_entry(const PointAndBox<N>& b, Out& out) {
     for (int i = 0; i < 3; ++i) {
       may_be_strictly_in = may_be_strictly_in && may_be_less(r.low[i], r.at[i]) && may_be_less(r.at[i], r.high[i]);
     }
-    // A start on the surface stays where it does not move away from one of its faces.
+    // A start on the surface is a contact unless the point moves away from one of its faces.
     for_each_face_at(r, r.at, [&](int axis, int side) {
       const N away = side > 0 ? r.step[axis] : N(-r.step[axis]);
       may_be_on_surface = true;

@@ -1,4 +1,4 @@
-/// Truth: either of the two triangles, by the areas that the point forms with the edges.
+/// Truth: containment in either triangle, by the areas that the point forms with the edges.
 #include "impl/catalogue/queries/point_in_rectangle.hpp"
 
 #include "oracles/algorithms/point_and_triangle.hpp"

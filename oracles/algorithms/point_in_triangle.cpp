@@ -9,16 +9,16 @@ namespace nearmiss::oracle {
 
 namespace {
 
-constexpr std::size_t weights = 0;  // where they begin in the answer
+constexpr std::size_t weights = 0;  // index of the first weight in the answer
 
-/// A triangle without area, seen along an axis, on which the point lies.
+/// A triangle without area, projected along an axis, with the point on it.
 template <class N>
 struct FlatTriangle {
   const std::array<Vector<N>, 3>& corner;
   const std::array<int, 2>& seen;
   const Vector<N>& p;
 
-  /// Of the corners, seen from the point, along that axis.
+  /// The corners relative to the point, along that axis.
   Vector<N> from_point(int k) const { return {corner[0][k] - p[k], corner[1][k] - p[k], corner[2][k] - p[k]}; }
 };
 
@@ -28,8 +28,8 @@ inline Vector<Exact> weight_of_two(int i, int j, const Exact& share) {
   return w;
 }
 
-/// The ends of the segment of right weights, where the corners lie at x on a line and the point at 0, between two or on
-/// one of them: no end has three weights.
+/// The ends of the segment of right weights, for corners at x on a line and the point at 0, between two corners or at
+/// one. At each end one weight is zero.
 inline std::vector<Vector<Exact>> ends_of_weights(const Vector<Exact>& x) {
   std::vector<Vector<Exact>> ends;
   for (int i = 0; i < 3; ++i) {
@@ -47,7 +47,7 @@ inline std::vector<Vector<Exact>> ends_of_weights(const FlatTriangle<Exact>& t) 
     if (!surely_zero(x[0]) || !surely_zero(x[1]) || !surely_zero(x[2])) return ends_of_weights(x);
   }
   return {weight_of_two(0, 0, Exact(0)), weight_of_two(1, 1, Exact(0)),
-          weight_of_two(2, 2, Exact(0))};  // all one point
+          weight_of_two(2, 2, Exact(0))};  // all corners are one point
 }
 
 template <class Out, class Make>

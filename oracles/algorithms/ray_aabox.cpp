@@ -15,7 +15,7 @@ void ray_aabox(const inputs::ray_aabox<N>& q, Out& out) {
   for_each_entry(r, [&](const N&, const Vector<N>& place) { out.yes(RayHit{answer_vector(place), true, false}); });
 }
 
-/// A ray that starts in the box meets it there.
+/// A ray that starts in the box meets the box at its start.
 template <class N>
 bool on_surface(const inputs::ray_aabox<N>& q, const GivenPlace<N>& place) {
   return may_be_on_aabox(place, q.aabox) || may_be_point(place, vector(q.ray.origin));

@@ -1,11 +1,11 @@
-/// A ray, or a moving point, and a box, in the box's frame. Shared by the oracles of queries about them.
+/// A ray or a moving point, and a box, in the box's frame. Shared by the oracles of queries about them.
 #pragma once
 
 #include "oracles/algorithms/times.hpp"
 
 namespace nearmiss::oracle {
 
-/// The points at + step t, t >= 0, and { x : low <= x <= high }.
+/// The points at + step t, t >= 0, and the box { x : low <= x <= high }.
 template <class N>
 struct RayAndBox {
   Vector<N> at, step, low, high;
@@ -16,7 +16,7 @@ bool may_be_between(const N& low, const N& x, const N& high) {
   return may_be_at_most(low, x) && may_be_at_most(x, high);
 }
 
-/// May the ray start in the closed box?
+/// Whether the ray may start in the closed box.
 template <class N>
 bool may_start_in(const RayAndBox<N>& r) {
   bool may = true;
@@ -24,7 +24,7 @@ bool may_start_in(const RayAndBox<N>& r) {
   return may;
 }
 
-/// Does the ray surely start in the box as seen along axis k?
+/// Whether the projection of the ray's start along axis k certainly lies in that of the box.
 template <class N>
 bool surely_starts_in_seen_along(const RayAndBox<N>& r, int k) {
   bool surely = true;
@@ -34,9 +34,9 @@ bool surely_starts_in_seen_along(const RayAndBox<N>& r, int k) {
   return surely;
 }
 
-/// May the ray miss the box? Two convex sets are apart when an axis separates them: one of the box's, or a
-/// cross product of one of these with the ray's direction. Such a product, which is nothing where the ray runs along
-/// the axis, separates none that meet as seen along it.
+/// Whether the ray may miss the box. Two convex sets are disjoint if an axis separates them: one of the box's axes, or
+/// the cross product of such an axis with the ray's direction. This product is zero if the ray is parallel to the axis.
+/// It never separates sets whose projections along the axis meet.
 template <class N>
 bool may_miss(const RayAndBox<N>& r) {
   for (int i = 0; i < 3; ++i) {
@@ -58,8 +58,8 @@ bool may_miss(const RayAndBox<N>& r) {
   return false;
 }
 
-/// Calls f(time, place) for each face through which a ray that starts outside may enter: it starts in front
-/// of that face's plane and crosses it in the box. `place` is in the box's frame.
+/// Calls f(time, place) for each face through which a ray that starts outside may enter: the ray starts in front of the
+/// face's plane and crosses the plane in the box. `place` is in the box's frame.
 template <class N, class F>
 void for_each_entry(const RayAndBox<N>& r, F&& f) {
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-/// Truth: the velocity less its projection; rational but for one root.
+/// Truth: the velocity minus its projection on the normal; rational apart from one root.
 #include "impl/catalogue/queries/slide_direction.hpp"
 
 #include "oracles/exact/answer_sink.hpp"
@@ -26,7 +26,7 @@ void slide_direction(const inputs::slide_direction<N>& q, Out& out) {
   if (!may_be_zero(length2)) {
     return answer(minus(v, times(to_center, N(inner(v, to_center) / length2))));
   }
-  const N any = join(N(-1), N(1));  // some vector at most as long as a unit vector
+  const N any = join(N(-1), N(1));  // encloses every vector of at most unit length
   out.yes({{any, any, any}});
 }
 

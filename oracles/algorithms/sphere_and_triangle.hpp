@@ -1,9 +1,9 @@
-/// A sphere that moves toward a one-sided triangle: every possible first contact. Shared by the oracles of
-/// queries with spheres and triangles.
+/// A sphere that moves toward a one-sided triangle: every possible first contact. Shared by the oracles of queries with
+/// spheres and triangles.
 ///
-/// The triangle's nearest feature to the center (face, edge or vertex) depends on signs of linear functions
-/// of time; within a feature's region the squared distance is a quadratic of time, whose earlier root counts.
-/// The distance from a convex set is convex along a line, so the least of these roots is the first contact.
+/// Signs of linear functions of time determine which feature of the triangle (face, edge or vertex) is nearest to the
+/// center. Within a feature's region the squared distance is a quadratic of time, whose earlier root counts. The
+/// distance from a convex set is convex along a line, so the least of these roots is the first contact.
 #pragma once
 
 #include <optional>
@@ -17,14 +17,14 @@ template <class N>
 struct TriangleContact {
   collide::TriangleImpact<N> impact;
   Normals<N> normals{};
-  bool any_weights = false;  ///< of a triangle without area: its corners combine to the location in many ways
+  bool any_weights = false;  ///< in a triangle without area, many weights of the corners give the location
 };
 
 template <class N>
 struct TriangleContacts {
   std::vector<TriangleContact<N>> list;
   bool may_miss = false;
-  /// No later than this where the sphere touches at all.
+  /// An upper bound of the time of contact, if the sphere touches at all.
   double surely_by = std::numeric_limits<double>::infinity();
 };
 
@@ -72,7 +72,7 @@ class SphereAndTriangle {
 
   N lowest(int k) const { return extreme(k, true); }
   N highest(int k) const { return extreme(k, false); }
-  /// Of the corners' coordinates.
+  /// Bounds of the corners' coordinates.
   N extreme(int k, bool low) const {
     N x = corner_[0][k];
     for (int i = 1; i < 3; ++i) {
@@ -103,7 +103,7 @@ class SphereAndTriangle {
     return may_be_at_most_zero(toward) && may_be_before;
   }
 
-  // Normals where the center is on the triangle.
+  // Normals for a center on the triangle.
 
   Normals<N> vertex_cone(int i) const { return Normals<N>::cone({{e_[i], -1, 0}, {e_[(i + 2) % 3], 0, 1}}); }
   Normals<N> edge_cone(int i) const { return Normals<N>::cone({{e_[i], 0, 0}, {out_[i], 0, 1}}); }
@@ -132,13 +132,13 @@ class SphereAndTriangle {
     return w;
   }
 
-  /// A place on the triangle's boundary or in it, and its outward normals.
+  /// A place on the triangle's boundary or inside, and the outward normals there.
   struct Place {
     Vector<N> point, weights;
     Normals<N> cone;
   };
   Place vertex(int i) const { return {corner_[i], vertex_weights(i), vertex_cone(i)}; }
-  /// On edge i, as far along as the given point.
+  /// The point of edge i at the same parameter as the given point.
   Place on_edge(int i, const Vector<N>& w) const {
     N along(0);
     if constexpr (is_enclosure<N>) along = N(0, 1);
@@ -153,7 +153,7 @@ class SphereAndTriangle {
     }
     return l;
   }
-  /// How far the triangle reaches from its longest edge; for a triangle that may have no area.
+  /// How far the triangle extends from its longest edge; for a triangle that may have no area.
   N thickness() const {
     if constexpr (is_enclosure<N>) {
       const int l = longest();
@@ -165,8 +165,8 @@ class SphereAndTriangle {
       return N(0);
     }
   }
-  /// The point of the longest edge's line nearest to x, which is over the face. That is beyond the edge's ends no
-  /// further than the third corner's is: of edges that are nearly as long, the one asked about may not be the longest.
+  /// The point nearest to x, which is over the face, on the line of the longest edge. It lies beyond the edge's ends by
+  /// no more than the third corner's foot: if edges have nearly the same length, the given edge may not be the longest.
   Vector<N> beside_longest_edge(const Vector<N>& x) const {
     const int l = longest();
     if (may_be_zero(e2_[l])) return on_edge(l, minus(x, corner_[l])).point;
@@ -174,8 +174,8 @@ class SphereAndTriangle {
     const N along = inner(minus(x, corner_[l]), e_[l]) / e2_[l];
     return plus(corner_[l], times(e_[l], N(assume_within(along, bounds(third).low, bounds(third).high))));
   }
-  /// The foot of a point on the plane, in the face; empty where it cannot be there. An enclosure is also as near to
-  /// the longest edge's line as the triangle is thick, which tells something of thin ones alone.
+  /// The foot of a point on the plane, if it may lie in the face; empty otherwise. Also bounds an enclosure by its
+  /// distance from the longest edge's line, at most the triangle's thickness, which tightens only thin triangles.
   std::optional<Place> in_face(const Vector<N>& x) const {
     Place place{{}, {N(0), N(0), N(0)}, face_cone()};
     if constexpr (is_enclosure<N>) {
@@ -213,7 +213,7 @@ class SphereAndTriangle {
     return may;
   }
 
-  /// Contacts at time 0. Tells whether the sphere may start apart.
+  /// Reports contacts at time 0. Returns whether the sphere may start apart.
   bool start() {
     bool may_start_apart = false;
     const auto from = [&](const Place& place, const N& tighter2, bool over_face) {
@@ -258,7 +258,7 @@ class SphereAndTriangle {
       if (surely_has_area()) tighter2 = meet(tighter2, N(square(inner(n_, from_corner(0))) / n2_));
       from(*foot, tighter2, true);
     }
-    if constexpr (is_enclosure<N>) {  // where a part may have no length, little is known of what is nearest
+    if constexpr (is_enclosure<N>) {  // if an edge may have no length, little is known about the nearest feature
       if (may_start_apart && surely_overlaps_at_start()) return false;
     }
     return may_start_apart;
@@ -266,8 +266,8 @@ class SphereAndTriangle {
 
   // Roots.
 
-  /// When a point at w, moving by u, comes as near to the origin as the root of `reach2`; `moment2` is
-  /// |w x u|^2. Empty where it never does.
+  /// The time at which a point at w with velocity u comes within sqrt(`reach2`) of the origin; `moment2` is |w x u|^2.
+  /// Empty if it never does.
   std::optional<N> root_time(const Vector<N>& w, const Vector<N>& u, const N& reach2, const N& moment2,
                              const Window& window, bool& surely) const {
     const N closing = -inner(w, u);
@@ -283,7 +283,7 @@ class SphereAndTriangle {
   /// |(w x e) x (v x e)|^2 = |e|^2 (e . (w x v))^2.
   N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(inner(e_[i], cross(w, v_))); }
 
-  /// `away` leads from the place to the center.
+  /// `away` is the vector from the place to the center.
   void add_root(const N& time, const Place& place, const Vector<N>& away, bool surely) {
     Contact c{{time, answer_vector(place.point), {}, {}}};
     set_weights(c, place.weights);
@@ -304,7 +304,7 @@ class SphereAndTriangle {
     window.clip(times_not_positive(N(inner(w, e_[i])), N(inner(v_, e_[i]))));
     window.clip(times_not_positive(N(-inner(w, e_[(i + 2) % 3])), N(-inner(v_, e_[(i + 2) % 3]))));
     bool surely = false;
-    if (is_enclosure<N>) {  // whatever its region, the ball about the vertex is an upper bound
+    if (is_enclosure<N>) {  // the ball about the vertex is an upper bound in every region
       const auto bound = root_time(w, v_, square(r_), moment2(w), near_, surely);
       if (bound && surely) surely_by_ = std::min(surely_by_, bounds(*bound).high);
     }
@@ -334,7 +334,8 @@ class SphereAndTriangle {
     if (!of_line) return;
     N time = *of_line;
     if constexpr (is_enclosure<N>) {
-      // Is the line surely touched between the edge's ends? The window assumes that it is, so it comes afterwards.
+      // Whether the line is certainly touched between the edge's ends. The window assumes so, hence the check comes
+      // afterwards.
       const bool bounded = time.sup() < std::numeric_limits<double>::infinity();
       if (surely && bounded && surely_between(i, at(time))) surely_by_ = std::min(surely_by_, time.sup());
       window.clip({0, surely_by_});
@@ -346,8 +347,8 @@ class SphereAndTriangle {
     Vector<N> away = minus(x, place.point);
     if (edge_about_middle(i, time, place, away)) add_root(time, place, away, false);
   }
-  /// Within reach of an edge the center is no further from the edge's start than both together: the line of a short
-  /// edge, of which hardly the direction is known, passes near much that the edge does not.
+  /// A center within reach of an edge is at most reach plus the edge's length away from the edge's start. The line of a
+  /// short edge, whose direction is hardly known, passes near much that the edge does not.
   Window times_near_edge(int i, const N& reach) const {
     const Vector<N> w = from_corner(i);
     return times_within(w, v_, square(N(reach + root(e2_[i]))), moment2(w));
@@ -357,7 +358,7 @@ class SphereAndTriangle {
     return !may_be_negative(along) && !may_be_positive(N(along - e2_[i]));
   }
 
-  // The same contacts about a fixed time and a fixed place on the feature; false where nothing is left.
+  // The same contacts about a fixed time and a fixed place on the feature; false if the intersection is empty.
 
   bool all_moderate(const N& time) const {
     if constexpr (is_enclosure<N>) {
@@ -394,7 +395,7 @@ class SphereAndTriangle {
       const std::array<double, 2> weight = near_weights(corner_, x0);
       if (!(std::abs(weight[0]) < 0x1p20 && std::abs(weight[1]) < 0x1p20)) return true;
       const Vector<N> middle = combined(corner_, weight), from = minus(p_, middle);
-      // The squared height is the squared distance less that within the plane, which is about zero.
+      // The squared height is the squared distance minus that within the plane, which is about zero.
       const Vector<N> at_t0 = plus(from, times(v_, N(t0))), at_any = plus(from, times(v_, join(time, N(t0))));
       const N beyond = norm2(at_t0) - norm2(cross(n_, at_t0)) / n2_ - square(r_);
       const N slope = inner(n_, v_) * inner(n_, at_any) / n2_;
@@ -460,7 +461,8 @@ class SphereAndTriangle {
     all_.list.push_back(std::move(c));
   }
 
-  /// How far the triangle reaches from its longest edge: as its third corner from the line, or from an end.
+  /// How far the triangle extends from its longest edge: the distance of its third corner from the line, or from an
+  /// end.
   double reach_from_longest_edge() const {
     const int l = longest();
     const double most = std::min(root(e2_[(l + 1) % 3]).sup(), root(e2_[(l + 2) % 3]).sup());
@@ -469,8 +471,8 @@ class SphereAndTriangle {
     const bool beside = !may_be_negative(third) && !may_be_positive(N(third - N(1)));
     return beside ? std::min(most, N(root(n2_) / root(e2_[l])).sup()) : most;
   }
-  /// The sphere touches the triangle only while it is as near to the longest edge as the triangle reaches from it. That
-  /// holds for every triangle, but tells something of thin ones alone.
+  /// The sphere touches the triangle only while the center is within the radius plus the triangle's extent of the
+  /// longest edge. This holds for every triangle, but tightens only thin ones.
   Window times_near_longest_edge() const {
     Window times;
     if constexpr (is_enclosure<N>) {
@@ -489,8 +491,8 @@ class SphereAndTriangle {
     return times;
   }
 
-  /// The same of the place that a sphere at x touches: near it is a place on the longest edge, in reach of x. False
-  /// where there is none.
+  /// The same for the place that a sphere at x touches: near it is a place on the longest edge, within reach of x.
+  /// False if there is none.
   bool narrow_to_longest_edge(const Vector<N>& x, Vector<N>& place) const {
     if constexpr (is_enclosure<N>) {
       const int l = longest();
@@ -521,7 +523,7 @@ class SphereAndTriangle {
     }
   }
 
-  /// Among exact roots the least; among enclosures each may be, but for those after a sure contact.
+  /// The least of the exact roots. Of enclosures, each root may be the least, except those after a certain contact.
   void keep_first(std::size_t at_start) {
     std::vector<Contact>& list = all_.list;
     if constexpr (is_enclosure<N>) {
@@ -549,7 +551,7 @@ class SphereAndTriangle {
     }
   }
 
-  /// A center that comes from the front through the triangle, however small the sphere.
+  /// Whether the center certainly passes through the triangle from the front, however small the sphere.
   bool center_surely_crosses() const {
     if (may_be_at_least_zero(N(inner(n_, v_))) || may_be_at_most_zero(N(inner(n_, from_corner(0))))) return false;
     bool within = true;
@@ -560,7 +562,7 @@ class SphereAndTriangle {
     return within;
   }
 
-  // A sure overlap, at a time and a place found in plain doubles, which prove nothing by themselves.
+  // Certain overlap, at a time and a place found in plain doubles. How they are found proves nothing.
 
   struct Doubles {
     double p[3], v[3], c[3][3];
@@ -569,7 +571,7 @@ class SphereAndTriangle {
     const Bounds b = bounds(x);
     return 0.5 * b.low + 0.5 * b.high;
   }
-  /// The weights of corners 1 and 2 at the nearest point to x; rounded to multiples of 2^-50, whose sums are exact.
+  /// The weights of corners 1 and 2 at the point nearest to x, rounded to multiples of 2^-50, whose sums are exact.
   static std::array<double, 2> nearest_weights(const Doubles& d, const double* x) {
     double a[3], b[3], w[3];
     for (int k = 0; k < 3; ++k) a[k] = d.c[1][k] - d.c[0][k], b[k] = d.c[2][k] - d.c[0][k], w[k] = x[k] - d.c[0][k];
@@ -601,8 +603,8 @@ class SphereAndTriangle {
     }
     return d;
   }
-  /// How far the center is at that time beyond the radius, squared, from the place with those weights of corners 1
-  /// and 2.
+  /// The squared distance, at that time, of the center from the place with those weights of corners 1 and 2, minus the
+  /// squared radius.
   N beyond(double time, const std::array<double, 2>& weights) const {
     const Vector<N> q =
         plus(corner_[0], plus(times(e_[0], N(weights[0])), times(minus(corner_[2], corner_[0]), N(weights[1]))));

@@ -1,4 +1,4 @@
-/// Truth: the squared distance from each region around the box in which the center may lie.
+/// Truth: the squared distance from the feature of each region around the box in which the center may lie.
 #include "impl/catalogue/queries/sphere_box_overlap.hpp"
 
 #include "oracles/algorithms/point_and_box.hpp"
@@ -10,7 +10,7 @@ void sphere_box_overlap(const inputs::sphere_box_overlap<N>& q, Out& out) {
   const Vector<N> half = vector(q.box.half);
   const Vector<N> local =
       into(rotation_axes<N>(q.box.orientation), minus(vector(q.sphere.center), vector(q.box.center)));
-  bool may_meet = true;  // inside?
+  bool may_meet = true;  // may the center be inside?
   for (int i = 0; i < 3; ++i) may_meet = may_meet && may_be_on_side(local[i], half[i], 0);
   bool may_be_apart = false;
   for_each_possible_region(local, half, [&](const Sides& sides) {

@@ -13,7 +13,7 @@ void sphere_box_penetration(const inputs::sphere_box_penetration<N>& q, Out& out
   const Vector<N> half = vector(q.box.half), center = vector(q.sphere.center);
   const Vector<N> local = into(axes, minus(center, vector(q.box.center)));
 
-  // Outside: from the center to the nearest feature. On the surface: against any outward normal.
+  // Outside: the normal points from the center to the nearest feature. On the surface: against any outward normal.
   for_each_possible_region(local, half, [&](const Sides& sides) {
     const FromFeature<N> from = from_feature(local, half, sides);
     const N distance = from.distance(sides);
@@ -38,7 +38,7 @@ void sphere_box_penetration(const inputs::sphere_box_penetration<N>& q, Out& out
   });
 }
 
-/// The box's nearest point, or the sphere's deepest.
+/// The contact: the box's nearest point, or the sphere's deepest one.
 template <class N>
 bool on_surface(const inputs::sphere_box_penetration<N>& q, const GivenPlace<N>& place) {
   return may_be_on_box(place, q.box) || may_be_on_sphere(place, q.sphere);

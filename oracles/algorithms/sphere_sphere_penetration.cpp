@@ -1,4 +1,4 @@
-/// Truth: the distance of the centers, one root; any normal where they coincide.
+/// Truth: the distance of the centers, one root; any normal if the centers coincide.
 #include "impl/catalogue/queries/sphere_sphere_penetration.hpp"
 
 #include "oracles/algorithms/surface.hpp"
@@ -16,7 +16,7 @@ void sphere_sphere_penetration(const inputs::sphere_sphere_penetration<N>& q, Ou
   const auto answer = [&](const Vector<N>& normal, const Vector<N>& contact) -> collide::Penetration<N> {
     return {depth, answer_vector(normal), answer_vector(contact)};
   };
-  if (may_be_zero(distance2)) {  // any normal, and the contact goes with it
+  if (may_be_zero(distance2)) {  // any normal, with the contact that belongs to it
     constexpr std::size_t normal = 1, contact = 4;
     return yes_to_any(NormalWithPlace<N>{Normals<N>::any(), center, q.sphere1.radius, normal, contact}, out, answer);
   }

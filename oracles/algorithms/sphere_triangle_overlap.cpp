@@ -1,4 +1,4 @@
-/// Truth: the least squared distance of the face and the edges, against the squared radius.
+/// Truth: the least squared distance from the face and the edges, compared with the squared radius.
 #include "impl/catalogue/queries/sphere_triangle_overlap.hpp"
 
 #include "oracles/algorithms/nearest_piece.hpp"

@@ -1,5 +1,5 @@
-/// May a place of the answer lie on a shape's surface? The squared distance of the place, which may be some slack off,
-/// is held against the slack. Shared by the oracles of queries that answer with a place on a surface.
+/// Whether a place of the answer may lie on a shape's surface. Compares the place's squared distance from the surface
+/// with the slack of the place. Shared by the oracles of queries that answer with a place on a surface.
 #pragma once
 
 #include "oracles/algorithms/nearest_piece.hpp"
@@ -16,7 +16,7 @@ bool may_be_point(const GivenPlace<N>& g, const Vector<N>& point) {
   return within_slack(g, norm2(minus(g.at, point)));
 }
 
-/// From a segment, or from the corners' other edges and faces: the squared distance of the place.
+/// The squared distance of the place from a segment, or from the edges and faces of the corners.
 template <class N>
 N distance2_of_segment(const GivenPlace<N>& g, const Vector<N>& v0, const Vector<N>& v1) {
   return edge_piece(std::array<Vector<N>, 2>{v0, v1}, 0, 1, g.at).all.distance2;
@@ -57,7 +57,7 @@ bool may_be_on_plane(const GivenPlace<N>& g, const P& p) {
   return may_be_at_most(square(N(inner(n, g.at) + p.offset)), N(square(g.slack) * norm2(n)));
 }
 
-/// At that distance from something: neither nearer nor further by more than the slack.
+/// At that distance from a point or an axis: neither nearer nor further by more than the slack.
 template <class N>
 bool may_be_at_radius(const GivenPlace<N>& g, const N& distance2, const N& radius) {
   if (!may_be_at_most(distance2, square(N(radius + g.slack)))) return false;
@@ -73,7 +73,7 @@ bool may_be_on_capsule(const GivenPlace<N>& g, const C& c) {
   return may_be_at_radius(g, distance2_of_segment(g, vector(c.p0), vector(c.p1)), c.radius);
 }
 
-/// In the frame of { x : low <= x <= high }: near the box, and not strictly inside by more than the slack.
+/// In the frame of { x : low <= x <= high }: near the box, and not inside by more than the slack.
 template <class N>
 bool may_be_on_faces(const GivenPlace<N>& g, const Vector<N>& local, const Vector<N>& low, const Vector<N>& high) {
   N distance2(0);

@@ -1,4 +1,4 @@
-/// Times of linear motions, known also where a speed may be zero. Shared by the oracles of moving points.
+/// Times of linear motions, bounded even if a speed may be zero. Shared by the oracles of moving points.
 #pragma once
 
 #include <limits>
@@ -7,7 +7,7 @@
 
 namespace nearmiss::oracle {
 
-/// Any time from 0 on.
+/// Any time t >= 0.
 template <class N>
 N any_time() {
   if constexpr (is_enclosure<N>) {
@@ -17,15 +17,15 @@ N any_time() {
   }
 }
 
-/// The time in which `gap`, not negative, is crossed at `speed`, which is positive in the branch at hand.
+/// The time in which `gap` >= 0 is crossed at `speed`, which is positive in the current branch.
 template <class N>
 N time_across(const N& gap, const N& speed) {
   if (may_be_zero(speed)) return any_time<N>();
   return assume_at_least_zero(gap) / assume_at_least_zero(speed);
 }
 
-/// Narrows `time`, at which the point at + step t lies between the points low and high, to what that leaves
-/// of it; false where it leaves nothing. Exact times stay as they are.
+/// Narrows `time` to when the point at + step t lies between the points low and high; false if there is no such time.
+/// Leaves exact times as they are.
 template <class N>
 bool narrow_to_range(N& time, const Vector<N>& at, const Vector<N>& step, const Vector<N>& low, const Vector<N>& high) {
   if constexpr (is_enclosure<N>) {
@@ -37,8 +37,8 @@ bool narrow_to_range(N& time, const Vector<N>& at, const Vector<N>& step, const 
   return true;
 }
 
-/// The place of the moving point at that time, known to lie between low and high; false where it cannot.
-/// Exact places stay as they are.
+/// The place of the moving point at that time, intersected with the box from low to high; false if the intersection is
+/// empty. Leaves exact places as they are.
 template <class N>
 bool place_in_range(const N& time, const Vector<N>& at, const Vector<N>& step, const Vector<N>& low,
                     const Vector<N>& high, Vector<N>& place) {

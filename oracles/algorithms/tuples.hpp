@@ -1,14 +1,14 @@
-/// Sets of right answers whose numbers go together: a normal with the place that it leads to, the points of a patch. An
-/// oracle names the set; the given answer is held against the nearest member. Shared by the oracles of queries with
-/// them.
+/// Sets of right answers whose numbers depend on each other: a normal and its place, the points of a patch. An oracle
+/// names the set, and the given answer is compared with the nearest member. Shared by the oracles of queries with such
+/// sets.
 #pragma once
 
 #include "oracles/exact/answer_sink.hpp"
 
 namespace nearmiss::oracle {
 
-/// Each of the normals n is right together with the place base + reach n. `normal` and `place` say where they begin in
-/// the answer.
+/// With each of the normals n the place base + reach n is right. `normal` and `place` are the indices of their first
+/// numbers in the answer.
 template <class N>
 struct NormalWithPlace {
   Normals<N> normals;
@@ -17,8 +17,9 @@ struct NormalWithPlace {
   std::size_t normal, place;
 };
 
-/// The given normal in whichever form both together are nearest.
-inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, const Cone& cone, const NormalOffset& lever) {
+/// The nearest of the given normal's forms, with normal and place compared together.
+inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, const Cone& cone,
+                                      const NormalOffset& lever) {
   NearestNormal nearest = nearest_normal(normal.front(), cone, lever);
   for (std::size_t i = 1; i < normal.size() && nearest.ulps.low > 0; ++i) {
     const NearestNormal other = nearest_normal(normal[i], cone, lever);
@@ -29,7 +30,7 @@ inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, co
   return nearest;
 }
 
-/// Reports the whole set; make(normal, place) is the answer.
+/// Reports the whole set; make(normal, place) builds the answer.
 template <class Out, class Make>
 void yes_to_any(const NormalWithPlace<Exact>& set, Out& out, Make make) {
   const Cone cone = cone_of(set.normals);
@@ -43,7 +44,7 @@ void yes_to_any(const NormalWithPlace<Exact>& set, Out& out, Make make) {
   const NormalOffset lever{out.given_vector(set.place).front(), rational(set.base), rational(set.reach)};
   const NearestNormal both = nearest_together(normal, cone, lever);
   SetDistance from{{{set.normal, {0, both.ulps.high}}, {set.place, {0, both.ulps.high}}}, both.ulps};
-  if (both.ulps.low > 0) {  // by themselves they may be right
+  if (both.ulps.low > 0) {  // alone each may be right
     GivenVector nothing;
     nothing.scalar = normal.front().scalar;
     from.vectors[0].ulps = ulps_from(normal, set.normals);
@@ -63,11 +64,11 @@ void yes_to_any(const NormalWithPlace<Interval>& set, Out& out, Make make) {
   for (const GivenVector& g : given) both = std::min(both, least_ulps_together(g, place, set.base, set.reach));
   out.yes(make(normal, plus(set.base, times(normal, set.reach))),
           SetDistance{{{set.normal, ulps_from(given, set.normals)},
-                   {set.place, {least_ulps(place, set.base, set.reach), HUGE_VAL}}},
-                  {both, HUGE_VAL}});
+                       {set.place, {least_ulps(place, set.base, set.reach), HUGE_VAL}}},
+                      {both, HUGE_VAL}});
 }
 
-/// Every point of a convex polygon is right; `point` says where it begins in the answer.
+/// Reports that every point of a convex polygon is right; `point` is the index of its first number in the answer.
 template <class Out, class Make>
 void yes_to_any_of(const std::vector<Vector<Exact>>& corners, std::size_t point, Out& out, Make make) {
   for (const Vector<Exact>& corner : corners) out.yes(make(corner));
@@ -76,16 +77,17 @@ void yes_to_any_of(const std::vector<Vector<Exact>>& corners, std::size_t point,
   for (const Vector<Exact>& corner : corners) polygon.push_back(rational(corner));
   const NearestPoint nearest = nearest_in_polygon(out.given_vector(point).front(), polygon);
   const RationalVector& x = nearest.member ? *nearest.member : polygon.front();
-  out.yes(make(Vector<Exact>{Exact(x[0]), Exact(x[1]), Exact(x[2])}), SetDistance{{{point, nearest.ulps}}, nearest.ulps});
+  out.yes(make(Vector<Exact>{Exact(x[0]), Exact(x[1]), Exact(x[2])}),
+          SetDistance{{{point, nearest.ulps}}, nearest.ulps});
 }
-/// Of the given point, from the nearest that is on all the forms.
+/// A lower bound of the given point's distance from every point that satisfies all forms, in ulps.
 template <class Out>
 Bounds ulps_from(const std::vector<Form>& forms, std::size_t point, const Out& out) {
   double least = 0;
   for (const Form& form : forms) least = std::max(least, least_ulps(out.given_vector(point).front(), form));
   return {least, HUGE_VAL};
 }
-/// The same for every point that is on all the forms; `a` encloses their answers.
+/// Reports that every point that satisfies all forms is right; `a` encloses their answers.
 template <class Out, class A>
 void yes_to_all_on(const std::vector<Form>& forms, std::size_t point, Out& out, const A& a) {
   const Bounds ulps = ulps_from(forms, point, out);

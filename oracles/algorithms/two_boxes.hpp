@@ -1,14 +1,14 @@
-/// Two boxes and their fifteen axes in the world. Shared by the oracles of the queries about pairs of boxes.
+/// Two boxes and their fifteen axes in the world frame. Shared by the oracles of the queries about pairs of boxes.
 ///
-/// An enclosure of a cross product a x b that holds zero may have any direction u at a right angle to a, an axis of one
-/// box, and to b, one of the other. Seen along a, both boxes are polygons but for h |b . u|, h the half extent along b,
-/// which is at most h |a x b|. The polygons' edges stand at a right angle to four axes: the two others of a's box, and
-/// a's cross products with the two others of b's. So
-/// 1. the overlap along u is at least the least of these four minus h |a x b|;
+/// If an enclosure of a cross product a x b contains zero, it may have any direction u perpendicular to a, an axis of
+/// one box, and to b, an axis of the other. Projected along a, both boxes are polygons apart from an extent of h |b .
+/// u|, where h is the half extent along b; that is at most h |a x b|. The polygons' edges are perpendicular to four
+/// axes: the two other axes of a's box, and a's cross products with the two other axes of b's box. Therefore:
+/// 1. the overlap along u is at least the least overlap along these four axes minus h |a x b|;
 /// 2. a gap along u is at most the distance of the polygons. That is the gap along one of the four axes, or the
-/// distance of
-///    two corners: then two of the axes that stand at an angle of at most 90 degrees, with gaps f and g, enclose it,
-///    and it is at most the root of f^2 + g^2, and at most the larger gap over the cosine of half the angle.
+///    distance of two corners. In the second case two of the axes, at an angle of at most 90 degrees and with gaps f
+///    and g, enclose u, and the distance is at most sqrt(f^2 + g^2) and at most the larger gap over the cosine of half
+///    the angle.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct TwoBoxes {
         half2(vector(box2.half)),
         between(minus(center2, center1)) {}
 
-  /// 0-2 the axes of box 1, 3-5 of box 2, 6 + 3 i + j the cross product of axis i and axis j.
+  /// 0-2 are the axes of box 1, 3-5 those of box 2, 6 + 3 i + j is the cross product of axis i and axis j.
   Vector<N> axis(int k) const {
     if (k < 3) return axes1[k];
     if (k < 6) return axes2[k - 3];
@@ -43,15 +43,15 @@ struct TwoBoxes {
   }
   N cosine(int i, int j) const { return assume_within(inner(axes1[i], axes2[j]), -1.0, 1.0); }
 
-  /// Half the lengths of the boxes' shadows on axis k, times |axis k|. A box reaches its half extent along
-  /// an axis of its own, and nothing of an edge at a right angle to it.
+  /// Half the lengths of the boxes' projections on axis k, times |axis k|. Along one of its own axes a box extends by
+  /// its half extent; an edge perpendicular to axis k adds nothing.
   N reach1(int k, const Vector<N>& axis) const {
     return reach(axes1, half1, axis, k < 3 ? k : -1, k < 6 ? -1 : (k - 6) / 3);
   }
   N reach2(int k, const Vector<N>& axis) const {
     return reach(axes2, half2, axis, k >= 3 && k < 6 ? k - 3 : -1, k < 6 ? -1 : (k - 6) % 3);
   }
-  /// How far the shadows lie apart, times |axis k|; negative where they overlap.
+  /// The gap between the projections, times |axis k|; negative if they overlap.
   N gap(int k, const Vector<N>& axis) const {
     return magnitude(inner(between, axis)) - reach1(k, axis) - reach2(k, axis);
   }
@@ -69,13 +69,13 @@ struct TwoBoxes {
   }
 };
 
-/// One of the fifteen axes, and how the boxes lie along it.
+/// One of the fifteen axes, and the boxes' projections on it.
 template <class N>
 struct PairAxis {
   Vector<N> direction;  // of any length
-  N gap{0}, length{1};  // times the length
+  N gap{0}, length{1};  // both times the direction's length
   bool may_exist = true, must_exist = true;
-  N depth{0};  // minus the gap, of the unit axis; where the axis must exist
+  N depth{0};  // minus the gap, along the unit axis; valid if the axis exists
 
   PairAxis() = default;
   PairAxis(const TwoBoxes<N>& boxes, int k) : direction(boxes.axis(k)), gap(boxes.gap(k, direction)) {
@@ -94,7 +94,7 @@ inline double least_depth(const PairAxis<Interval>& a) {
   return a.must_exist ? a.depth.inf() : -std::numeric_limits<double>::infinity();
 }
 
-/// The four axes at a right angle to a, where a x b is axis k, and the half extent along b.
+/// The four axes perpendicular to a, where a x b is axis k, and the half extent along b.
 struct Across {
   std::array<int, 4> axis;
   Interval half;
@@ -107,7 +107,7 @@ inline std::array<Across, 2> across(const TwoBoxes<Interval>& boxes, int k) {
           Across{{3 + j1, 3 + j2, cross(i1, j), cross(i2, j)}, boxes.half1[i]}};
 }
 
-/// What no overlap along a unit vector at a right angle to both edges of axis k is below (1).
+/// A lower bound, by (1), of the overlap along every unit vector perpendicular to both edges of axis k.
 inline double least_depth_across(const TwoBoxes<Interval>& boxes, const PairAxes& axes, int k) {
   double least = -std::numeric_limits<double>::infinity();
   for (const Across& a : across(boxes, k)) {
@@ -118,14 +118,14 @@ inline double least_depth_across(const TwoBoxes<Interval>& boxes, const PairAxes
   return least;
 }
 
-/// The distance of two corners between two unit axes with these gaps, which are not negative; at least one of the gaps.
+/// An upper bound of the distance of two corners between two unit axes with these gaps >= 0; at least the larger gap.
 inline double distance_between(const PairAxis<Interval>& a, const PairAxis<Interval>& b, double gap_a, double gap_b) {
   const Interval cosine = assume_within(magnitude(inner(a.direction, b.direction)) / (a.length * b.length), 0.0, 1.0);
   const Interval over_half_angle = Interval(std::max(gap_a, gap_b)) * root(Interval(2) / (Interval(1) + cosine));
   return std::min(over_half_angle.sup(), root(square(Interval(gap_a)) + square(Interval(gap_b))).sup());
 }
 
-/// What no gap along a unit vector at a right angle to both edges of axis k is above (2).
+/// An upper bound, by (2), of the gap along every unit vector perpendicular to both edges of axis k.
 inline double most_gap_across(const TwoBoxes<Interval>& boxes, const PairAxes& axes, int k) {
   double most = std::numeric_limits<double>::infinity();
   for (const Across& a : across(boxes, k)) {

@@ -13,7 +13,7 @@ namespace nearmiss::oracle {
 
 namespace {
 
-/// A number of 256 bits; every operation below rounds to nearest, with a relative error of 2^-256.
+/// A number of 256 bits. Every operation below rounds to nearest, with a relative error of at most 2^-256.
 class Wide {
  public:
   Wide() { mpfr_init2(value_, 256); }
@@ -24,7 +24,7 @@ class Wide {
 
   mpfr_t& get() { return value_; }
   const mpfr_t& get() const { return value_; }
-  /// Doubles around the number, which at most ten operations on numbers up to `largest` made of exact ones.
+  /// Doubles that enclose the exact value, if at most ten operations on numbers up to `largest` made this one.
   Bounds around(const Wide& largest) const {
     Wide slack;
     mpfr_div_2ui(slack.value_, largest.value_, 250, MPFR_RNDU);
@@ -60,11 +60,11 @@ bool gives_all(const Answer& about, const Layout::Part& part) {
   return all;
 }
 
-/// Every vector of length 1 differs from these three numbers by as much in one of them; 0 for a NaN.
+/// Lower bound of the distance, in the maximum norm, of these three numbers from every unit vector; 0 for a NaN.
 double apart_from_unit_vectors(const double* n) {
   const long double length = std::sqrt(static_cast<long double>(n[0]) * n[0] + static_cast<long double>(n[1]) * n[1] +
                                        static_cast<long double>(n[2]) * n[2]);
-  constexpr long double below_the_root_of_a_third = 0.577L;  // what rounds here is far less
+  constexpr long double below_the_root_of_a_third = 0.577L;  // exceeds by far the rounding here
   const double apart = static_cast<double>(below_the_root_of_a_third * std::abs(length - 1));
   return apart > 0 ? std::min(apart, std::numeric_limits<double>::max()) : 0;
 }
@@ -86,7 +86,7 @@ Bounds bounds(const Exact& x) {
     const Wide& larger = mpfr_cmpabs(a.get(), value.get()) > 0 ? a : value;
     return sum.around(larger);
   }
-  // What nearly cancels: divide the exact norm by the conjugate, whose terms add up.
+  // Cancellation: divide the exact norm a^2 - b^2 c by the conjugate, whose terms have the same sign.
   Wide norm(Rational(x.a0() * x.a0() - x.a1() * x.a1() * x.root()));
   mpfr_sub(value.get(), a.get(), value.get(), MPFR_RNDN);
   mpfr_div(value.get(), norm.get(), value.get(), MPFR_RNDN);
@@ -95,7 +95,7 @@ Bounds bounds(const Exact& x) {
 
 EnclosureAccumulator::EnclosureAccumulator(const Answer& about, Scalar scalar, const Layout& layout)
     : about_(about), scalar_(scalar), layout_(layout) {
-  constexpr long double most_from_unit = 0.5L;  // a vector that is further off is compared as it is given
+  constexpr long double most_from_unit = 0.5L;  // beyond this, the vector is compared as given
   for (const Layout::Part& part : layout.parts) {
     if (part.role != Role::normal || !about.yes || !about.gives(part.begin)) continue;
     const double* n = &about.values[part.begin];
@@ -129,11 +129,11 @@ void EnclosureAccumulator::count_everything() {
   result_.ulps_at_most = result_.ulps_at_most_of_any = infinity;
 }
 
-/// How far one member of the given answer is from that of an exact one, in ulps of it.
+/// The distance of one member of the given answer from that of an exact one, in ulps of that member.
 struct EnclosureAccumulator::Distance {
   double least = 0, most = 0;
-  double absolute = 0;  ///< the least, not in ulps
-  int number = -1;      ///< which number is so far off
+  double absolute = 0;  ///< the least distance, not in ulps
+  int number = -1;      ///< index of the number with this distance
 
   void include(const Bounds& off, double unit, std::size_t i) {
     most = std::max(most, off.furthest_from_zero() / unit);
@@ -142,8 +142,8 @@ struct EnclosureAccumulator::Distance {
   }
 };
 
-/// A normal is as near as it is given, or as its direction is: its length is judged on its own. One that has no
-/// direction is no normal, wherever the right ones may point.
+/// The distance of a normal is the smaller of two: as given, and divided by its length, because its length is judged
+/// separately. A vector without a direction is no normal, whatever the right normals are.
 EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors) const {
   const double unit = unit_of(about_, part, errors.of, scalar_);
   Distance as_given, of_direction;
@@ -175,8 +175,9 @@ void EnclosureAccumulator::include_enclosure(const Errors& errors, SetDistance& 
   }
 }
 
-/// Of a vector that belongs to a set; the number is the one that a member is furthest from.
-EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors, const Bounds& ulps) const {
+/// The distance of a vector that belongs to a set; `number` is the component furthest from its enclosure.
+EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors,
+                                                                 const Bounds& ulps) const {
   double largest = 0;
   std::size_t furthest = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
@@ -218,7 +219,7 @@ void EnclosureAccumulator::count(bool yes, const Errors& errors, std::size_t giv
   };
   for (std::size_t p = 0; p < layout_.parts.size(); ++p) {
     const Layout::Part& part = layout_.parts[p];
-    if (part.end > given) {  // anything is right
+    if (part.end > given) {  // every value is right
       count_member(p, {0, 0, 0, int(part.begin)});
       continue;
     }
@@ -252,11 +253,11 @@ std::optional<PlaceInAnswer> PlaceInAnswer::of(const Answer& about, const Layout
     if (!about.gives(i) || !std::isfinite(about.values[i])) return std::nullopt;
     largest = std::max(largest, std::abs(about.values[i]));
   }
-  // One ulp is that of the largest number, given or exact, and the exact one may be larger by the slack itself.
+  // One ulp is that of the largest number, given or exact. The exact number may be larger by the slack itself.
   const double share = 4 * ulps * unit_roundoff(scalar);
   if (!(share <= 0.5)) return std::nullopt;
   const double unit = ulp(std::min(largest * (1 + share), largest_finite(scalar)), scalar);
-  const double slack = ulps * unit * 1.7320508075688774;  // rounded up from the root of 3
+  const double slack = ulps * unit * 1.7320508075688774;  // sqrt(3), rounded up
   if (!std::isfinite(slack)) return std::nullopt;
   return PlaceInAnswer{part->begin, std::nextafter(slack, HUGE_VAL)};
 }

@@ -1,4 +1,5 @@
-/// Where an oracle's algorithm puts every answer that is possible; compares each with the given one.
+/// The sink to which an oracle's algorithm reports every possible answer. The sink compares each one with the given
+/// answer.
 #pragma once
 
 #include <algorithm>
@@ -16,65 +17,66 @@
 namespace nearmiss::oracle {
 
 inline Bounds bounds(const Interval& x) { return {x.inf(), x.sup()}; }
-/// Tight also where the two parts of a + b sqrt(c) nearly cancel.
+/// Tight even where the two parts of a + b sqrt(c) nearly cancel.
 Bounds bounds(const Exact& x);
 
 /// Exact - given, number by number.
 struct Errors {
   std::array<Bounds, Answer::capacity> of{};
-  /// Of the normal's three numbers, where the given one is divided by its length.
+  /// The same for the three numbers of the normal, with the given normal divided by its length.
   std::array<Bounds, 3> of_direction{};
 };
 
-/// How far the given answer is from the nearest of a set of right ones, in ulps.
+/// The distance, in ulps, of the given answer from the nearest member of a set of right answers.
 struct SetDistance {
-  /// One vector by itself, whatever is beside it; `begin` is its first number.
+  /// One vector judged alone; `begin` is its first number.
   struct Part {
     std::size_t begin;
     Bounds ulps;
   };
   std::vector<Part> vectors;
-  Bounds together{0, 0};  ///< all of them, each with the same member of the set
+  Bounds together{0, 0};  ///< all vectors, each compared with the same member of the set
 };
 
-/// The part of Outcomes that does not depend on the answer's type.
+/// The part of AnswerSink that does not depend on the answer's type: accumulates the enclosure of all reported answers.
 class EnclosureAccumulator {
  public:
   EnclosureAccumulator(const Answer& about, Scalar scalar, const Layout& layout);
 
   const Enclosure& result() const { return result_; }
-  /// True where a yes is held against the given answer; else it is but a decision.
+  /// True if the given answer is a yes, so that its numbers are compared. Otherwise only the decision counts.
   bool compares_yes() const { return about_.yes; }
-  /// The three numbers of the given answer from `begin` on, in the units of the input; a normal also divided by its
-  /// length, where that is near 1. It is as near to a right one as the nearer of the two.
+  /// Three numbers of the given answer from `begin` on, in the units of the input. For a normal whose length is near 1
+  /// also the normal divided by its length. The distance of the normal is that of the nearer form.
   std::vector<GivenVector> given_vector(std::size_t begin) const;
   void list_in(std::vector<Alternative>* list) { list_ = list; }
-  /// The oracle answers in these units; `scaling` must outlive this.
+  /// The units in which the oracle reports. `scaling` must outlive this object.
   void measure_in(const Scaling& scaling) { scaling_ = scaling.any() ? &scaling : nullptr; }
 
  protected:
-  /// One possible answer, of which the first `given` numbers are held against the given one. Where it stands for a set,
-  /// the distances of the vectors that belong to it are those from the set.
+  /// Includes one possible answer; its first `given` numbers are compared with the given answer. If it stands for a
+  /// set, `set` holds the distances of the vectors that belong to the set.
   void count(bool yes, const Errors& errors, std::size_t given, const SetDistance& set);
   void count_everything();
-  /// What is known of the distances where the given places are in other units than the set: those of normals.
+  /// The part of `set` that remains known where the given places and the set have different units: the distances of
+  /// normals.
   SetDistance without_units(SetDistance set) const;
-  /// Every member's places are enclosed as well: what is further from the enclosure is further from each of them.
+  /// Raises each distance to that from the enclosure, because the enclosure contains the places of every member.
   void include_enclosure(const Errors& errors, SetDistance& set) const;
 
   const Answer& about_;
   Scalar scalar_;
   const Layout& layout_;
   std::vector<Alternative>* list_ = nullptr;
-  const Scaling* scaling_ = nullptr;  ///< empty: the units of the input
+  const Scaling* scaling_ = nullptr;  ///< nullptr: the units of the input
 
-  /// The given normal divided by its length, as the sum of two doubles that is within `direction_slack` of it in
-  /// each component. Not known where there is none or where its length is not near 1.
+  /// The given normal divided by its length, as a sum of two doubles within `direction_slack` of it in each component.
+  /// Unknown if there is no normal or its length is not near 1.
   struct UnitNormal {
     bool known = false;
     std::array<double, 3> high{}, low{};
   };
-  /// At most ten operations in long double, whose relative error is at most 2^-63 each, in any rounding mode.
+  /// At most ten operations in long double, each with a relative error of at most 2^-63 in any rounding mode.
   static constexpr double direction_slack = 0x1p-59;
   UnitNormal unit_normal_;
 
@@ -83,7 +85,7 @@ class EnclosureAccumulator {
   Distance distance_of(const Layout::Part& part, const Errors& errors) const;
   Distance distance_of(const Layout::Part& part, const Errors& errors, const Bounds& ulps) const;
   void count_member(std::size_t member, const Distance& d);
-  /// The part that has that number.
+  /// The part that contains the number.
   const Layout::Part& part_at(std::size_t number) const;
 
   Enclosure result_;
@@ -96,16 +98,16 @@ class AnswerSink : public EnclosureAccumulator {
  public:
   using EnclosureAccumulator::EnclosureAccumulator;
 
-  /// A right answer is "no", with nothing else to it.
+  /// "No", without further numbers, is a right answer.
   void no() { put(false, A{}, {}, 0); }
-  /// A right answer is `a`; of its leaves only the first `leaves` mean anything.
+  /// `a` is a right answer; only its first `leaves` leaves have a meaning.
   void no(const A& a, std::size_t leaves) { put(false, a, {}, leaves); }
   void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) { put(true, a, normals, Answer::capacity); }
-  /// The same; of its leaves only the first `leaves` are held against an answer, the others may be anything.
+  /// The same; only the first `leaves` leaves are compared, and the other ones may have any value.
   void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { put(true, a, normals, leaves); }
-  /// Every answer of a set is right: `a` is one of them or, of intervals, encloses them all.
+  /// Every answer of a set is right: `a` is one of them or, for intervals, encloses them all.
   void yes(const A& a, const SetDistance& set) { put(true, a, Normals<N>::as_given(), Answer::capacity, set); }
-  /// Nothing is known: a division by what may be zero.
+  /// Any answer may be right, for example after a division by a number that may be zero.
   void everything() { count_everything(); }
 
  private:
@@ -113,7 +115,7 @@ class AnswerSink : public EnclosureAccumulator {
     if (scaling_ == nullptr) return add(yes, a, normals, leaves, set);
     add(yes, in_units_of_the_input(a, leaves), normals, leaves, without_units(set));
   }
-  /// Its first leaves; the others need not be numbers.
+  /// Converts the first `leaves` leaves; the other ones need not be numbers.
   A in_units_of_the_input(A a, std::size_t leaves) const {
     std::size_t i = 0;
     collide::for_each_leaf(a, [&](auto& leaf, Role role) {
@@ -125,14 +127,14 @@ class AnswerSink : public EnclosureAccumulator {
     return a;
   }
   void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set);
-  /// Exact - given for the first `leaves` leaves, or the exact values themselves; tells how many.
+  /// Exact - given for the first `leaves` leaves, or the exact values themselves if `from_zero`. Returns how many.
   std::size_t errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero, Errors& errors) const;
   SetDistance from(const Normals<N>& normals) const;
-  /// What a hit that comes too late for the scalar says beside its miss: that it starts outside.
+  /// The leaves that a hit beyond the scalar's largest time gives with its miss: only that it starts outside.
   static constexpr std::size_t leaves_of_late_hit = requires(A a) { a.inside; } ? 1 : 0;
 };
 
-/// Exact - given; an infinite number is right for every exact one beyond the largest finite number.
+/// Exact - given. A given infinity matches every exact number beyond the largest finite number.
 template <class N>
 Bounds error_of(const N& exact, double given, Scalar scalar) {
   if (std::isnan(given)) return {-HUGE_VAL, HUGE_VAL};
@@ -144,7 +146,7 @@ Bounds error_of(const N& exact, double given, Scalar scalar) {
 
 template <class N, class A>
 std::size_t AnswerSink<N, A>::errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero,
-                                      Errors& errors) const {
+                                        Errors& errors) const {
   std::size_t i = 0, component = 0;
   collide::for_each_leaf(a, [&](const auto& leaf, Role role) {
     if (i >= leaves) return;
@@ -181,7 +183,8 @@ SetDistance AnswerSink<N, A>::from(const Normals<N>& normals) const {
 }
 
 template <class N, class A>
-void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set) {
+void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves,
+                           const SetDistance& set) {
   if constexpr (kind_of<A> == Kind::impact) {
     if (yes) {  // a time beyond the largest finite number is a miss
       const N beyond = a.time - N(largest_finite(scalar_));
@@ -209,38 +212,38 @@ void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std:
   count(yes, errors, given, nearest);
 }
 
-/// A place of the given answer: what an oracle's `on_surface` is asked about.
+/// A place of the given answer, as on_surface() of an oracle receives it.
 template <class N>
 struct GivenPlace {
   Vector<N> at;
   N slack;             ///< how far off it may be
-  std::size_t number;  ///< of the answer: the first of its three
+  std::size_t number;  ///< index of its first number in the answer
   const Answer& about;
 };
 
-/// Only a name: an oracle's file adds its own where its query names a surface.
+/// Makes the name on_surface known. An oracle's file adds an overload if its query names a surface.
 class NoQuery;
 bool on_surface(const NoQuery&);
 
-/// Which three numbers of the answer are a place, from `number` on, and how far off they may be together.
+/// The three numbers of the answer, from `number` on, that form a place, and how far off the place may be.
 struct PlaceInAnswer {
   std::size_t number;
   double slack;
 
-  /// Empty where that cannot be told: numbers that are not finite, or a slack as large as they are.
+  /// Empty if that is undefined: a number is not finite, or the slack is as large as the numbers.
   static std::optional<PlaceInAnswer> of(const Answer& about, const Layout& layout, std::size_t number, double ulps,
                                          Scalar scalar);
 };
 
-// The two stages, in the standard modes of floating-point arithmetic whatever the caller's are, and the line with which
-// an oracle's .cpp file ends.
+// The two stages. They run in the standard floating-point modes, whatever the caller's modes are. At the end: the macro
+// that ends an oracle's .cpp file.
 
-/// Sets the rounding of the intervals for its lifetime and tells afterwards whether any operation was
-/// invalid (infinity - infinity, 0 * infinity): then the bounds mean nothing.
+/// Sets the intervals' rounding mode for its lifetime. Afterwards it tells whether any operation was invalid (infinity
+/// - infinity, 0 * infinity); then the bounds mean nothing.
 class IntervalScope {
  public:
   IntervalScope();
-  /// Call behind a compiler barrier, when the arithmetic is done.
+  /// Call it after a compiler barrier, when the arithmetic is done.
   bool any_invalid() const;
 
  private:
@@ -259,7 +262,7 @@ std::vector<Role> roles_of() {
   return roles;
 }
 
-/// The input, each number widened; a size stays at least zero.
+/// The input with each number widened; a size stays at least zero.
 template <class Q>
 Q widened(std::span<const double> values, Widening widening, const Scaling& scaling) {
   Q q;
@@ -279,7 +282,7 @@ Q widened(std::span<const double> values, Widening widening, const Scaling& scal
   return q;
 }
 
-/// The input as exact numbers, each with `by[i] * 2^-exponent` added to it, where `by` has any.
+/// The input as exact numbers, each plus `by[i] * 2^-exponent` where `by` is not empty.
 template <class Q>
 Q exact_inputs(std::span<const double> values, std::span<const double> by = {}, int exponent = 0) {
   const Rational unit = by.empty() ? Rational(0) : Rational(1) / Rational(std::ldexp(1.0, exponent));
@@ -298,7 +301,7 @@ Q exact_inputs(std::span<const double> values, std::span<const double> by = {}, 
   return q;
 }
 
-/// Algorithm::run(inputs over N, Outcomes<N, A<N>>&), for any N.
+/// Runs Algorithm::run(inputs over N, AnswerSink<N, A<N>>&) for each N.
 template <template <class> class Inputs, class Algorithm>
 struct Stages {
   template <class N>
@@ -347,7 +350,7 @@ struct Stages {
     const double* x = &about.values[place.number];
     return Algorithm::on_surface(q, GivenPlace<N>{{N(x[0]), N(x[1]), N(x[2])}, N(place.slack), place.number, about});
   }
-  /// A widening of nothing is asked about exactly as well, where the intervals cannot tell.
+  /// If the widening is zero and the intervals cannot tell, asks the exact stage too.
   static bool may_be_on_surface(std::span<const double> values, Widening widening, const Answer& about,
                                 std::size_t number, double ulps, Scalar scalar) {
     const FloatingPointScope standard_modes;
@@ -384,8 +387,8 @@ struct Stages {
   }
 };
 
-/// Ends an oracle's file: binds the function template `query` to its line of the catalogue, and
-/// `on_surface(query's inputs, GivenPlace)` where there is one: may the place lie on the surface that the query names?
+/// Ends an oracle's file. Binds the function template `query` to its line of the catalogue, and on_surface(inputs,
+/// GivenPlace) if the file defines it: whether the place may lie on the surface that the query names.
 #define NEARMISS_ORACLE(query)                                                                    \
   namespace {                                                                                     \
   struct query##_algorithm {                                                                      \

@@ -1,8 +1,8 @@
-/// The two arithmetics of the oracle, and what its algorithms may ask of a number.
+/// The two number types of the oracle, and the operations that its algorithms may use.
 ///
-/// An oracle is written once, over a number N. With N = Interval every comparison has three outcomes
-/// and the algorithm follows each branch that is possible; with N = Exact exactly one is. Included by
-/// the oracles' .cpp files only: this is where CGAL lives.
+/// Each oracle is written once over a number type N. With N = Interval a comparison may have up to three results, and
+/// the algorithm follows each possible branch. With N = Exact a comparison has one result. Only the oracles' .cpp files
+/// include this header, because it includes CGAL.
 #pragma once
 
 #include <CGAL/Gmpq.h>
@@ -18,19 +18,19 @@
 
 namespace nearmiss::oracle {
 
-/// Bounds rounded outward; the rounding mode must be upward (CGAL's protector).
+/// Bounds rounded outward. The rounding mode must be upward (CGAL's protector).
 using Interval = CGAL::Interval_nt<false>;
 using Rational = CGAL::Gmpq;
 
-/// a + b sqrt(c) with rational a, b, c: CGAL's Sqrt_extension where there is a root, a rational alone where
-/// there is none, as in most operations. Numbers over different roots can be compared, not added.
+/// a + b sqrt(c) with rational a, b, c. Holds CGAL's Sqrt_extension if there is a root, otherwise a plain rational, as
+/// in most operations. Numbers with different roots can be compared, but not added.
 class Exact {
  public:
   Exact() = default;
   Exact(int x) : value_(Rational(x)) {}
   explicit Exact(double x) : value_(Rational(x)) {}
   explicit Exact(Rational x) : value_(std::move(x)) {}
-  /// a + b sqrt(c), with c not negative.
+  /// a + b sqrt(c), c >= 0.
   Exact(const Rational& a, const Rational& b, const Rational& c) : Exact(Extended(a, b, c)) {}
 
   bool is_extended() const { return value_.index() == 1; }
@@ -77,7 +77,7 @@ class Exact {
   const Rational& rational() const { return *std::get_if<0>(&value_); }
   const std::shared_ptr<const Extended>& extension() const { return *std::get_if<1>(&value_); }
   Extended extended() const { return is_extended() ? *extension() : Extended(rational()); }
-  /// Neither has a root. Two different roots have no sum within a + b sqrt(c).
+  /// True if neither number has a root. Throws for two different roots: their sum has no form a + b sqrt(c).
   static bool plain(const Exact& x, const Exact& y) {
     if (x.is_extended() && y.is_extended() && x.root() != y.root()) throw std::logic_error("oracle: two square roots");
     return !x.is_extended() && !y.is_extended();
@@ -86,7 +86,7 @@ class Exact {
   std::variant<Rational, std::shared_ptr<const Extended>> value_;
 };
 
-// Signs. "may be" is the only question an algorithm can ask. Written so that NaN means "anything".
+// Signs. "May be" is the only question that an algorithm can ask. NaN bounds answer every question with true.
 
 inline bool may_be_negative(const Interval& x) { return !(x.inf() >= 0); }
 inline bool may_be_positive(const Interval& x) { return !(x.sup() <= 0); }
@@ -112,26 +112,26 @@ inline bool may_be_at_most(const Interval& a, const Interval& b) { return !(a.in
 inline bool may_be_less(const Exact& a, const Exact& b) { return a.compare(b) == CGAL::SMALLER; }
 inline bool may_be_at_most(const Exact& a, const Exact& b) { return a.compare(b) != CGAL::LARGER; }
 
-// Within a branch that assumes a sign, the interval loses the part that contradicts it.
+// In a branch that assumes a sign, an interval loses the part that contradicts the assumption.
 
 inline Interval assume_at_least_zero(const Interval& x) { return {std::max(0.0, x.inf()), std::max(0.0, x.sup())}; }
 inline Interval assume_at_most_zero(const Interval& x) { return {std::min(0.0, x.inf()), std::min(0.0, x.sup())}; }
 inline const Exact& assume_at_least_zero(const Exact& x) { return x; }
 inline const Exact& assume_at_most_zero(const Exact& x) { return x; }
 
-/// Loses the part outside [low, high], which the caller knows the number cannot reach.
+/// Loses the part outside [low, high]. The caller knows that the number lies within.
 inline Interval assume_within(const Interval& x, double low, double high) {
   return {std::clamp(x.inf(), low, high), std::clamp(x.sup(), low, high)};
 }
 inline const Exact& assume_within(const Exact& x, double, double) { return x; }
 
-/// True for a number whose found roots may be roots of only some of the inputs that it encloses.
+/// True for a number type that encloses many inputs, of which some may lack a root that the others have.
 template <class N>
 inline constexpr bool is_enclosure = false;
 template <>
 inline constexpr bool is_enclosure<Interval> = true;
 
-/// Encloses both numbers. Exact numbers cannot: an algorithm that joins has not decided.
+/// Encloses both numbers. For exact numbers returns `a`: an algorithm that joins has not decided.
 inline Interval join(const Interval& a, const Interval& b) {
   return {std::min(a.inf(), b.inf()), std::max(a.sup(), b.sup())};
 }
@@ -143,7 +143,7 @@ inline Interval meet(const Interval& a, const Interval& b) {
 }
 inline const Exact& meet(const Exact& a, const Exact&) { return a; }
 
-/// The same, into x; false where there is none, so that the branch is impossible.
+/// Narrows x to that intersection. False if it is empty, so that the branch is impossible.
 inline bool narrow(Interval& x, const Interval& to) {
   const double low = std::max(x.inf(), to.inf()), high = std::min(x.sup(), to.sup());
   if (!(low <= high)) return !(low > high);
@@ -157,7 +157,7 @@ inline Exact square(const Exact& x) { return x * x; }
 inline Interval magnitude(const Interval& x) { return CGAL::abs(x); }
 inline Exact magnitude(const Exact& x) { return x.sign() == CGAL::NEGATIVE ? Exact(-x) : x; }
 
-/// The square root of a number that is not negative in the branch at hand.
+/// The square root of a number that is not negative in the current branch.
 inline Interval root(const Interval& x) { return CGAL::sqrt(assume_at_least_zero(x)); }
 inline Exact root(const Exact& x) {
   if (x.is_extended()) throw std::logic_error("oracle: a square root of a square root");
@@ -165,7 +165,7 @@ inline Exact root(const Exact& x) {
   return Exact(Rational(0), Rational(1), x.a0());
 }
 
-// Vectors of the oracle: its own, so that it shares no arithmetic with the library it examines.
+// The oracle's own vectors, so that it shares no arithmetic with the library under test.
 
 template <class N>
 using Vector = std::array<N, 3>;
@@ -207,7 +207,7 @@ Vector<N> cross(const Vector<N>& a, const Vector<N>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The axes of the rotation q / |q| as rows: rational in q, each entry within [-1, 1].
+/// The axes of the rotation q / |q| as rows. Rational in q; each entry lies in [-1, 1].
 template <class N, class Q>
 std::array<Vector<N>, 3> rotation_axes(const Q& q) {
   const N xx = square(q.x), yy = square(q.y), zz = square(q.z), ww = square(q.w);

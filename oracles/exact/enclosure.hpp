@@ -1,4 +1,4 @@
-/// What the oracle says of a case: an enclosure of every exact answer.
+/// The result of an oracle: an enclosure of every exact answer.
 #pragma once
 
 #include <algorithm>
@@ -23,60 +23,62 @@ struct Bounds {
     if (b.low < low) low = b.low;
     if (b.high > high) high = b.high;
   }
-  /// The least absolute value within.
+  /// The least absolute value within the bounds.
   double nearest_to_zero() const { return low > 0 ? low : high < 0 ? -high : 0.0; }
   double furthest_from_zero() const { return std::max(-low, high); }
 };
 
-/// How far each number of the input may move: absolute, one value per input number, not negative.
+/// How far each input number may move: absolute, not negative, one value per number.
 using Widening = std::span<const double>;
 
-/// Encloses the exact answers of every input within a widening of the given one, seen from a given
-/// answer: `error` holds (exact - given). With the zero answer it holds the exact values themselves.
+/// Encloses the exact answers of every input within a widening of the given input, relative to a given answer: `error`
+/// holds (exact - given). For the zero answer it holds the exact values themselves.
 struct Enclosure {
   bool may_be_yes = false;
   bool may_be_no = false;
-  /// Some exact answer may agree with the given one: the same yes or no, and every given number within
-  /// one ulp of its scalar. False is a proof that none does.
+  /// Some exact answer may match the given one: the same decision, and every given number within one ulp of its scalar.
+  /// False is a proof that none matches.
   bool may_match = false;
-  /// Over the exact answers with the given yes or no. Empty where there is none.
+  /// Over the exact answers with the given decision. Empty if there is none.
   std::array<Bounds, Answer::capacity> error{};
-  /// One member of the answer, held against the exact answers with the given yes or no by itself.
+  /// One member of the answer, compared alone with the exact answers that have the given decision.
   struct Member {
-    bool may_match = false;  ///< it may be within one ulp of that of an exact answer
-    double ulps = 0;         ///< the proved distance from the nearest, in ulps
+    bool may_match = false;  ///< it may be within one ulp of the member of an exact answer
+    double ulps = 0;         ///< the proved distance from the nearest one, in ulps
     double absolute = 0;     ///< the same distance, not in ulps
-    int number = -1;         ///< which number of the answer is so far off; -1: there is no such exact answer
+    int number = -1;         ///< index of the number with this distance; -1: no exact answer has the given decision
   };
   static constexpr std::size_t most_members = 18;
   std::array<Member, most_members> members{};  ///< in the order of the answer's layout
-  /// Of the exact answer nearest to the given one: the largest proved distance, in ulps; and to which number.
+  /// For the exact answer nearest to the given one: the largest proved distance of a number, in ulps, and that number.
   double ulps = 0;
   double absolute = 0;  ///< the same distance, not in ulps
   int worst = -1;
-  /// Upper bound of that distance: equal to `ulps` but for the width of the enclosure.
+  /// Upper bound of that distance; exceeds `ulps` only by the width of the enclosure.
   double ulps_at_most = 0;
-  /// The largest such upper bound among all answers: no exact answer with the given yes or no is further away.
+  /// The largest such upper bound over all answers: every exact answer with the given decision is at most this far
+  /// away.
   double ulps_at_most_of_any = 0;
 
   bool decided() const { return may_be_yes != may_be_no; }
 };
 
-/// Who answers: intervals of doubles first, exact rational and algebraic numbers where they cannot tell.
+/// The stages of the oracle: intervals of doubles first, exact rational and algebraic numbers where the intervals
+/// cannot tell.
 enum class Stage { interval, exact };
 
-/// One right answer, written down for people.
+/// One right answer, for people.
 struct Alternative {
   bool yes = false;
-  std::size_t count = 0;  ///< how many of the values it gives
+  std::size_t count = 0;  ///< how many of the values it has
   std::array<Bounds, Answer::capacity> values{};
-  /// One `direction . normal` and the range in which it lies.
+  /// A range of `direction . normal`.
   struct Face {
     std::array<Bounds, 3> direction;
     Bounds range;
     bool operator==(const Face&) const = default;
   };
-  bool many_normals = false;  ///< the normal is any unit vector that faces as listed
+  bool many_normals = false;  ///< every unit vector that satisfies `facing` is a right normal
   std::vector<Face> facing;
 
   bool operator==(const Alternative&) const = default;

@@ -10,8 +10,8 @@ namespace {
 int digits(Scalar s) { return s == Scalar::float32 ? 24 : 53; }
 double unit_of(double largest, Scalar s) { return ulp(std::min(largest, largest_finite(s)), s); }
 
-/// As far as the exact stage looks. A vector within that many ulps has less than twice the largest number of the given
-/// one, or both are subnormal: |x - y| <= 2^(digits - 3) ulp(max(|x|, |y|)) <= max(|x|, |y|) / 4.
+/// The largest distance that the exact stage searches. A vector within that distance has less than twice the largest
+/// number of the given one, or both are subnormal: |x - y| <= 2^(digits - 3) ulp(max(|x|, |y|)) <= max(|x|, |y|) / 4.
 double looked_ulps(Scalar s) { return std::ldexp(1.0, digits(s) - 3); }
 
 template <class T>
@@ -52,7 +52,7 @@ double largest_of(const GivenVector& g) {
 
 bool all_given(const GivenVector& g) { return g.given[0] && g.given[1] && g.given[2]; }
 
-/// Every vector within `reach` of the given one, in each number; no member has a number beyond `bound`.
+/// Every vector within `reach` of the given one in each component. No member has a component beyond `bound`.
 RationalBox around(const GivenVector& g, const Rational& reach, const Rational& bound) {
   const Rational largest(largest_finite(g.scalar));
   RationalBox box;
@@ -70,9 +70,9 @@ RationalBox around(const GivenVector& g, const Rational& reach, const Rational& 
   return box;
 }
 
-/// Every vector within so many ulps lies in one of these boxes, and in these no other: one with the unit of the given
-/// vector and, where a right one may reach the next power of two, where the unit is larger, one for each number that
-/// may.
+/// Boxes whose union is the set of vectors within `ulps`. The first box uses the unit of the given vector. If a right
+/// vector may reach the next power of two, where the unit is larger, one more box follows for each component that may
+/// reach it.
 std::vector<RationalBox> within(const GivenVector& g, double ulps, const Rational& bound) {
   double largest = largest_of(g);
   if (!all_given(g)) largest = std::max(largest, CGAL::to_interval(bound).second);
@@ -101,16 +101,16 @@ bool in_cone(const RationalVector& x, const Cone& cone) {
   });
 }
 
-/// Is there a unit vector in a box and a cone? Both are convex: there is one where some point of what they have in
-/// common is at most as long and some at least as long. The shortest point is that of the box, or lies on an edge of
-/// what they have in common; the longest is a vertex, at the end of such an edge.
+/// Finds a unit vector in the intersection of a box and a cone. The intersection is convex, so it contains one if some
+/// point is at most as long as 1 and some point at least as long. The shortest point is that of the box, or lies on an
+/// edge of the intersection; the longest is a vertex, at the end of an edge.
 class UnitVectorIn {
  public:
   UnitVectorIn(const RationalBox& box, const Cone& cone) : box_(box), cone_(cone) { search(); }
 
   std::optional<Vector<Exact>> found() const {
     if (!complete()) return std::nullopt;
-    // short + t along, of length 1
+    // The point short + t along of length 1.
     const RationalVector along{(*long_)[0] - (*short_)[0], (*long_)[1] - (*short_)[1], (*long_)[2] - (*short_)[2]};
     const Rational a = dot(along, along), b = dot(*short_, along), c = dot(*short_, *short_) - 1;
     Exact t(0);
@@ -168,7 +168,7 @@ class UnitVectorIn {
     }
   }
 
-  /// A piece of a line.
+  /// A segment of a line, by its parameters.
   struct Piece {
     std::optional<Rational> from, to;
     bool empty = false;
@@ -186,7 +186,7 @@ class UnitVectorIn {
     }
   };
 
-  /// The ends of what the line has in the box and the cone, and its point nearest to the origin.
+  /// Adds the ends of the line's segment in the box and the cone, and its point nearest to the origin.
   void edge(const RationalVector& at, const RationalVector& along) {
     if (complete()) return;
     const Rational length2 = dot(along, along);
@@ -229,8 +229,7 @@ std::vector<RationalVector> clipped(const std::vector<RationalVector>& polygon, 
   return kept;
 }
 
-/// The least distance at which `find` finds a member; a shorter one finds none. Up to one ulp it is not told; further
-/// away to one part in 128.
+/// The least distance at which `find` returns a member. Below one ulp it is not resolved; above, to one part in 128.
 template <class Nearest, class Find>
 Nearest nearest(Scalar scalar, Find find) {
   constexpr double share = 0x1p-7;
@@ -251,7 +250,7 @@ Nearest nearest(Scalar scalar, Find find) {
   return best;
 }
 
-/// What is not known of the given numbers, in the least unit that they may be counted in.
+/// Adds the uncertainty of the given numbers, in the smallest unit that may apply.
 template <class Nearest>
 Nearest with_slack(Nearest n, const GivenVector& g) {
   if (g.slack > 0) n.ulps.high += g.slack / unit_of(largest_of(g), g.scalar);
@@ -322,8 +321,8 @@ NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<Rati
   return with_slack(nearest<NearestPoint>(given.scalar, find), given);
 }
 
-// Of a vector that is further off than 2^-8 of the given one's largest number the distance is more than `far_ulps`; of
-// a nearer one the unit is at most that of a number larger by as much.
+// If a vector differs from the given one by more than 2^-8 of the given one's largest number, its distance exceeds
+// `far_ulps`. For a nearer vector the unit is at most that of a number larger by that share.
 
 double far_ulps(Scalar scalar) { return std::ldexp(1.0, digits(scalar) - 10); }
 
@@ -338,12 +337,12 @@ Vector<Interval> enclosed(const GivenVector& g) {
   return {Interval(g.high[0]) + g.low[0] + slack, Interval(g.high[1]) + g.low[1] + slack,
           Interval(g.high[2]) + g.low[2] + slack};
 }
-/// How far apart two numbers are at least.
+/// Lower bound of the distance between two numbers.
 double gap(const Interval& a, const Interval& b) {
   const Interval between = a - b;
   return Bounds{between.inf(), between.sup()}.nearest_to_zero();
 }
-/// `apart`, of what changes by at most `per_ulp` for each ulp.
+/// The distance `apart` in ulps, for a quantity that changes by at most `per_ulp` per ulp.
 double ulps_across(double apart, const Interval& per_ulp, Scalar scalar) {
   if (!(apart > 0) || !(per_ulp.sup() > 0)) return 0;
   return std::clamp((Interval(apart) / Interval(per_ulp.sup())).inf(), 0.0, far_ulps(scalar));

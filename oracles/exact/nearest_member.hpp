@@ -1,10 +1,10 @@
-/// How far a given answer is from the nearest of a set of right ones, where they are more than can be listed: the unit
-/// vectors of a cone, places that go with such a normal, the points of a patch, weights of a triangle without area.
+/// The distance of a given answer from the nearest of infinitely many right answers: the unit vectors of a cone, the
+/// places that belong to such a normal, the points of a patch, the weights of a triangle without area.
 ///
-/// Distances are in the maximum norm and in units in the last place (ulps): one is that of the largest number of the
-/// vector, given or right. Of several vectors together the furthest counts. What is told is a proved range: never more
-/// than the distance at its lower end, never less at its upper one. Up to one ulp, where the answer is right, the lower
-/// end is 0.
+/// Distances are in the maximum norm and in units in the last place (ulps) of the largest number of the vector, given
+/// or right. The distance of several vectors together is the largest of theirs. Each result is a proved range: its
+/// lower end is never above the distance, its upper end never below it. Up to one ulp, where the answer is right, the
+/// lower end is 0.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,9 @@
 
 namespace nearmiss::oracle {
 
-/// A vector of the given answer: the sums of `high` and `low`, each of them known within `slack`. A number that the
-/// answer does not have may be anything; an infinite one stands for every number beyond the largest finite one.
+/// A vector of the given answer. Each component is the sum of `high` and `low`, known within `slack`. A component that
+/// the answer does not give may have any value. An infinite component stands for every number beyond the largest finite
+/// one.
 struct GivenVector {
   std::array<double, 3> high{}, low{};
   std::array<bool, 3> given{};
@@ -25,28 +26,28 @@ struct GivenVector {
   Scalar scalar = Scalar::float64;
 };
 
-// The exact stage: by bisection on the distance. Whether some member is within it is decided in rational numbers.
+// The exact stage bisects on the distance. Rational arithmetic decides whether some member lies within it.
 
 using RationalVector = std::array<Rational, 3>;
 
-/// direction . x <= 0 or, where `level` says so, = 0. The direction has any length.
+/// direction . x <= 0 or, if `level`, direction . x = 0. The direction may have any length.
 struct Side {
   RationalVector direction;
   bool level;
 };
 
-/// Where all x that are on each of the sides form the cone.
+/// The set of all x that satisfy every side.
 using Cone = std::vector<Side>;
 
-/// base + reach n is the right place beside the normal n; the reach is not negative.
+/// With the normal n, the right place is base + reach n, reach >= 0.
 struct NormalOffset {
   GivenVector place;
   RationalVector base;
   Rational reach;
 };
 
-/// The distance in ulps, and a member that is at most the upper end away; none where the lower end is as far as is
-/// looked, or further.
+/// The distance in ulps, and a member within its upper end. No member if the lower end reaches the largest distance
+/// that is searched.
 struct NearestNormal {
   Bounds ulps;
   std::optional<Vector<Exact>> member;
@@ -56,17 +57,17 @@ struct NearestPoint {
   std::optional<RationalVector> member;
 };
 
-/// Some unit vector of the cone: along an axis where there is such a one.
+/// A unit vector of the cone; along a coordinate axis if possible.
 Vector<Exact> some_normal(const Cone& cone);
-/// Among the unit vectors of the cone, which has some.
+/// The nearest unit vector of the cone, which must contain one.
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone);
-/// The same together with the place.
+/// The same for the normal together with its place.
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const NormalOffset& lever);
-/// Among the points of a convex polygon; one of two corners is a segment, one of one corner a point.
+/// The nearest point of a convex polygon. Two corners form a segment, one corner a point.
 NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<RationalVector>& corners);
 
-// The interval stage: lower bounds, each by one equation or inequality that every member satisfies. The rounding mode
-// must be upward. `far_ulps` is the most that they tell.
+// The interval stage: lower bounds, each from one equation or inequality that every member satisfies. The rounding mode
+// must be upward. No bound exceeds `far_ulps`.
 
 double far_ulps(Scalar scalar);
 
@@ -76,9 +77,9 @@ struct Form {
   Interval value;
 };
 double least_ulps(const GivenVector& given, const Form& form);
-/// Every member is at that distance from the point.
+/// Every member has this distance from the point.
 double least_ulps(const GivenVector& given, const Vector<Interval>& point, const Interval& distance);
-/// Every member is a normal n, of length 1, with the place base + reach n.
+/// Every member is a unit normal n with the place base + reach n.
 double least_ulps_together(const GivenVector& normal, const GivenVector& place, const Vector<Interval>& base,
                            const Interval& reach);
 

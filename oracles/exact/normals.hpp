@@ -1,5 +1,5 @@
-/// The right normals where they are more than one, and how far a given answer is from the nearest. Included by the
-/// oracles' .cpp files only.
+/// Sets of right normals, and the distance of a given answer from the nearest member. Only the oracles' .cpp files
+/// include it.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace nearmiss::oracle {
 
-/// `direction . normal` lies within [low, high] times the direction's length: [-1, 0], [0, 0] or [0, 1]. The direction
-/// has any length; a zero one says nothing. An exact one is rational.
+/// `direction . normal` lies in [low, high] times the direction's length: [-1, 0], [0, 0] or [0, 1]. The direction may
+/// have any length; a zero direction excludes nothing. An exact direction is rational.
 template <class N>
 struct Facing {
   Vector<N> direction;
   int low, high;
 };
 
-/// The unit vectors that face as listed, where there are many; else the one that the answer names.
+/// If `many`, the unit vectors that satisfy `facing`; otherwise the one normal that the answer gives.
 template <class N>
 struct Normals {
   bool many = false;
@@ -28,7 +28,7 @@ struct Normals {
   static Normals as_given() { return {}; }
   static Normals any() { return {true, {}}; }
   static Normals cone(std::vector<Facing<N>> f) { return {true, std::move(f)}; }
-  /// Those of them that do not lead along a motion: n . velocity <= 0.
+  /// Those of them that do not point along a motion: n . velocity <= 0.
   Normals against(const Vector<N>& velocity) const {
     Normals n = *this;
     n.facing.push_back({velocity, -1, 0});
@@ -50,10 +50,10 @@ inline Cone cone_of(const Normals<Exact>& normals) {
   return cone;
 }
 
-/// The nearer of two distances.
+/// The smaller of two distances.
 inline Bounds nearer(const Bounds& a, const Bounds& b) { return {std::min(a.low, b.low), std::min(a.high, b.high)}; }
 
-/// Of the given normal, in whichever form it is nearest, from the nearest of them, in ulps.
+/// The distance, in ulps, of the given normal from the nearest right one, in whichever form of the normal is nearest.
 inline Bounds ulps_from(const std::vector<GivenVector>& given, const Normals<Exact>& normals) {
   const Cone cone = cone_of(normals);
   Bounds least{HUGE_VAL, HUGE_VAL};

@@ -1,4 +1,4 @@
-/// The oracle of a query: what it can be asked.
+/// The interface of a query's oracle.
 #pragma once
 
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace nearmiss {
 
-/// The entry points of one query's oracle. `values` are the inputs, `about` the answer in question.
+/// The entry points of one query's oracle. `values` are the inputs, `about` is the given answer.
 struct Oracle {
-  /// Fast; may be wide. `scalar` is that of the answer.
+  /// Fast, but may be wide. `scalar` is the answer's scalar.
   Enclosure (*interval)(std::span<const double> values, Widening widening, const Answer& about, Scalar scalar);
-  /// Exact decision; errors enclosed to a few units in the last place of the error itself.
-  /// `list`, where given, receives every right answer.
+  /// Exact decision, and errors enclosed to a few units in the last place of the error itself. If `list` is not null,
+  /// it receives every right answer.
   Enclosure (*exact)(std::span<const double> values, const Answer& about, Scalar scalar,
                      std::vector<Alternative>* list);
-  /// May the place of the answer that number `number` belongs to be, but for `ulps` units in its last place, on the
-  /// surface that the query names, for some input within the widening? False is a proof that it is not. Empty where
-  /// the query names no surface.
+  /// True if the point that contains output `number` may lie, within `ulps` units in its last place, on the surface
+  /// that the query names, for some input within the widening. False is a proof that it does not. nullptr if the query
+  /// names no surface.
   bool (*may_be_on_surface)(std::span<const double> values, Widening widening, const Answer& about, std::size_t number,
                             double ulps, Scalar scalar);
-  /// The exact decision where each number is `values[i] + by[i] * 2^-exponent`.
+  /// The exact decision for the inputs `values[i] + by[i] * 2^-exponent`.
   bool (*exact_decision)(std::span<const double> values, std::span<const double> by, int exponent);
 };
 

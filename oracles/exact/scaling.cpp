@@ -11,17 +11,17 @@ constexpr int of_zero = -5000;  // below the exponent of every number and of eve
 
 int exponent_of(double x) { return x == 0 ? of_zero : std::ilogb(x); }
 
-/// Of the largest of so many numbers.
+/// The exponent of the largest of several numbers.
 int exponent_of(std::span<const double> values) {
   int largest = of_zero;
   for (const double x : values) largest = std::max(largest, exponent_of(x));
   return largest;
 }
 
-/// What brings a number of that exponent into range; 0 where it is there.
+/// The exponent to remove to bring a number into the moderate range; 0 if it already is there.
 int away(int exponent) { return exponent == of_zero || std::abs(exponent) < Scaling::moderate ? 0 : exponent; }
 
-/// How many numbers a vector of that role has; they are multiplied by the same power.
+/// The number of components of a vector with that role; all are multiplied by the same power.
 std::size_t length_of_vector(Role role) { return role == Role::direction ? 3 : role == Role::rotation ? 4 : 1; }
 
 }  // namespace
@@ -62,7 +62,7 @@ Scaling Scaling::needed(std::span<const Role> roles, std::span<const double> val
 }
 
 Interval Scaling::multiplied(Interval x, int exponent) {
-  constexpr int most = 1000;  // a power that is a normal number, both ways
+  constexpr int most = 1000;  // both this power and its inverse are normal numbers
   for (; exponent != 0; exponent -= std::clamp(exponent, -most, most)) {
     x = x * Interval(std::ldexp(1.0, std::clamp(exponent, -most, most)));
   }

@@ -1,7 +1,7 @@
-/// The units of the interval stage. Doubles have products of up to eight lengths only where lengths are moderate; so
-/// where an input has others, lengths, velocities, directions and rotations are multiplied by powers of two, and what
-/// the oracle answers is multiplied back. Every query allows it: roles are dimensions, and the length of a direction or
-/// of a quaternion means nothing. A number that underflows is enclosed as every other one.
+/// The units of the interval stage. A product of up to eight lengths stays in the range of double only if the lengths
+/// are moderate. So the interval stage multiplies other lengths, velocities, directions and rotations by powers of two,
+/// and multiplies the oracle's answers back. Every query allows this: roles are dimensions, and the length of a
+/// direction or of a quaternion has no meaning. A number that underflows is enclosed like any other.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ using collide::Role;
 
 class Scaling {
  public:
-  /// `roles` are those of the values. Nothing is multiplied where each of them is 0 or moderate.
+  /// `roles` are those of the values. Multiplies nothing if each value is 0 or moderate.
   static Scaling of(std::span<const Role> roles, std::span<const double> values) {
     bool all = true;
     for (const double x : values) all = all && is_moderate_or_zero(x);
@@ -27,14 +27,14 @@ class Scaling {
   }
 
   bool any() const { return any_; }
-  /// The input's number, or a bound of how far it moves, in the oracle's units.
+  /// Converts an input number, or a bound of how far it moves, to the oracle's units.
   Interval input(std::size_t number, const Interval& x) const { return multiplied(x, of_input_[number]); }
-  /// A number of an answer.
+  /// Converts a number of an answer.
   Interval to_oracle(Role role, const Interval& x) const { return multiplied(x, -of_answer(role)); }
   Interval to_answer(Role role, const Interval& x) const { return multiplied(x, of_answer(role)); }
 
-  /// A product of eight numbers up to 2^moderate is finite, and one of eight down to 2^-moderate is normal, with room
-  /// for sums.
+  /// A product of eight numbers up to 2^moderate is finite, and a product of eight numbers down to 2^-moderate is
+  /// normal, with room for sums.
   static constexpr int moderate = 96;
 
  private:
@@ -57,7 +57,8 @@ class Scaling {
   }
 
   bool any_ = false;
-  int length_ = 0, velocity_ = 0;  ///< what an answer's lengths and velocities are multiplied by, as powers of two
+  int length_ = 0,
+      velocity_ = 0;  ///< exponents of the powers of two by which an answer's lengths and velocities are multiplied
   std::array<int, most_inputs> of_input_{};
 };
 

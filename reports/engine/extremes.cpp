@@ -9,8 +9,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/errors.hpp"
 #include "corpus/codec.hpp"
+#include "corpus/errors.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"

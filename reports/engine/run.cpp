@@ -175,7 +175,7 @@ void Run::write(const std::filesystem::path& below, const std::string& text) con
   } catch (const IoError& e) {
     if (counts_.cases() == 0) throw;
     throw IoError(fmt::format("{}; the run ends after {}, {}", e.what(), plural_text(counts_.cases(), "answer"),
-                               counts_.violated_text()));
+                              counts_.violated_text()));
   }
 }
 
