@@ -21,17 +21,17 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Bytes; far more than any file that is read has. A device may have no end.
+/// In bytes: far above the size of every file that is read. A device may have no end.
 constexpr std::size_t most_of_a_file = std::size_t{256} << 20;
 
-/// Fields in a row that share the next component of their names.
+/// Consecutive fields that share the next component of their names.
 struct Child {
   std::string_view component;
   std::size_t begin, end;
   bool leaf;  ///< the component ends the name
 };
 
-/// Splits fields, whose names share their first `prefix` characters.
+/// Splits fields whose names share their first `prefix` characters.
 std::vector<Child> children(std::span<const Field> fields, std::size_t prefix) {
   std::vector<Child> found;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -48,7 +48,7 @@ std::vector<Child> children(std::span<const Field> fields, std::size_t prefix) {
 
 std::size_t below(std::size_t prefix, const Child& c) { return prefix + c.component.size() + 1; }
 
-/// Vectors (x, y, z and nothing else) and numbered members are arrays; all else has names.
+/// Vectors (exactly x, y, z) and numbered members become arrays, all other groups objects.
 bool is_array(std::span<const Child> of) {
   const auto numbered = [](const Child& c) {
     return c.component.find_first_not_of("0123456789") == std::string_view::npos;
@@ -83,7 +83,7 @@ ordered_json nested(std::span<const Field> fields, std::span<const double> value
   return j;
 }
 
-/// As JSON has it, cut to what fits into one line.
+/// The value as JSON, truncated to fit into one line.
 std::string shown(const json& j) {
   std::string text = j.dump(-1, ' ', true, json::error_handler_t::replace);
   if (text.size() > 60) text = text.substr(0, 57) + "...";
@@ -96,7 +96,7 @@ bool has_control_characters(std::string_view s) {
   return std::any_of(s.begin(), s.end(), [](char c) { return (0 <= c && c < 0x20) || c == 0x7F; });
 }
 
-/// Takes a case apart; every error names the file, the field with its path, the value and the rule.
+/// Reads the parts of a case. Every error names the file, the path of the field, the value and the rule.
 class Reader {
  public:
   explicit Reader(const std::string& where) : where_(where) {}
@@ -216,7 +216,7 @@ void Reader::origin(const json& j, Case& c) const {
   }
 }
 
-/// Follows the parser to know where it is, and refuses what the library would let pass.
+/// Tracks the path of the current value in the document, and rejects input that the library accepts.
 class StrictSax : public json::json_sax_t {
  public:
   explicit StrictSax(const std::string& where) : where_(where) {}

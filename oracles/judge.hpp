@@ -106,7 +106,7 @@ struct Finding {
 
 /// How much to compute beyond the verdict.
 enum class Detail {
-  verdict,  ///< only what the verdict needs; numbers only where they cost nothing
+  verdict,  ///< only what the verdict needs; numbers only if they need no extra work
   forward,  ///< also the forward error, to a tenth of an ulp
   full,     ///< also the exact forward error and the backward bound, for a report
 };

@@ -198,7 +198,7 @@ TEST_P(Watch, APushByAnUlpIsToldAsNoMore) {
     if (!exact) continue;
     ++asked;
     const Answer answer = pushed(query(), c.scalar, *exact, random_);
-    if (query().kind == Kind::depth && answer.yes && answer.values[0] < 0) continue;  // the push made the boxes apart
+    if (query().kind == Kind::depth && answer.yes && answer.values[0] < 0) continue;  // the push moved the boxes apart
     // A derivation's doubles are truncated, not rounded to nearest.
     const double ulps = c.scalar == Scalar::float32 ? 1.5 : 2;
     const Finding f =

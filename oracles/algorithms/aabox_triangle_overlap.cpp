@@ -57,7 +57,7 @@ struct BoxAndTriangle {
     return !may_be_less(at, of_box.low) && !may_be_less(of_box.high, at);
   }
   /// Whether the projections of the box and of an edge of the triangle along axis k meet. Then no axis perpendicular to
-  /// axis k separates box and triangle, and so no cross product with axis k, including that of an edge parallel to axis
+  /// axis k separates box and triangle, including every cross product with axis k, even with an edge parallel to axis
   /// k.
   bool surely_meet_seen_along(int k) const {
     for (int i = 0; i < 3; ++i) {

@@ -523,7 +523,8 @@ class SphereAndTriangle {
     }
   }
 
-  /// The least of the exact roots. Of enclosures, each root may be the least, except those after a certain contact.
+  /// The least of the exact roots. Of enclosures, each root may be the least, except those after a contact that is
+  /// certain.
   void keep_first(std::size_t at_start) {
     std::vector<Contact>& list = all_.list;
     if constexpr (is_enclosure<N>) {

@@ -238,8 +238,8 @@ struct PlaceInAnswer {
 // The two stages. They run in the standard floating-point modes, whatever the caller's modes are. At the end: the macro
 // that ends an oracle's .cpp file.
 
-/// Sets the intervals' rounding mode for its lifetime. Afterwards it tells whether any operation was invalid (infinity
-/// - infinity, 0 * infinity); then the bounds mean nothing.
+/// Sets the intervals' rounding mode for its lifetime. any_invalid() then tells whether an operation was invalid
+/// (infinity - infinity, 0 * infinity), so that the bounds mean nothing.
 class IntervalScope {
  public:
   IntervalScope();

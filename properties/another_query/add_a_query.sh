@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Adds another query to a copy of the sources, in the places that the README names and no other, and
-# checks that the command line, the oracle, the generator and the fuzz target have it. Brings along the library of
-# docs/bring-your-own.md and follows that page.
+# Adds another query to a copy of the sources, only in the places that the README names, and checks that the command
+# line, the oracle, the generator and the fuzz target know the query. Also adds the library of docs/bring-your-own.md by
+# the steps of that page.
 # Usage: add_a_query.sh SOURCE_FOLDER
 set -euo pipefail
 
@@ -45,10 +45,10 @@ grep -q "\"fuzz_target\": *\"fuzz_$query\"" "$copy/list.json" || fail "list --js
 "$build/fuzz/fuzz_$query" "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "the fuzz target does not replay the seed"; }
 
-# Since it is built anyway: the library that is brought along, from its page.
+# The added library, by the steps of docs/bring-your-own.md, in the same build.
 "$copy/docs/example-library/walkthrough.sh" "$nearmiss" || fail "docs/bring-your-own.md cannot be followed"
 
-# Teeth: a wrong comparison in the new query must be found.
+# Mutation: a wrong comparison in the new query must be found.
 sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/$query.hpp"
 cmake --build "$build" --target nearmiss_cli >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
 status=0

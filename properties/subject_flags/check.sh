@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a subject's library asks of a compiler, its subject's source alone is compiled with.
+# Compiler flags that a subject's library requires apply to that subject's source alone.
 # Usage: check.sh SOURCES
 set -euo pipefail
 

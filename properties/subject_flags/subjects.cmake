@@ -1,4 +1,4 @@
-# Two subjects, of which one has a library that asks for what nobody else may have.
+# Two subjects. The library of one requires compiler flags that no other source may get.
 add_library(fast_library INTERFACE)
 target_compile_options(fast_library INTERFACE -ffast-math)
 target_compile_definitions(fast_library INTERFACE ONLY_FOR_THE_FAST_ONE)
