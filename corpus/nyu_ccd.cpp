@@ -21,7 +21,7 @@ Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], 
 Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-mpq_class inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+mpq_class dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The number as a double, if a double can hold it.
 std::optional<double> as_double(const mpq_class& q) {
@@ -142,7 +142,7 @@ std::optional<GroundTruth> fit(const Rows& rows) {
   const Point moved = minus(at(5), at(1));
   if (minus(at(6), at(2)) != moved || minus(at(7), at(3)) != moved) return std::nullopt;
   const Point velocity = minus(minus(at(4), at(0)), moved);
-  const mpq_class along_normal = inner(cross(minus(at(2), at(1)), minus(at(3), at(1))), velocity);
+  const mpq_class along_normal = dot(cross(minus(at(2), at(1)), minus(at(3), at(1))), velocity);
   const bool from_behind = along_normal > 0;
   GroundTruth g{{&query_of(QueryId::moving_point_triangle), Scalar::float64, {}, {}, 0, 0, {}},
                 rows[0].truth,

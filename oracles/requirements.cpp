@@ -27,23 +27,23 @@ constexpr Long most_epsilons = 4;
 constexpr Long rounding = 0x1p-58L;
 
 /// The fields of one top-level member.
-struct Thing {
+struct Operand {
   std::string_view name;
   std::size_t begin, count;
 };
 
-std::vector<Thing> things_of(const Query& q) {
-  std::vector<Thing> things;
+std::vector<Operand> operands_of(const Query& q) {
+  std::vector<Operand> operands;
   for (std::size_t i = 0; i < q.inputs.size(); ++i) {
     const std::string_view whole = q.inputs[i].name, name = whole.substr(0, whole.find('.'));
-    if (things.empty() || things.back().name != name) things.push_back({name, i, 0});
-    ++things.back().count;
+    if (operands.empty() || operands.back().name != name) operands.push_back({name, i, 0});
+    ++operands.back().count;
   }
-  return things;
+  return operands;
 }
 
 /// The index of the operand's field with that name; empty where it has none.
-std::optional<std::size_t> field(const Query& q, const Thing& t, std::string_view member) {
+std::optional<std::size_t> field(const Query& q, const Operand& t, std::string_view member) {
   for (std::size_t i = t.begin; i < t.begin + t.count; ++i) {
     const std::string_view name = q.inputs[i].name;
     if (name.size() == t.name.size() + 1 + member.size() && name.ends_with(member)) return i;
@@ -52,7 +52,7 @@ std::optional<std::size_t> field(const Query& q, const Thing& t, std::string_vie
 }
 
 /// The kind of obstacle that the operand is.
-std::optional<Obstacle> obstacle_of(const Query& q, const Thing& t) {
+std::optional<Obstacle> obstacle_of(const Query& q, const Operand& t) {
   const auto has = [&](std::string_view member) { return field(q, t, member).has_value(); };
   if (has("offset")) return Obstacle::plane;
   if (has("v3.x")) return Obstacle::rectangle;
@@ -64,13 +64,13 @@ std::optional<Obstacle> obstacle_of(const Query& q, const Thing& t) {
   return std::nullopt;
 }
 
-std::optional<Parts::Start> start_of(const Query& q, const std::vector<Thing>& things) {
-  const Thing& mover = things.front();
+std::optional<Parts::Start> start_of(const Query& q, const std::vector<Operand>& operands) {
+  const Operand& mover = operands.front();
   const bool is_ray = field(q, mover, "origin.x").has_value();
   const bool moves =
       std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::velocity; });
   if (!is_ray && !moves) return std::nullopt;
-  for (const Thing& t : things) {
+  for (const Operand& t : operands) {
     const auto obstacle = obstacle_of(q, t);
     if (&t == &mover || !obstacle) continue;
     return Parts::Start{mover.begin, field(q, mover, "radius"), *obstacle, t.begin, t.count};
@@ -199,8 +199,8 @@ bool starts_in_touch(const Case& c, const Parts::Start& s) {
 }  // namespace
 
 Parts::Parts(const Query& q) {
-  const std::vector<Thing> things = things_of(q);
-  for (const Thing& t : things) {
+  const std::vector<Operand> operands = operands_of(q);
+  for (const Operand& t : operands) {
     const auto at = [&](std::string_view member) { return field(q, t, member); };
     if (at("v3.x")) {
       rectangles.push_back({t.begin, t.begin + 3, t.begin + 6, t.begin + 9});
@@ -222,7 +222,7 @@ Parts::Parts(const Query& q) {
     if (f.role == Role::velocity) velocities.push_back(i);
     if (f.role == Role::direction) (f.name.ends_with("normal.x") ? normals : directions).push_back(i);
   }
-  start = start_of(q, things);
+  start = start_of(q, operands);
 }
 
 const Parts& parts_of(const Query& query) {

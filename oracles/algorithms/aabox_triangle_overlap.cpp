@@ -15,9 +15,9 @@ struct Shadow {
 
 template <class N, std::size_t n>
 Shadow<N> shadow(const Vector<N>& axis, const std::array<Vector<N>, n>& points) {
-  Shadow<N> s{inner(axis, points[0]), inner(axis, points[0])};
+  Shadow<N> s{dot(axis, points[0]), dot(axis, points[0])};
   for (const Vector<N>& x : points) {
-    const N at = inner(axis, x);
+    const N at = dot(axis, x);
     s.low = lesser(s.low, at);
     s.high = -lesser(N(-s.high), N(-at));
   }
@@ -53,7 +53,7 @@ struct BoxAndTriangle {
     if (surely_in_shadow(i, k) || surely_in_shadow((i + 1) % 3, k)) return true;
     const Vector<N> axis = cross(unit(k), edge[i]);
     const Shadow<N> of_box = shadow(axis, box);
-    const N at = inner(axis, corner[i]);
+    const N at = dot(axis, corner[i]);
     return !may_be_less(at, of_box.low) && !may_be_less(of_box.high, at);
   }
   /// Whether the projections of the box and of an edge of the triangle along axis k meet. Then no axis perpendicular to

@@ -18,7 +18,7 @@ void bounce_direction(const inputs::bounce_direction<N>& q, Out& out) {
   const auto reflected = [&](const Vector<N>& u) {
     const N length2 = norm2(u);
     if (may_be_zero(length2)) return out.everything();
-    const N twice = N(2) * inner(v, u) / length2;
+    const N twice = N(2) * dot(v, u) / length2;
     out.yes({answer_vector(times(minus(v, times(u, twice)), N(N(1) / speed)))});
   };
   const bool may_coincide = may_be_zero(to_center[0]) && may_be_zero(to_center[1]) && may_be_zero(to_center[2]);

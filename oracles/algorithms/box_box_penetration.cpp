@@ -63,7 +63,7 @@ class Penetration {
         nearly_parallel(k, depth);
         continue;
       }
-      for_each_sign(N(inner(boxes_.between, axis_[k].direction)), [&](int side) {
+      for_each_sign(N(dot(boxes_.between, axis_[k].direction)), [&](int side) {
         const Vector<N> unit = times(axis_[k].direction, N(N(side) / axis_[k].length));
         if (k < 3)
           face_of_1(k, unit, depth);
@@ -172,12 +172,12 @@ class Penetration {
   void edges(int k, const Vector<N>& normal, const N& depth) {
     const int i = (k - 6) / 3, j = (k - 6) % 3;
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    for_each_sign(N(inner(normal, boxes_.axes1[i1])), [&](int s1) {
-      for_each_sign(N(inner(normal, boxes_.axes1[i2])), [&](int s2) {
+    for_each_sign(N(dot(normal, boxes_.axes1[i1])), [&](int s1) {
+      for_each_sign(N(dot(normal, boxes_.axes1[i2])), [&](int s2) {
         const Vector<N> on1 = plus(boxes_.center1, plus(times(boxes_.axes1[i1], N(N(s1) * boxes_.half1[i1])),
                                                         times(boxes_.axes1[i2], N(N(s2) * boxes_.half1[i2]))));
-        for_each_sign(N(inner(normal, boxes_.axes2[j1])), [&](int t1) {
-          for_each_sign(N(inner(normal, boxes_.axes2[j2])), [&](int t2) {
+        for_each_sign(N(dot(normal, boxes_.axes2[j1])), [&](int t1) {
+          for_each_sign(N(dot(normal, boxes_.axes2[j2])), [&](int t2) {
             const Vector<N> on2 = minus(boxes_.center2, plus(times(boxes_.axes2[j1], N(N(t1) * boxes_.half2[j1])),
                                                              times(boxes_.axes2[j2], N(N(t2) * boxes_.half2[j2]))));
             edge_pair(k, normal, depth, on1, on2);
@@ -200,8 +200,8 @@ class Penetration {
     const N &half1 = boxes_.half1[i], &half2 = boxes_.half2[j];
     const Vector<N> d = minus(on2, on1);
     const Vector<N>& product = axis_[k].direction;
-    const N length2 = norm2(product), da = inner(d, a), db = inner(d, b), cosine = boxes_.cosine(i, j);
-    const N along1 = inner(d, cross(b, product)) / length2, along2 = inner(d, cross(a, product)) / length2;
+    const N length2 = norm2(product), da = dot(d, a), db = dot(d, b), cosine = boxes_.cosine(i, j);
+    const N along1 = dot(d, cross(b, product)) / length2, along2 = dot(d, cross(a, product)) / length2;
     const N over1 = magnitude(along1) - half1, over2 = magnitude(along2) - half2;
     std::vector<Places> places;
     const auto add = [&](const N& x, const N& y, bool always) {

@@ -10,7 +10,7 @@ template <class N, class Out>
 void box_plane_penetration(const inputs::box_plane_penetration<N>& q, Out& out) {
   const Vector<N> n = vector(q.plane.normal), center = vector(q.box.center), half = vector(q.box.half);
   const auto axes = rotation_axes<N>(q.box.orientation);
-  const N norm_squared = norm2(n), middle = inner(n, center) + q.plane.offset;
+  const N norm_squared = norm2(n), middle = dot(n, center) + q.plane.offset;
   if (may_be_zero(norm_squared)) return out.everything();
   const N per_norm = N(1) / root(norm_squared);
   const Vector<N> local_normal = into(axes, n);
@@ -22,7 +22,7 @@ void box_plane_penetration(const inputs::box_plane_penetration<N>& q, Out& out) 
     for (int k = 0; k < 3; ++k) {
       if ((i >> k & 1) == 0) local[k] = -half[k];
     }
-    const N height = middle + inner(local_normal, local);
+    const N height = middle + dot(local_normal, local);
     lowest = i == 0 ? height : N(lesser(lowest, height));
     if (!may_be_at_most_zero(height)) continue;
     const Vector<N> corner = plus(center, out_of(axes, local));

@@ -10,8 +10,8 @@ template <class N, class Out>
 void closest_point_segment(const inputs::closest_point_segment<N>& q, Out& out) {
   const Vector<N> v0 = vector(q.segment.v0), v1 = vector(q.segment.v1), p = vector(q.point);
   const Vector<N> along = minus(v1, v0);
-  const N from_v0 = inner(minus(p, v0), along);  // -1/2 times the derivative at v0
-  const N from_v1 = inner(minus(v1, p), along);  // 1/2 times the derivative at v1
+  const N from_v0 = dot(minus(p, v0), along);  // -1/2 times the derivative at v0
+  const N from_v1 = dot(minus(v1, p), along);  // 1/2 times the derivative at v1
   if (may_be_at_most_zero(from_v0)) out.yes({answer_vector(v0)});
   if (may_be_at_most_zero(from_v1)) out.yes({answer_vector(v1)});
   if (!may_be_positive(from_v0) || !may_be_positive(from_v1)) return;

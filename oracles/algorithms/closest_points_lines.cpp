@@ -44,13 +44,13 @@ void closest_points_lines(const inputs::closest_points_lines<N>& q, Out& out) {
       if (!surely_zero(determinant) || may_be_zero(length2)) return any_points(q, out);
     }
     // (p1 - p2) . d2 / |d2|^2 along line 2
-    return out.yes({answer_vector(p1), answer_vector(minus(p2, times(d2, N(inner(between, d2) / length2))))});
+    return out.yes({answer_vector(p1), answer_vector(minus(p2, times(d2, N(dot(between, d2) / length2))))});
   }
-  const N along1 = inner(between, d1), along2 = inner(between, d2), cosine = inner(d1, d2);
+  const N along1 = dot(between, d1), along2 = dot(between, d2), cosine = dot(d1, d2);
   // The same numerators with their cancellation carried out: (between x d2) . (d1 x d2), and with d1.
   const Vector<N> normal = cross(d1, d2);
-  const N numerator1 = meet(N(inner(cross(between, d2), normal)), N(along1 * length2 - along2 * cosine));
-  const N numerator2 = meet(N(inner(cross(between, d1), normal)), N(along1 * cosine - along2 * length1));
+  const N numerator1 = meet(N(dot(cross(between, d2), normal)), N(along1 * length2 - along2 * cosine));
+  const N numerator2 = meet(N(dot(cross(between, d1), normal)), N(along1 * cosine - along2 * length1));
   const collide::ClosestPoints<N> points{answer_vector(plus(p1, times(d1, N(numerator1 / determinant)))),
                                          answer_vector(plus(p2, times(d2, N(numerator2 / determinant))))};
   if constexpr (is_enclosure<N>) {  // tightens a place that is poorly known along its line

@@ -53,7 +53,7 @@ Window times_on_side(const N& start, const N& step, const N& half, int side) {
 /// u|^2. For enclosures only.
 inline Window times_within(const Vector<Interval>& w, const Vector<Interval>& u, const Interval& reach2,
                            const Interval& moment2) {
-  const Interval closing = -inner(w, u), speed2 = norm2(u), chord2 = speed2 * reach2 - moment2;
+  const Interval closing = -dot(w, u), speed2 = norm2(u), chord2 = speed2 * reach2 - moment2;
   const Interval outside = norm2(w) - reach2;
   constexpr Window never{1, 0};
   if (!may_be_at_least_zero(chord2)) return never;

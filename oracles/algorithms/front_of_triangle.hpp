@@ -18,15 +18,15 @@ struct FrontHit {
 template <class N>
 FrontHit<N> front_hit(const Vector<N>& p, const Vector<N>& v, const std::array<Vector<N>, 3>& corner) {
   const Vector<N> n = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
-  const N approach = -inner(n, v);                 // > 0: toward the front
-  const N height = inner(n, minus(p, corner[0]));  // >= 0: starts in front
+  const N approach = -dot(n, v);                 // > 0: toward the front
+  const N height = dot(n, minus(p, corner[0]));  // >= 0: starts in front
   FrontHit<N> hit;
   if (!may_be_positive(approach) || !may_be_at_least_zero(height)) return hit;
   bool may_miss = may_be_at_most_zero(approach) || may_be_negative(height);
   // The line of motion passes edge i on its inner side if its moment about the edge is not negative.
   for (int i = 0; i < 3; ++i) {
     const Vector<N> a = minus(corner[i], p), b = minus(corner[(i + 1) % 3], p);
-    const N moment = -inner(v, cross(a, b));
+    const N moment = -dot(v, cross(a, b));
     if (!may_be_at_least_zero(moment)) return hit;
     may_miss = may_miss || may_be_negative(moment);
   }

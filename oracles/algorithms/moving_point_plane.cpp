@@ -9,8 +9,8 @@ namespace nearmiss::oracle {
 template <class N, class Out>
 void moving_point_plane(const inputs::moving_point_plane<N>& q, Out& out) {
   const Vector<N> p = vector(q.point), v = vector(q.velocity), n = vector(q.plane.normal);
-  const N approach = -inner(n, v);                // > 0: toward the front
-  const N height = inner(n, p) + q.plane.offset;  // >= 0: starts in front
+  const N approach = -dot(n, v);                // > 0: toward the front
+  const N height = dot(n, p) + q.plane.offset;  // >= 0: starts in front
   if (may_be_at_most_zero(approach) || may_be_negative(height)) out.no();
   if (!may_be_positive(approach) || !may_be_at_least_zero(height)) return;
   const N length2 = norm2(n);

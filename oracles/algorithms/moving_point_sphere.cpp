@@ -28,7 +28,7 @@ void moving_point_sphere(const inputs::moving_point_sphere<N>& q, Out& out) {
   const Vector<N> p = vector(q.point), v = vector(q.velocity), m = minus(p, vector(q.sphere.center));
   const N radius = q.sphere.radius;
   const N outside = norm2(m) - square(radius);
-  const N closing = -inner(m, v), speed2 = norm2(v);
+  const N closing = -dot(m, v), speed2 = norm2(v);
   const bool starts_in = may_be_at_most_zero(outside);
   if (starts_in && q.solid) contact(out, Impact{N(0), answer_vector(p), {}}, m);
   if (!may_be_positive(outside) && q.solid) return;

@@ -48,15 +48,15 @@ struct CapsuleContacts {
   /// The barycentric weight of the second end, for a center between the ends.
   N share(const Vector<N>& from_first) const {
     if (may_be_zero(length2)) return is_enclosure<N> ? join(N(0), N(1)) : N(0);
-    return assume_within(N(inner(d, from_first) / length2), 0.0, 1.0);
+    return assume_within(N(dot(d, from_first) / length2), 0.0, 1.0);
   }
   bool may_belong_to_end(const Vector<N>& from_end, Part part) const {
     if (m.is_ball) return true;
-    const N along = inner(d, from_end);
+    const N along = dot(d, from_end);
     return part == Part::first_end ? may_be_at_most_zero(along) : may_be_at_least_zero(along);
   }
   bool may_belong_to_tube(const Vector<N>& from_first, const Vector<N>& from_second) const {
-    return may_be_at_least_zero(inner(d, from_first)) && may_be_at_most_zero(inner(d, from_second));
+    return may_be_at_least_zero(dot(d, from_first)) && may_be_at_most_zero(dot(d, from_second));
   }
   static bool all_surely_zero(const Vector<N>& x) {
     return surely_zero(x[0]) && surely_zero(x[1]) && surely_zero(x[2]);
@@ -113,7 +113,7 @@ struct CapsuleContacts {
   bool start(const CapsuleContact<N>& c, const N& distance2, Out& out) const {
     const N outside = distance2 - square(m.reach());
     if (!may_be_at_most_zero(outside)) return true;
-    const N leaving = inner(c.away, m.step);
+    const N leaving = dot(c.away, m.step);
     const bool may_overlap = may_be_negative(outside) && may_be_positive(m.own);
     const bool may_touch = may_be_zero(outside) && may_be_at_most_zero(leaving);
     if (may_be_negative(outside) && may_be_zero(m.own)) out.no();
@@ -178,7 +178,7 @@ struct CapsuleContacts {
 
   void root_of_end(int i, Part part, N time, Roots& roots) const {
     const Vector<N> from = minus(m.at, m.end[i]);
-    const N closing = -inner(from, m.step), speed2 = norm2(m.step);
+    const N closing = -dot(from, m.step), speed2 = norm2(m.step);
     if (!may_be_positive(closing)) return;
     const N discriminant = speed2 * square(m.reach()) - norm2(cross(from, m.step));
     const N outside = norm2(from) - square(m.reach());
@@ -197,9 +197,9 @@ struct CapsuleContacts {
       if (near.empty() || !narrow(time, N(near.from, near.to))) return;
     }
     const Vector<N> from_d = cross(from, d), step_d = cross(m.step, d);
-    const N closing = -inner(from_d, step_d), a = norm2(step_d);
+    const N closing = -dot(from_d, step_d), a = norm2(step_d);
     if (!may_be_positive(closing)) return;
-    const N discriminant = length2 * (a * square(m.reach()) - square(inner(d, cross(from, m.step))));
+    const N discriminant = length2 * (a * square(m.reach()) - square(dot(d, cross(from, m.step))));
     const N outside = norm2(from_d) - square(m.reach()) * length2;
     if (!may_be_at_least_zero(discriminant) || !may_be_at_least_zero(outside)) return;
     const N half = root(discriminant);
@@ -226,7 +226,7 @@ struct CapsuleContacts {
     if constexpr (is_enclosure<N>) {
       if (!(time.sup() < std::numeric_limits<double>::infinity())) return false;
       const Vector<N> center = plus(from_first, times(m.step, time));
-      return !may_be_negative(inner(d, center)) && !may_be_positive(inner(d, minus(center, d)));
+      return !may_be_negative(dot(d, center)) && !may_be_positive(dot(d, minus(center, d)));
     }
     return false;  // exact roots are compared
   }
@@ -244,7 +244,7 @@ struct CapsuleContacts {
       const Vector<N> from = minus(m.at, middle);
       if (!oracle::narrow_to_reach(from, m.step, &d, length2, m.reach(), c.time)) return false;
       const Vector<N> center = plus(from, times(m.step, c.time));
-      const Vector<N> on = times(d, N(inner(center, d) / length2));
+      const Vector<N> on = times(d, N(dot(center, d) / length2));
       return narrow(c.on_axis, plus(middle, on)) && narrow(c.away, minus(center, on));
     }
     return true;

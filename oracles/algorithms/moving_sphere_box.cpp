@@ -87,7 +87,7 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
     e[i] = sides[i] > 0 ? N(m.start[i] - m.half[i]) : N(m.start[i] + m.half[i]);
     v[i] = m.step[i];
   }
-  const N closing = -inner(e, v);
+  const N closing = -dot(e, v);
   if (!may_be_positive(closing)) return;
   std::optional<N> crossing;
   if (beyond(sides) == 1) {
@@ -157,7 +157,7 @@ Start start_in_region(const Motion<N>& m, const Sides& sides, Out& out) {
     out.yes(impact, normal_cone(m.axes, sides));
     return start;
   }
-  const N leaving = inner(from.away, m.step);
+  const N leaving = dot(from.away, m.step);
   if (may_be_zero(outside) && may_be_positive(leaving)) out.no();
   if (may_be_negative(outside) || may_be_at_most_zero(leaving)) {
     Vector<N> unit = times(from.away, N(N(1) / from.distance(sides)));

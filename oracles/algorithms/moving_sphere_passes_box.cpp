@@ -111,9 +111,9 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
 
 /// A lower bound of the squared distance from time 0 to `limit`.
 double least_distance2(const Path<Interval>& path, double near, double limit) {
-  const auto slope_at = [&](double t) { return inner(path.step, beyond_at(path, Interval(t))); };
+  const auto slope_at = [&](double t) { return dot(path.step, beyond_at(path, Interval(t))); };
   const Vector<Interval> e = beyond_at(path, Interval(near));
-  const Interval slope = inner(path.step, e);
+  const Interval slope = dot(path.step, e);
   double speed2 = 0;
   for (int i = 0; i < 3; ++i) {
     if (e[i].inf() != 0 || e[i].sup() != 0) speed2 += std::max(square(path.step[i]).inf(), 0.0);

@@ -11,7 +11,7 @@ void moving_sphere_passes_sphere(const inputs::moving_sphere_passes_sphere<N>& q
   const N reach2 = square(N(q.sphere.radius + q.fixed.radius));
   const N limit = assume_at_least_zero(q.limit);
   const N outside = norm2(m) - reach2;                         // at the start
-  const N closing = -inner(m, v);                              // -1/2 times the derivative at the start
+  const N closing = -dot(m, v);                                // -1/2 times the derivative at the start
   const N clearance = norm2(cross(m, v)) - norm2(v) * reach2;  // <= 0: the line of motion comes within reach
   bool may_meet = may_be_at_most_zero(outside), may_miss = may_be_positive(outside);
   bool may_end_later = true, may_end_earlier = false;  // relative to the closest approach

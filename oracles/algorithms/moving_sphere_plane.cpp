@@ -10,8 +10,8 @@ template <class N, class Out>
 void moving_sphere_plane(const inputs::moving_sphere_plane<N>& q, Out& out) {
   const Vector<N> c = vector(q.sphere.center), v = vector(q.velocity), n = vector(q.plane.normal);
   const N radius = q.sphere.radius;
-  const N approach = -inner(n, v);                // >= 0: not away from the front
-  const N height = inner(n, c) + q.plane.offset;  // times |n|
+  const N approach = -dot(n, v);                // >= 0: not away from the front
+  const N height = dot(n, c) + q.plane.offset;  // times |n|
   const N length2 = norm2(n);
   if (may_be_zero(length2)) return out.everything();
   const N length = root(length2), reach = radius * length;

@@ -55,7 +55,7 @@ template <class N, std::size_t n>
 Piece<N> edge_piece(const std::array<Vector<N>, n>& corner, int i, int j, const Vector<N>& p) {
   const Vector<N>&a = corner[i], &b = corner[j];
   const Vector<N> along = minus(b, a), from_a = minus(p, a), from_b = minus(p, b);
-  const N past_a = inner(from_a, along), before_b = -inner(from_b, along), length2 = norm2(along);
+  const N past_a = dot(from_a, along), before_b = -dot(from_b, along), length2 = norm2(along);
   const N a2 = norm2(from_a), b2 = norm2(from_b);
   Piece<N> piece;
   piece.seen_from = 1u << i | 1u << j;
@@ -110,8 +110,8 @@ std::optional<Place<N>> thin_face(const std::array<Vector<N>, 3>& v, const N& no
     const N length2 = norm2(along);
     if (may_be_zero(length2)) continue;
     const N height = root(N(normal2 / length2)), around = join(height, N(-height));
-    const N third = inner(minus(v[(i + 2) % 3], v[i]), along) / length2;
-    N share = inner(from, along) / length2;
+    const N third = dot(minus(v[(i + 2) % 3], v[i]), along) / length2;
+    N share = dot(from, along) / length2;
     if (!narrow(share, join(join(N(0), N(1)), third))) return std::nullopt;
     for (int k = 0; k < 3; ++k) place.point[k] = meet(N(v[i][k] + along[k] * share + around), place.point[k]);
     const N distance = assume_at_least_zero(N(root(N(norm2(cross(from, along)) / length2)) + around));
@@ -135,7 +135,7 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
   const bool has_area = !may_be_zero(normal2);
   piece.surely = face.surely_within = has_area;
   for (int i = 0; i < 3; ++i) {
-    const N side = inner(cross(minus(v[(i + 1) % 3], v[i]), minus(p, v[i])), normal);
+    const N side = dot(cross(minus(v[(i + 1) % 3], v[i]), minus(p, v[i])), normal);
     if (!may_be_at_least_zero(side)) return piece.surely = face.surely_within = false, face;
     piece.surely = piece.surely && !may_be_negative(side);
     face.surely_within = face.surely_within && !may_be_at_most_zero(side);
@@ -150,7 +150,7 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
   if (line) piece.seen_from |= 1u << diagonal;
   const Vector<N> w = minus(p, v[0]);
   if (has_area) {
-    const N height = inner(normal, w);
+    const N height = dot(normal, w);
     const Vector<N> foot = minus(p, times(normal, N(height / normal2)));
     const N distance2 = square(height) / normal2;
     for (int k = 0; k < 3; ++k) place.point[k] = is_enclosure<N> ? meet(foot[k], place.point[k]) : foot[k];
@@ -167,7 +167,7 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
   if (line) {
     const N length2 = norm2(base);
     place.gain[diagonal] = has_area && !may_be_zero(length2)
-                               ? N(square(inner(w, cross(normal, base))) / (normal2 * length2))
+                               ? N(square(dot(w, cross(normal, base))) / (normal2 * length2))
                                : N(join(N(0), norm2(w)));
   }
   piece.add(place);

@@ -53,7 +53,7 @@ inline bool narrow_to_crossing(const Vector<Interval>& p, const Vector<Interval>
   for (const Vector<Interval>& c : corner) {
     if (!is_moderate(c)) return true;
   }
-  const Interval inverse = Interval(1) / inner(n, v);
+  const Interval inverse = Interval(1) / dot(n, v);
   if (!is_moderate(inverse)) return true;
   const Vector<Interval> slope = times(n, inverse);
   const double t0 = near_middle(time);
@@ -65,7 +65,7 @@ inline bool narrow_to_crossing(const Vector<Interval>& p, const Vector<Interval>
   const Vector<Interval> middle{Interval(x0[0]), Interval(x0[1]), Interval(x0[2])};
   const Vector<Interval> ahead = minus(plus(p, times(v, Interval(t0))), middle);
   const Vector<Interval> in_plane = minus(combined(corner, weight), middle);
-  if (!narrow(time, Interval(Interval(t0) - inner(slope, minus(ahead, in_plane))))) return false;
+  if (!narrow(time, Interval(Interval(t0) - dot(slope, minus(ahead, in_plane))))) return false;
   Vector<Interval> tighter = middle;
   for (int j = 0; j < 3; ++j) {
     for (int k = 0; k < 3; ++k) {
@@ -85,10 +85,10 @@ inline bool narrow_to_reach(const Vector<Interval>& from, const Vector<Interval>
   const double t0 = near_middle(time);
   const Vector<Interval> at_t0 = plus(from, times(step, Interval(t0)));
   const Vector<Interval> at_any = plus(from, times(step, join(time, Interval(t0))));
-  Interval beyond = norm2(at_t0) - square(reach), slope = inner(step, at_any);
+  Interval beyond = norm2(at_t0) - square(reach), slope = dot(step, at_any);
   if (along != nullptr) {
-    beyond = beyond - square(inner(at_t0, *along)) / length2;
-    slope = slope - inner(step, *along) * inner(at_any, *along) / length2;
+    beyond = beyond - square(dot(at_t0, *along)) / length2;
+    slope = slope - dot(step, *along) * dot(at_any, *along) / length2;
   }
   if (may_be_zero(slope) || !is_moderate(beyond)) return true;
   return narrow(time, Interval(Interval(t0) - beyond / (Interval(2) * slope)));

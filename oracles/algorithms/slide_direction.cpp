@@ -24,7 +24,7 @@ void slide_direction(const inputs::slide_direction<N>& q, Out& out) {
   const N length2 = norm2(to_center);
   if (!may_be_positive(length2)) return;
   if (!may_be_zero(length2)) {
-    return answer(minus(v, times(to_center, N(inner(v, to_center) / length2))));
+    return answer(minus(v, times(to_center, N(dot(v, to_center) / length2))));
   }
   const N any = join(N(-1), N(1));  // encloses every vector of at most unit length
   out.yes({{any, any, any}});

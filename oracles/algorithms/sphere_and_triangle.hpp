@@ -94,7 +94,7 @@ class SphereAndTriangle {
 
   /// n . v <= 0, and n . (p - v0) >= -r |n|.
   bool passes_gate() {
-    const N toward = inner(n_, v_), height = inner(n_, from_corner(0));
+    const N toward = dot(n_, v_), height = dot(n_, from_corner(0));
     const N deep = square(height) - square(r_) * n2_;
     const bool may_be_behind = may_be_negative(height) && may_be_positive(deep);
     const bool may_be_before = may_be_at_least_zero(height) || may_be_at_most_zero(deep);
@@ -142,7 +142,7 @@ class SphereAndTriangle {
   Place on_edge(int i, const Vector<N>& w) const {
     N along(0);
     if constexpr (is_enclosure<N>) along = N(0, 1);
-    if (!may_be_zero(e2_[i])) along = assume_within(N(inner(w, e_[i]) / e2_[i]), 0.0, 1.0);
+    if (!may_be_zero(e2_[i])) along = assume_within(N(dot(w, e_[i]) / e2_[i]), 0.0, 1.0);
     return {plus(corner_[i], times(e_[i], along)), edge_weights(i, along), edge_cone(i)};
   }
 
@@ -170,8 +170,8 @@ class SphereAndTriangle {
   Vector<N> beside_longest_edge(const Vector<N>& x) const {
     const int l = longest();
     if (may_be_zero(e2_[l])) return on_edge(l, minus(x, corner_[l])).point;
-    const N third = join(join(N(0), N(1)), N(N(1) + inner(e_[l], e_[(l + 1) % 3]) / e2_[l]));
-    const N along = inner(minus(x, corner_[l]), e_[l]) / e2_[l];
+    const N third = join(join(N(0), N(1)), N(N(1) + dot(e_[l], e_[(l + 1) % 3]) / e2_[l]));
+    const N along = dot(minus(x, corner_[l]), e_[l]) / e2_[l];
     return plus(corner_[l], times(e_[l], N(assume_within(along, bounds(third).low, bounds(third).high))));
   }
   /// The foot of a point on the plane, if it may lie in the face; empty otherwise. Also bounds an enclosure by its
@@ -184,14 +184,14 @@ class SphereAndTriangle {
       for (int k = 0; k < 3; ++k) place.point[k] = assume_within(by_edge[k] + about, lowest(k).inf(), highest(k).sup());
     }
     if (surely_has_area()) {
-      const N up = inner(n_, minus(x, corner_[0])) / n2_;
+      const N up = dot(n_, minus(x, corner_[0])) / n2_;
       const Vector<N> foot = minus(x, times(n_, up));
       for (int k = 0; k < 3; ++k) {
         if (!is_enclosure<N>) place.point[k] = foot[k];
         if (!narrow(place.point[k], foot[k])) return std::nullopt;
       }
       for (int i = 0; i < 3; ++i) {
-        place.weights[(i + 2) % 3] = -inner(out_[i], minus(x, corner_[i])) / n2_;
+        place.weights[(i + 2) % 3] = -dot(out_[i], minus(x, corner_[i])) / n2_;
       }
     }
     return place;
@@ -199,17 +199,17 @@ class SphereAndTriangle {
 
   bool may_be_at_vertex(int i, const Vector<N>& x) const {
     const Vector<N> w = minus(x, corner_[i]);
-    return may_be_at_most_zero(N(inner(w, e_[i]))) && may_be_at_least_zero(N(inner(w, e_[(i + 2) % 3])));
+    return may_be_at_most_zero(N(dot(w, e_[i]))) && may_be_at_least_zero(N(dot(w, e_[(i + 2) % 3])));
   }
   bool may_be_at_edge(int i, const Vector<N>& x) const {
     const Vector<N> w = minus(x, corner_[i]);
-    const N along = inner(w, e_[i]);
+    const N along = dot(w, e_[i]);
     return may_be_positive(e2_[i]) && may_be_at_least_zero(along) && may_be_at_most(along, e2_[i]) &&
-           may_be_at_least_zero(N(inner(w, out_[i])));
+           may_be_at_least_zero(N(dot(w, out_[i])));
   }
   bool may_be_over_face(const Vector<N>& x) const {
     bool may = may_have_area();
-    for (int i = 0; i < 3; ++i) may = may && may_be_at_most_zero(N(inner(minus(x, corner_[i]), out_[i])));
+    for (int i = 0; i < 3; ++i) may = may && may_be_at_most_zero(N(dot(minus(x, corner_[i]), out_[i])));
     return may;
   }
 
@@ -230,7 +230,7 @@ class SphereAndTriangle {
         all_.list.push_back(c);
         return;
       }
-      const N leaving = inner(away, v_);
+      const N leaving = dot(away, v_);
       if (may_be_zero(outside) && may_be_positive(leaving)) all_.may_miss = true;
       if (!may_be_negative(outside) && !may_be_at_most_zero(leaving)) return;
       const Vector<N> unit = times(away, N(N(1) / root(distance2)));
@@ -240,7 +240,7 @@ class SphereAndTriangle {
         all_.list.push_back(c);
       };
       if (!over_face || !surely_has_area()) return add(unit);
-      const N height = inner(n_, from_corner(0)), length = root(n2_);
+      const N height = dot(n_, from_corner(0)), length = root(n2_);
       if (may_be_at_least_zero(height)) add(times(n_, N(length / n2_)));
       if (may_be_at_most_zero(height)) add(times(n_, N(-length / n2_)));
     };
@@ -255,7 +255,7 @@ class SphereAndTriangle {
     const std::optional<Place> foot = may_be_over_face(p_) ? in_face(p_) : std::nullopt;
     if (foot) {
       N tighter2 = norm2(minus(p_, foot->point));
-      if (surely_has_area()) tighter2 = meet(tighter2, N(square(inner(n_, from_corner(0))) / n2_));
+      if (surely_has_area()) tighter2 = meet(tighter2, N(square(dot(n_, from_corner(0))) / n2_));
       from(*foot, tighter2, true);
     }
     if constexpr (is_enclosure<N>) {  // if an edge may have no length, little is known about the nearest feature
@@ -270,7 +270,7 @@ class SphereAndTriangle {
   /// Empty if it never does.
   std::optional<N> root_time(const Vector<N>& w, const Vector<N>& u, const N& reach2, const N& moment2,
                              const Window& window, bool& surely) const {
-    const N closing = -inner(w, u);
+    const N closing = -dot(w, u);
     const N chord2 = norm2(u) * reach2 - moment2;
     if (!may_be_positive(closing) || !may_be_at_least_zero(chord2)) return std::nullopt;
     const N far = assume_at_least_zero(closing) + root(chord2);
@@ -281,7 +281,7 @@ class SphereAndTriangle {
   }
   N moment2(const Vector<N>& w) const { return norm2(cross(w, v_)); }
   /// |(w x e) x (v x e)|^2 = |e|^2 (e . (w x v))^2.
-  N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(inner(e_[i], cross(w, v_))); }
+  N moment2_about(int i, const Vector<N>& w) const { return e2_[i] * square(dot(e_[i], cross(w, v_))); }
 
   /// `away` is the vector from the place to the center.
   void add_root(const N& time, const Place& place, const Vector<N>& away, bool surely) {
@@ -301,8 +301,8 @@ class SphereAndTriangle {
   void vertex_root(int i) {
     const Vector<N> w = from_corner(i);
     Window window = near_;
-    window.clip(times_not_positive(N(inner(w, e_[i])), N(inner(v_, e_[i]))));
-    window.clip(times_not_positive(N(-inner(w, e_[(i + 2) % 3])), N(-inner(v_, e_[(i + 2) % 3]))));
+    window.clip(times_not_positive(N(dot(w, e_[i])), N(dot(v_, e_[i]))));
+    window.clip(times_not_positive(N(-dot(w, e_[(i + 2) % 3])), N(-dot(v_, e_[(i + 2) % 3]))));
     bool surely = false;
     if (is_enclosure<N>) {  // the ball about the vertex is an upper bound in every region
       const auto bound = root_time(w, v_, square(r_), moment2(w), near_, surely);
@@ -325,8 +325,8 @@ class SphereAndTriangle {
     bool surely = false;
     if (may_be_zero(e2_[i])) return tiny_edge_root(i);
     Window window = near_;
-    window.clip(times_not_positive(N(-inner(w, e_[i])), N(-inner(v_, e_[i]))));
-    window.clip(times_not_positive(N(inner(w, e_[i]) - e2_[i]), N(inner(v_, e_[i]))));
+    window.clip(times_not_positive(N(-dot(w, e_[i])), N(-dot(v_, e_[i]))));
+    window.clip(times_not_positive(N(dot(w, e_[i]) - e2_[i]), N(dot(v_, e_[i]))));
     if constexpr (is_enclosure<N>) window.clip(times_near_edge(i, r_));
     if (window.empty()) return;
     const auto of_line =
@@ -354,7 +354,7 @@ class SphereAndTriangle {
     return times_within(w, v_, square(N(reach + root(e2_[i]))), moment2(w));
   }
   bool surely_between(int i, const Vector<N>& x) const {
-    const N along = inner(minus(x, corner_[i]), e_[i]);
+    const N along = dot(minus(x, corner_[i]), e_[i]);
     return !may_be_negative(along) && !may_be_positive(N(along - e2_[i]));
   }
 
@@ -378,7 +378,7 @@ class SphereAndTriangle {
       const Vector<N> middle = plus(times(corner_[i], N(N(1) - s0)), times(corner_[j], s0)), from = minus(p_, middle);
       if (!narrow_to_reach(from, v_, &e_[i], e2_[i], r_, time)) return false;
       const Vector<N> center = plus(from, times(v_, time));
-      const N further = inner(center, e_[i]) / e2_[i];
+      const N further = dot(center, e_[i]) / e2_[i];
       const Vector<N> on = times(e_[i], further);
       return narrow(place.point, plus(middle, on)) && narrow(away, minus(center, on)) &&
              narrow(place.weights[j], N(s0 + further)) && narrow(place.weights[i], N(N(1) - s0 - further));
@@ -398,16 +398,16 @@ class SphereAndTriangle {
       // The squared height is the squared distance minus that within the plane, which is about zero.
       const Vector<N> at_t0 = plus(from, times(v_, N(t0))), at_any = plus(from, times(v_, join(time, N(t0))));
       const N beyond = norm2(at_t0) - norm2(cross(n_, at_t0)) / n2_ - square(r_);
-      const N slope = inner(n_, v_) * inner(n_, at_any) / n2_;
+      const N slope = dot(n_, v_) * dot(n_, at_any) / n2_;
       if (!may_be_zero(slope) && is_moderate(beyond)) {
         if (!narrow(time, N(N(t0) - beyond / (N(2) * slope)))) return false;
       }
       const Vector<N> center = plus(from, times(v_, time));
-      if (!narrow(place.point, plus(middle, minus(center, times(n_, N(inner(n_, center) / n2_)))))) return false;
+      if (!narrow(place.point, plus(middle, minus(center, times(n_, N(dot(n_, center) / n2_)))))) return false;
       const Vector<N> fixed{N(N(1) - N(weight[0]) - N(weight[1])), N(weight[0]), N(weight[1])};
       for (int i = 0; i < 3; ++i) {
         const int k = (i + 2) % 3;
-        if (!narrow(place.weights[k], N(fixed[k] - inner(out_[i], center) / n2_))) return false;
+        if (!narrow(place.weights[k], N(fixed[k] - dot(out_[i], center) / n2_))) return false;
       }
     }
     return true;
@@ -428,12 +428,12 @@ class SphereAndTriangle {
   }
 
   void face_root() {
-    const N approach = -inner(n_, v_), height = inner(n_, from_corner(0));
+    const N approach = -dot(n_, v_), height = dot(n_, from_corner(0));
     if (!may_have_area() || !may_be_positive(approach) || !may_be_at_least_zero(height)) return;
     if (!surely_has_area()) return thin_face_root();
     Window window = near_;
     for (int i = 0; i < 3; ++i) {
-      window.clip(times_not_positive(N(inner(from_corner(i), out_[i])), N(inner(v_, out_[i]))));
+      window.clip(times_not_positive(N(dot(from_corner(i), out_[i])), N(dot(v_, out_[i]))));
     }
     if (window.empty()) return;
     const N length = root(n2_);
@@ -467,7 +467,7 @@ class SphereAndTriangle {
     const int l = longest();
     const double most = std::min(root(e2_[(l + 1) % 3]).sup(), root(e2_[(l + 2) % 3]).sup());
     if (may_be_zero(e2_[l])) return most;
-    const N third = N(1) + inner(e_[l], e_[(l + 1) % 3]) / e2_[l];
+    const N third = N(1) + dot(e_[l], e_[(l + 1) % 3]) / e2_[l];
     const bool beside = !may_be_negative(third) && !may_be_positive(N(third - N(1)));
     return beside ? std::min(most, N(root(n2_) / root(e2_[l])).sup()) : most;
   }
@@ -483,8 +483,8 @@ class SphereAndTriangle {
       times = times_within(w, v_, square(reach), moment2(w));
       times.include(times_within(other, v_, square(reach), moment2(other)));
       Window beside = times_within(cross(w, e_[l]), cross(v_, e_[l]), N(square(reach) * e2_[l]), moment2_about(l, w));
-      beside.clip(times_not_positive(N(-inner(w, e_[l])), N(-inner(v_, e_[l]))));
-      beside.clip(times_not_positive(N(inner(w, e_[l]) - e2_[l]), N(inner(v_, e_[l]))));
+      beside.clip(times_not_positive(N(-dot(w, e_[l])), N(-dot(v_, e_[l]))));
+      beside.clip(times_not_positive(N(dot(w, e_[l]) - e2_[l]), N(dot(v_, e_[l]))));
       beside.clip(times_near_edge(l, reach));
       times.include(beside);
     }
@@ -554,10 +554,10 @@ class SphereAndTriangle {
 
   /// Whether the center certainly passes through the triangle from the front, however small the sphere.
   bool center_surely_crosses() const {
-    if (may_be_at_least_zero(N(inner(n_, v_))) || may_be_at_most_zero(N(inner(n_, from_corner(0))))) return false;
+    if (may_be_at_least_zero(N(dot(n_, v_))) || may_be_at_most_zero(N(dot(n_, from_corner(0))))) return false;
     bool within = true;
     for (int i = 0; i < 3; ++i) {
-      const N moment = -inner(v_, cross(from_corner(i), from_corner((i + 1) % 3)));
+      const N moment = -dot(v_, cross(from_corner(i), from_corner((i + 1) % 3)));
       within = within && !may_be_negative(moment);
     }
     return within;

@@ -12,7 +12,7 @@ void sphere_plane_penetration(const inputs::sphere_plane_penetration<N>& q, Out&
   const N norm_squared = norm2(n);
   if (may_be_zero(norm_squared)) return out.everything();
   const N per_norm = N(1) / root(norm_squared);
-  collide::Penetration<N> a{q.sphere.radius - (inner(n, center) + q.plane.offset) * per_norm, {}, {}};
+  collide::Penetration<N> a{q.sphere.radius - (dot(n, center) + q.plane.offset) * per_norm, {}, {}};
   if (may_be_negative(a.depth)) out.no(a, 1);
   if (!may_be_at_least_zero(a.depth)) return;
   Vector<N> normal = times(n, per_norm);

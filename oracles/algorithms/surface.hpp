@@ -54,7 +54,7 @@ bool may_be_on_line(const GivenPlace<N>& g, const L& l) {
 template <class N, class P>
 bool may_be_on_plane(const GivenPlace<N>& g, const P& p) {
   const Vector<N> n = vector(p.normal);
-  return may_be_at_most(square(N(inner(n, g.at) + p.offset)), N(square(g.slack) * norm2(n)));
+  return may_be_at_most(square(N(dot(n, g.at) + p.offset)), N(square(g.slack) * norm2(n)));
 }
 
 /// At that distance from a point or an axis: neither nearer nor further by more than the slack.

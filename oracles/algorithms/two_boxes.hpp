@@ -41,7 +41,7 @@ struct TwoBoxes {
     for (N& x : product) x = assume_within(x, -1.0, 1.0);
     return product;
   }
-  N cosine(int i, int j) const { return assume_within(inner(axes1[i], axes2[j]), -1.0, 1.0); }
+  N cosine(int i, int j) const { return assume_within(dot(axes1[i], axes2[j]), -1.0, 1.0); }
 
   /// Half the lengths of the boxes' projections on axis k, times |axis k|. Along one of its own axes a box extends by
   /// its half extent; an edge perpendicular to axis k adds nothing.
@@ -53,7 +53,7 @@ struct TwoBoxes {
   }
   /// The gap between the projections, times |axis k|; negative if they overlap.
   N gap(int k, const Vector<N>& axis) const {
-    return magnitude(inner(between, axis)) - reach1(k, axis) - reach2(k, axis);
+    return magnitude(dot(between, axis)) - reach1(k, axis) - reach2(k, axis);
   }
   N gap(int k) const { return gap(k, axis(k)); }
 
@@ -63,7 +63,7 @@ struct TwoBoxes {
     if (own >= 0) return half[own];
     N sum(0);
     for (int i = 0; i < 3; ++i) {
-      if (i != orthogonal) sum = sum + half[i] * assume_within(magnitude(inner(axes[i], axis)), 0.0, 1.0);
+      if (i != orthogonal) sum = sum + half[i] * assume_within(magnitude(dot(axes[i], axis)), 0.0, 1.0);
     }
     return sum;
   }
@@ -102,9 +102,9 @@ struct Across {
 /// Once with a of box 1 and once with a of box 2.
 inline std::array<Across, 2> across(const TwoBoxes<Interval>& boxes, int k) {
   const int i = (k - 6) / 3, j = (k - 6) % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-  const auto cross = [](int of1, int of2) { return 6 + 3 * of1 + of2; };
-  return {Across{{i1, i2, cross(i, j1), cross(i, j2)}, boxes.half2[j]},
-          Across{{3 + j1, 3 + j2, cross(i1, j), cross(i2, j)}, boxes.half1[i]}};
+  const auto number_of = [](int of1, int of2) { return 6 + 3 * of1 + of2; };
+  return {Across{{i1, i2, number_of(i, j1), number_of(i, j2)}, boxes.half2[j]},
+          Across{{3 + j1, 3 + j2, number_of(i1, j), number_of(i2, j)}, boxes.half1[i]}};
 }
 
 /// A lower bound, by (1), of the overlap along every unit vector perpendicular to both edges of axis k.
@@ -120,7 +120,7 @@ inline double least_depth_across(const TwoBoxes<Interval>& boxes, const PairAxes
 
 /// An upper bound of the distance of two corners between two unit axes with these gaps >= 0; at least the larger gap.
 inline double distance_between(const PairAxis<Interval>& a, const PairAxis<Interval>& b, double gap_a, double gap_b) {
-  const Interval cosine = assume_within(magnitude(inner(a.direction, b.direction)) / (a.length * b.length), 0.0, 1.0);
+  const Interval cosine = assume_within(magnitude(dot(a.direction, b.direction)) / (a.length * b.length), 0.0, 1.0);
   const Interval over_half_angle = Interval(std::max(gap_a, gap_b)) * root(Interval(2) / (Interval(1) + cosine));
   return std::min(over_half_angle.sup(), root(square(Interval(gap_a)) + square(Interval(gap_b))).sup());
 }

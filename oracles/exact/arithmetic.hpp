@@ -195,7 +195,7 @@ Vector<N> negated(const Vector<N>& a) {
   return {-a[0], -a[1], -a[2]};
 }
 template <class N>
-N inner(const Vector<N>& a, const Vector<N>& b) {
+N dot(const Vector<N>& a, const Vector<N>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class N>
@@ -220,7 +220,7 @@ std::array<Vector<N>, 3> rotation_axes(const Q& q) {
 }
 template <class N>
 Vector<N> into(const std::array<Vector<N>, 3>& axes, const Vector<N>& world) {
-  return {inner(axes[0], world), inner(axes[1], world), inner(axes[2], world)};
+  return {dot(axes[0], world), dot(axes[1], world), dot(axes[2], world)};
 }
 template <class N>
 Vector<N> out_of(const std::array<Vector<N>, 3>& axes, const Vector<N>& local) {

@@ -354,7 +354,7 @@ double least_ulps(const GivenVector& given, const Form& form) {
   if (!all_finite(given)) return 0;
   const Interval per_ulp =
       (magnitude(form.direction[0]) + magnitude(form.direction[1]) + magnitude(form.direction[2])) * near_unit(given);
-  return ulps_across(gap(inner(form.direction, minus(enclosed(given), form.from)), form.value), per_ulp, given.scalar);
+  return ulps_across(gap(dot(form.direction, minus(enclosed(given), form.from)), form.value), per_ulp, given.scalar);
 }
 
 double least_ulps(const GivenVector& given, const Vector<Interval>& point, const Interval& distance) {
