@@ -1,7 +1,8 @@
 /// Answers derived by hand: each right one must agree, each wrong one must be refuted. The numbers are
 /// small integers, so that the right answer is exact, and the derivation stands beside it. A name begins with what the
-/// case is of its query: a clear hit (of a query without a decision, the plain case), a clear miss, an exact touch, a start
-/// inside, a tie of several right answers, a degenerate shape, a gate. Which of these each query has is a table below.
+/// case is of its query: a clear hit (of a query without a decision, the plain case), a clear miss, an exact touch, a
+/// start inside, a tie of several right answers, a degenerate shape, a gate. Which of these each query has is a table
+/// below.
 #include <gtest/gtest.h>
 
 #include <iterator>
@@ -46,6 +47,9 @@ TEST_P(ByHand, TheJudgeKnows) {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double r2 = 0.70710678118654752440;  // sqrt(1/2)
+
+// A case a line.
+// clang-format off
 
 // closest_point_segment: v0, v1, point.
 const std::vector<double> diagonal{0, 0, 0, 2, 2, 0};
@@ -653,6 +657,8 @@ std::vector<Hand> hands_of_boxes_and_responses() {
       {"degenerate_at_rest", "slide_direction", {0, 0, 3, 1, 0, 0, 0, 1, 0, 0, 0}, true, true, {0, 0, 0}},
   };
 }
+
+// clang-format on
 
 std::vector<Hand> all_hands() {
   std::vector<Hand> all = hands();

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "corpus/errors.hpp"
 #include "corpus/codec.hpp"
+#include "corpus/errors.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/schedule.hpp"
 #include "reports/engine/tally.hpp"

@@ -11,8 +11,8 @@ namespace collide {
 
 /// Whether `point` lies in the closed ball `sphere`.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point) noexcept(
-    Tier::never_throws) {
+[[nodiscard]] Decision<T> sphere_contains_point(const Sphere<T>& sphere,
+                                                const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::sphere_contains_point<Tier>(sphere, point);
 }
 
