@@ -14,11 +14,6 @@ double unit_of(double largest, Scalar s) { return ulp(std::min(largest, largest_
 /// number of the given one, or both are subnormal: |x - y| <= 2^(digits - 3) ulp(max(|x|, |y|)) <= max(|x|, |y|) / 4.
 double looked_ulps(Scalar s) { return std::ldexp(1.0, digits(s) - 3); }
 
-template <class T>
-T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 RationalVector moved(const RationalVector& at, const RationalVector& along, const Rational& t) {
   return {at[0] + along[0] * t, at[1] + along[1] * t, at[2] + along[2] * t};
 }
