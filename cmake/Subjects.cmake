@@ -1,8 +1,9 @@
-# nearmiss_add_subject(NAME HEADER ADAPTER [ISOLATED] [LIBRARIES ...])
+# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [LIBRARIES ...])
 #   NAME      as the command line knows it
 #   HEADER    the adapter's header: beside the file that calls this, or from the top of this project
 #   ADAPTER   the adapter's type, qualified
 #   LIBRARIES what the header needs. Their compile options and definitions are for this adapter alone
+#   OWN       a subject of this project: its contracts are held in every test, and relations ask it for the same bits
 #   ISOLATED  never linked into a program with other subjects: for a library whose names another subject's library has as
 #             well, such as another version of it. Fuzz targets and property tests, which ask subjects in their own process,
 #             are without it
@@ -12,7 +13,7 @@
 # targets and properties read the same list.
 
 function(nearmiss_add_subject name header adapter)
-  cmake_parse_arguments(arg "ISOLATED" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OWN;ISOLATED" "" "LIBRARIES" ${ARGN})
   string(MAKE_C_IDENTIFIER ${name} identifier)
   get_property(known GLOBAL PROPERTY NEARMISS_SUBJECTS)
   if(identifier IN_LIST known)
@@ -36,23 +37,31 @@ Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME ${name})
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES ${arg_LIBRARIES})
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED ${arg_ISOLATED})
+  if(arg_OWN)
+    set_property(GLOBAL APPEND PROPERTY NEARMISS_OWN_SUBJECTS ${name})
+  endif()
   if(NEARMISS_READS_ADDED)
     set_property(GLOBAL APPEND PROPERTY NEARMISS_ADDED_SUBJECTS ${name})
   endif()
 endfunction()
 
-# The names of the subjects that NEARMISS_ADD added, as C++.
-function(nearmiss_added_subjects variable)
-  get_property(added GLOBAL PROPERTY NEARMISS_ADDED_SUBJECTS)
-  list(TRANSFORM added REPLACE "(.+)" "\"\\1\"")
-  list(JOIN added ", " added)
-  set(${variable} "std::vector<std::string> added_subjects() { return {${added}}; }\n" PARENT_SCOPE)
+# The functions of impl/subject/provenance.hpp: who brought which subject.
+function(nearmiss_provenance variable)
+  set(text "")
+  foreach(kind own added)
+    string(TOUPPER ${kind} property)
+    get_property(names GLOBAL PROPERTY NEARMISS_${property}_SUBJECTS)
+    list(TRANSFORM names REPLACE "(.+)" "\"\\1\"")
+    list(JOIN names ", " names)
+    string(APPEND text "std::vector<std::string> ${kind}_subjects() { return {${names}}; }\n")
+  endforeach()
+  set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
 # Writes the source `file` that lists subjects whose functions the program itself has. A program that compiles one of its
 # own links no other subject.
 function(nearmiss_write_subjects file)  # SUBJECT ...
-  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
+  set(text "// Written by CMake.\n#include \"impl/subject/provenance.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
   foreach(s IN LISTS ARGN)
     string(APPEND text "Subject subject_${s}();\n")
   endforeach()
@@ -60,19 +69,19 @@ function(nearmiss_write_subjects file)  # SUBJECT ...
   foreach(s IN LISTS ARGN)
     string(APPEND text "      subject_${s}(),\n")
   endforeach()
-  nearmiss_added_subjects(added)
-  file(GENERATE OUTPUT ${file} CONTENT "${text}  };\n}\n${added}}\n")
+  nearmiss_provenance(provenance)
+  file(GENERATE OUTPUT ${file} CONTENT "${text}  };\n}\n${provenance}}\n")
 endfunction()
 
 # Writes the source `file` that lists the same subjects as programs of their own.
 function(nearmiss_write_hosts file)  # SUBJECT ...
-  set(text "// Written by CMake.\n#include \"impl/subject/added.hpp\"\n#include \"impl/host/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
+  set(text "// Written by CMake.\n#include \"impl/subject/provenance.hpp\"\n#include \"impl/host/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
   foreach(s IN LISTS ARGN)
     get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_NAME)
     string(APPEND text "      {\"${name}\", \"$<TARGET_FILE:nearmiss_host_${s}>\"},\n")
   endforeach()
-  nearmiss_added_subjects(added)
-  file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${added}}\n")
+  nearmiss_provenance(provenance)
+  file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${provenance}}\n")
 endfunction()
 
 # Compiles a subject's adapter by itself, so that nobody else sees what its libraries ask of a compiler; makes the program

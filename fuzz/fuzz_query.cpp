@@ -24,7 +24,7 @@
 #include "corpus/generator.hpp"
 #include "fuzz/fuzzed_query.hpp"
 #include "impl/host/hosts.hpp"
-#include "impl/subject/added.hpp"
+#include "impl/subject/provenance.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
@@ -68,7 +68,7 @@ std::vector<const Subject*> asked_subjects() {
   };
   for (const Subject& s : subjects()) {
     const bool chosen =
-        s.name.starts_with("collide-") || s.host != nullptr || (has(names, "added") && has(added, s.name));
+        s.own || s.host != nullptr || (has(names, "added") && has(added, s.name));
     if (chosen && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
   }
   for (const std::string& name : names) {

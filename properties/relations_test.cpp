@@ -27,7 +27,10 @@ std::optional<RelationFinding> examined(const Relation& r, const Case& c, std::u
       r, c, seed, s, [&](const Case& asked) { return asked_here(s, asked); }, bit_for_bit);
 }
 
-bool is_certified(const Subject& s) { return s.name.starts_with("collide-certified"); }
+bool is_certified(const Subject& s) {
+  return s.own && std::all_of(s.offerings.begin(), s.offerings.end(),
+                              [](const Offering& o) { return o.contract.exact_decisions; });
+}
 
 class EveryTierRelated : public testing::TestWithParam<Pairing> {};
 

@@ -10,7 +10,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
 #include "corpus/shrink.hpp"
-#include "impl/subject/added.hpp"
+#include "impl/subject/provenance.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
@@ -37,7 +37,7 @@ bool is_held_to_its_word(const Subject& s) {
     return names.find(fmt::format(",{},", name)) != std::string::npos;
   };
   const std::vector<std::string> added = added_subjects();
-  return s.name.starts_with("collide-") || !s.plugin.empty() || named(s.name) ||
+  return s.own || !s.plugin.empty() || named(s.name) ||
          (named("added") && std::find(added.begin(), added.end(), s.name) != added.end());
 }
 
@@ -55,7 +55,8 @@ std::vector<Pairing> our_pairings() {
 
 std::vector<Pairing> certified_pairings() {
   std::vector<Pairing> certified = our_pairings();
-  std::erase_if(certified, [](const Pairing& p) { return !p.subject->name.starts_with("collide-certified"); });
+  std::erase_if(certified,
+                [](const Pairing& p) { return !p.subject->offering(p.query->name).contract.exact_decisions; });
   return certified;
 }
 

@@ -85,7 +85,7 @@ std::string_view name_of(Breach b) {
   return "?";
 }
 
-bool claims_same_bits(const Subject& subject) { return subject.name.starts_with("collide-"); }
+bool claims_same_bits(const Subject& subject) { return subject.own; }
 
 bool offers_all(const Subject& subject, const FollowUps& follow_ups) {
   return std::all_of(follow_ups.cases.begin(), follow_ups.cases.end(),

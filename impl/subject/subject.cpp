@@ -1,5 +1,9 @@
 #include "impl/subject/subject.hpp"
 
+#include <algorithm>
+
+#include "impl/subject/provenance.hpp"
+
 namespace nearmiss {
 
 /// Written by CMake.
@@ -7,8 +11,15 @@ std::vector<Subject> built_in_subjects();
 
 namespace {
 
+std::vector<Subject> subjects_of_build() {
+  std::vector<Subject> all = built_in_subjects();
+  const std::vector<std::string> own = own_subjects();
+  for (Subject& s : all) s.own = std::find(own.begin(), own.end(), s.name) != own.end();
+  return all;
+}
+
 std::vector<Subject>& all_subjects() {
-  static std::vector<Subject> all = built_in_subjects();
+  static std::vector<Subject> all = subjects_of_build();
   return all;
 }
 

@@ -84,6 +84,7 @@ struct Subject {
   std::string name;
   std::string version;
   Scalar scalar = Scalar::float64;
+  bool own = false;      ///< belongs to this project (impl/subject/provenance.hpp)
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
   std::string plugin{};   ///< the file that it was loaded from; empty for a subject of this build

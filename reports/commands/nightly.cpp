@@ -7,7 +7,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
-#include "impl/subject/added.hpp"
+#include "impl/subject/provenance.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/fuzz_targets.hpp"
