@@ -45,7 +45,7 @@ TEST_P(EveryTier, AnswersInNumbersOfItsScalar) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Agreement, EveryTier, testing::ValuesIn(our_pairings()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Agreement, EveryTier, testing::ValuesIn(our_pairings()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -241,7 +241,8 @@ TEST_P(GeneratorBalance, ReachesEveryFeatureTieAndKnifesEdgeOftenEnough) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, GeneratorBalance, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, GeneratorBalance, testing::ValuesIn(every_query()),
+                            testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

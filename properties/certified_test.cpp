@@ -20,8 +20,8 @@ TEST_P(CertifiedTier, IsRightAboutRawNumbersOfAnyMagnitude) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Certified, CertifiedTier, testing::ValuesIn(certified_pairings()),
-                         testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Certified, CertifiedTier, testing::ValuesIn(certified_pairings()),
+                            testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -116,7 +116,7 @@ TEST_P(Codec, NamesEveryInputThatIsMissing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Codec, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, Codec, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 TEST(CaseToCpp, GivesInputsThatCompileAndMeanTheSame) {
   const Case c{find_query("moving_point_sphere"),

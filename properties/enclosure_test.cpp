@@ -13,6 +13,7 @@
 #include "corpus/store.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
+#include "properties/support.hpp"
 
 namespace nearmiss {
 namespace {
@@ -169,8 +170,8 @@ std::vector<std::string> all_queries() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Enclosures, testing::ValuesIn(all_queries()),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_FOR_EVERY_QUERY(All, Enclosures, testing::ValuesIn(all_queries()),
+                            [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace nearmiss

@@ -123,7 +123,7 @@ TEST_P(Generator, MutatesIntoAnotherValidCase) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Generator, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, Generator, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 /// A query that the catalogue does not have: a rule between two positions, as for a box given by its corners.
 const Query& corners_query() {

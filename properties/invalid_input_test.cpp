@@ -53,7 +53,8 @@ TEST_P(EveryTierGiven, InfinityReportsNoHit) {
   expect_no_genuine_hit(GetParam(), -std::numeric_limits<double>::infinity());
 }
 
-INSTANTIATE_TEST_SUITE_P(Invalid, EveryTierGiven, testing::ValuesIn(our_pairings()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Invalid, EveryTierGiven, testing::ValuesIn(our_pairings()),
+                            testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

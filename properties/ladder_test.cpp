@@ -96,7 +96,7 @@ TEST_P(Oracles, ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases) {
   EXPECT_LT(strange, cases / 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Oracles, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, Oracles, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

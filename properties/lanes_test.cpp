@@ -85,8 +85,8 @@ constexpr Asked every[] = {
 };
 #undef NEARMISS_QUERY
 
-INSTANTIATE_TEST_SUITE_P(Queries, FastWithoutLanes, testing::ValuesIn(every), testing::PrintToStringParamName());
-INSTANTIATE_TEST_SUITE_P(Queries, FastInLanes, testing::ValuesIn(every), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Queries, FastWithoutLanes, testing::ValuesIn(every), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Queries, FastInLanes, testing::ValuesIn(every), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -95,7 +95,7 @@ std::vector<NamedQuery> queries_with_lies() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Lies, testing::ValuesIn(queries_with_lies()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, Lies, testing::ValuesIn(queries_with_lies()), testing::PrintToStringParamName());
 
 struct Apart {
   const char* what;

@@ -55,8 +55,8 @@ TEST_P(EveryTierRelated, KeepsEveryRelationOfItsAnswersToStoredCases) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Relations, EveryTierRelated, testing::ValuesIn(our_pairings()),
-                         testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Relations, EveryTierRelated, testing::ValuesIn(our_pairings()),
+                            testing::PrintToStringParamName());
 
 /// Consequences of the answer alone, or of another query asked at the time of impact.
 class CertifiedPostconditions : public testing::TestWithParam<Pairing> {};
@@ -188,14 +188,14 @@ TEST_P(CertifiedPostconditions, FollowFromEveryAnswer) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Relations, CertifiedPostconditions, testing::ValuesIn([] {
-                           std::vector<Pairing> certified;
-                           for (const Pairing& p : our_pairings()) {
-                             if (is_certified(*p.subject)) certified.push_back(p);
-                           }
-                           return certified;
-                         }()),
-                         testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Relations, CertifiedPostconditions, testing::ValuesIn([] {
+                              std::vector<Pairing> certified;
+                              for (const Pairing& p : our_pairings()) {
+                                if (is_certified(*p.subject)) certified.push_back(p);
+                              }
+                              return certified;
+                            }()),
+                            testing::PrintToStringParamName());
 
 /// The oracle as a subject that gives decisions only.
 class RelatedTruths : public testing::TestWithParam<NamedQuery> {};
@@ -224,7 +224,7 @@ TEST_P(RelatedTruths, KeepEveryRelationOfTheirDecisions) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, RelatedTruths, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, RelatedTruths, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 /// A subject that leaves out some numbers of its answers, differently in each; 1e308 and NaN take their place.
 class ForgetfulSubject : public testing::TestWithParam<NamedQuery> {};
@@ -252,7 +252,8 @@ TEST_P(ForgetfulSubject, MakesNobodyContradictThemselves) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ForgetfulSubject, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, ForgetfulSubject, testing::ValuesIn(every_query()),
+                            testing::PrintToStringParamName());
 
 TEST(Relations, EachApplyToManyCasesOfSomeQuery) {
   constexpr std::uint64_t cases = 400;

@@ -147,7 +147,7 @@ TEST_P(FittedCases, AreInsideAndMixYesAndNo) {
   expect_served(*GetParam().query, {GetParam().precondition}, name_of(GetParam().precondition));
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, FittedCases, testing::ValuesIn(all_served()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, FittedCases, testing::ValuesIn(all_served()), testing::PrintToStringParamName());
 
 class FittedToAll : public testing::TestWithParam<NamedQuery> {};
 
@@ -175,7 +175,7 @@ TEST_P(FittedToAll, ChangeOnlyWhatIsOutside) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, FittedToAll, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, FittedToAll, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -73,7 +73,7 @@ TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
   EXPECT_GE(looked_at, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Shrinking, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, Shrinking, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

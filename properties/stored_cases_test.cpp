@@ -1,6 +1,9 @@
 /// Every stored case agrees with its file name and its expectations.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
@@ -85,7 +88,7 @@ TEST_P(StoredCases, ComeBackFromJson) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, StoredCases, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, StoredCases, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

@@ -11,6 +11,10 @@
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 
+/// INSTANTIATE_TEST_SUITE_P for a suite whose tests run for every query, each named after its query: CMake lists these
+/// tests (cmake/PerQueryTests.cmake), and `nearmiss list` shows them.
+#define INSTANTIATE_FOR_EVERY_QUERY(prefix, suite, ...) INSTANTIATE_TEST_SUITE_P(prefix, suite, __VA_ARGS__)
+
 namespace nearmiss {
 
 /// A query and a subject that answers it. Prints as <query>__<subject>, valid in a test's name.

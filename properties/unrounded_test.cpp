@@ -184,7 +184,7 @@ TEST_P(WhereNothingRounds, EveryTierIsExact) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Queries, WhereNothingRounds, testing::ValuesIn(texts), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Queries, WhereNothingRounds, testing::ValuesIn(texts), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

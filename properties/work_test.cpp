@@ -96,7 +96,8 @@ TEST_P(WorkOfTheOracle, IsBoundedWhateverTheNumbers) {
   EXPECT_GT(largest.allocations, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, WorkOfTheOracle, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, WorkOfTheOracle, testing::ValuesIn(every_query()),
+                            testing::PrintToStringParamName());
 
 /// Four times the cost of the costliest of 10^6 cases (a sphere past a rectangle: 11,000 allocations; the penetration
 /// of two boxes: 1.1 MB).
@@ -113,8 +114,8 @@ TEST_P(WorkOfTheCertified, IsBoundedWhateverTheNumbers) {
   record(largest);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, WorkOfTheCertified, testing::ValuesIn(certified_pairings()),
-                         testing::PrintToStringParamName());
+INSTANTIATE_FOR_EVERY_QUERY(Every, WorkOfTheCertified, testing::ValuesIn(certified_pairings()),
+                            testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace nearmiss

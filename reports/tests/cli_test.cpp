@@ -95,7 +95,7 @@ TEST(List, NamesThePropertiesThatRunForEveryQuery) {
   for (const Query& q : catalogue()) {
     const std::vector<std::string> listed = properties_of(q);
     EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), everywhere)
-        << "reports/engine/properties.cpp lists other tests than properties/ has";
+        << "cmake/PerQueryTests.cmake lists other tests than the program has";
   }
 }
 
