@@ -125,7 +125,7 @@ struct Algorithm : Bodies<A, B> {
     algorithm->~btCollisionAlgorithm();
     dispatcher().freeCollisionAlgorithm(algorithm);
   }
-  Said ask() const {
+  LibraryAnswer ask() const {
     DeepestContact deepest(&this->a.wrapper, &this->b.wrapper);
     algorithm->processCollision(&this->a.wrapper, &this->b.wrapper, settings, &deepest);
     return {deepest.depth_below <= 0, -deepest.depth_below};
@@ -145,7 +145,7 @@ struct SphereBoxDistance : Bodies<Sphere, Box> {
     i.m_dispatcher1 = &dispatcher();
     return i;
   }
-  Said ask() const {
+  LibraryAnswer ask() const {
     btVector3 on_box, normal;
     btScalar depth;
     const bool hit = algorithm.getSphereDistance(&b.wrapper, on_box, normal, depth, center, radius, 0);
@@ -163,7 +163,7 @@ struct BoxBoxDetector : Bodies<Box, Box> {
     input.m_transformA = a.object.getWorldTransform();
     input.m_transformB = b.object.getWorldTransform();
   }
-  Said ask() const {
+  LibraryAnswer ask() const {
     btPointCollector deepest;
     detector.getClosestPoints(input, deepest, nullptr);
     return {deepest.m_hasResult && deepest.m_distance <= 0, -deepest.m_distance};
@@ -176,7 +176,7 @@ struct SphereTriangle : Bodies<Sphere, Triangle> {
   template <class Q>
   explicit SphereTriangle(const Q& q)
       : Bodies(q), center(vector(the<Sphere>(q).center)), detector(&a.geometry, &b.geometry, 0) {}
-  Said ask() const {
+  LibraryAnswer ask() const {
     btVector3 point, normal;
     btScalar depth = 0, time = 1;
     const bool hit = detector.collide(center, point, normal, depth, time, 0);
@@ -194,7 +194,7 @@ struct Gjk : Bodies<A, B> {
     input.m_transformA = this->a.object.getWorldTransform();
     input.m_transformB = this->b.object.getWorldTransform();
   }
-  Said ask() const {
+  LibraryAnswer ask() const {
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver epa;
     btGjkPairDetector detector(&this->a.geometry, &this->b.geometry, &simplex, &epa);
@@ -215,7 +215,7 @@ struct Sweep : Bodies<Sphere, B> {
         to(at(end_of_motion(the<Sphere>(q).center, q.velocity, the<Sphere>(q).radius, the_other<Sphere, B>(q)))),
         still(this->b.object.getWorldTransform()) {}
   template <class Cast>
-  Said by(Cast&& cast) const {
+  LibraryAnswer by(Cast&& cast) const {
     btConvexCast::CastResult result;
     result.m_fraction = 1;
     const bool hit = cast.calcTimeOfImpact(from, to, still, still, result);
@@ -228,7 +228,7 @@ struct Sweep : Bodies<Sphere, B> {
 template <class B>
 struct Subsimplex : Sweep<B> {
   using Sweep<B>::Sweep;
-  Said ask() const {
+  LibraryAnswer ask() const {
     btVoronoiSimplexSolver simplex;
     return this->by(btSubsimplexConvexCast(&this->a.geometry, &this->b.geometry, &simplex));
   }
@@ -237,7 +237,7 @@ struct Subsimplex : Sweep<B> {
 template <class B>
 struct Continuous : Sweep<B> {
   using Sweep<B>::Sweep;
-  Said ask() const {
+  LibraryAnswer ask() const {
     if constexpr (std::is_same_v<B, Plane>) {
       return this->by(btContinuousConvexCollision(&this->a.geometry, &this->b.geometry));
     } else {
@@ -260,7 +260,7 @@ struct RaySubsimplex {
         still(b.object.getWorldTransform()) {
     point.setMargin(0);
   }
-  Said ask() const {
+  LibraryAnswer ask() const {
     btVoronoiSimplexSolver simplex;
     btSubsimplexConvexCast cast(&point, &b.geometry, &simplex);
     btConvexCast::CastResult result;
@@ -295,7 +295,7 @@ struct TriangleRay {
       : corners{vector(the<Triangle>(q).v0), vector(the<Triangle>(q).v1), vector(the<Triangle>(q).v2)},
         from(vector(q.point)),
         to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<Triangle>(q)))) {}
-  Said ask() const {
+  LibraryAnswer ask() const {
     Nearest nearest(from, to, btTriangleRaycastCallback::kF_FilterBackfaces);
     nearest.processTriangle(corners, 0, 0);
     keep(nearest.normal);
@@ -313,7 +313,7 @@ struct AABoxOutcodes {
         to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<AABox>(q)))),
         min(vector(the<AABox>(q).min)),
         max(vector(the<AABox>(q).max)) {}
-  Said ask() const {
+  LibraryAnswer ask() const {
     btScalar fraction = 1;
     btVector3 normal(0, 0, 0);
     const bool hit = btRayAabb(from, to, min, max, fraction, normal);
@@ -335,7 +335,7 @@ struct AABoxSlabs {
       sign[i] = inverse[i] < 0;
     }
   }
-  Said ask() const {
+  LibraryAnswer ask() const {
     btScalar entry = 0;
     const bool hit = btRayAabb2(from, inverse, sign, bounds, entry, 0, BT_LARGE_FLOAT);
     if (hit) keep(btVector3(from + direction * entry));
@@ -348,7 +348,7 @@ struct AABoxSlabs {
 
 template <class Q, class Scene>
 void enter_as(const char* query, const char* way) {
-  enter(query, "bullet", way, std::make_unique<ContenderOf<Scene, Q>>());
+  register_contender(query, "bullet", way, std::make_unique<ContenderOf<Scene, Q>>());
 }
 template <class Q, class B>
 void enter_sweeps(const char* query) {
@@ -403,7 +403,7 @@ void enter_query(const char* name) {
 }  // namespace
 
 void enter_bullet() {
-  tell("Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100));
+  add_context("Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100));
 #define NEARMISS_QUERY(query) enter_query<#query, inputs::query<btScalar>>(#query);
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY

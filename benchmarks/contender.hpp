@@ -33,13 +33,13 @@ inline std::size_t scene_in_pass(std::size_t i, std::size_t pass, std::size_t sc
 }
 
 /// Names a contender: it becomes the benchmark QUERY/WHO/WAY/SCALAR.
-void enter(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender);
+void register_contender(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender);
 
 /// Tells the results who took part: "FCL", "0.7.0".
-void tell(const std::string& what, const std::string& value);
+void add_context(const std::string& what, const std::string& value);
 
 /// What a library other than collide says: yes or no, and its number where it has one.
-struct Said {
+struct LibraryAnswer {
   bool answer = false;
   double number = 0;
   bool yes() const { return answer; }

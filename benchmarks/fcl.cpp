@@ -80,7 +80,7 @@ struct Pair {
 template <class A, class B>
 struct Overlap : Pair<A, B> {
   using Pair<A, B>::Pair;
-  Said ask() const {
+  LibraryAnswer ask() const {
     const fcl::CollisionRequestd request(1, false);
     fcl::CollisionResultd result;
     return {fcl::collide(&this->a, this->pose_a, &this->b, this->pose_b, request, result) > 0};
@@ -90,7 +90,7 @@ struct Overlap : Pair<A, B> {
 template <class A, class B>
 struct Penetration : Pair<A, B> {
   using Pair<A, B>::Pair;
-  Said ask() const {
+  LibraryAnswer ask() const {
     const fcl::CollisionRequestd request(1, true);
     fcl::CollisionResultd result;
     const bool hit = fcl::collide(&this->a, this->pose_a, &this->b, this->pose_b, request, result) > 0;
@@ -108,7 +108,7 @@ struct TriangleOverlap {
         v0(vector(the<Triangle>(q).v0)),
         v1(vector(the<Triangle>(q).v1)),
         v2(vector(the<Triangle>(q).v2)) {}
-  Said ask() const { return {solver.shapeTriangleIntersect(a, pose_a, v0, v1, v2)}; }
+  LibraryAnswer ask() const { return {solver.shapeTriangleIntersect(a, pose_a, v0, v1, v2)}; }
 
   decltype(shape(A{})) a;
   fcl::Transform3d pose_a;
@@ -127,7 +127,7 @@ struct Motion : Pair<Sphere, Target<B>> {
   Motion(const Sphere& sphere, const Vec3& velocity, const B& target)
       : Pair<Sphere, Target<B>>(sphere, Target<B>{target}),
         end(at(end_of_motion(sphere.center, velocity, sphere.radius, target))) {}
-  Said ask() const {
+  LibraryAnswer ask() const {
     fcl::ContinuousCollisionRequestd request;
     if (advancement) {
       request.gjk_solver_type = fcl::GST_INDEP;
@@ -142,7 +142,7 @@ struct Motion : Pair<Sphere, Target<B>> {
 
 template <class Q, class Scene>
 void enter_as(const char* query, const char* way) {
-  enter(query, "fcl", way, std::make_unique<ContenderOf<Scene, Q>>());
+  register_contender(query, "fcl", way, std::make_unique<ContenderOf<Scene, Q>>());
 }
 
 /// Enters what FCL has for a query.
@@ -186,7 +186,7 @@ void enter_query(const char* name) {
 }  // namespace
 
 void enter_fcl() {
-  tell("FCL", FCL_VERSION);
+  add_context("FCL", FCL_VERSION);
 #define NEARMISS_QUERY(query) enter_query<#query, inputs::query<double>>(#query);
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY

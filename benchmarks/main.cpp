@@ -148,9 +148,9 @@ bool take_scene_count(int& argc, char** argv) {
 
 }  // namespace
 
-void tell(const std::string& what, const std::string& value) { benchmark::AddCustomContext(what, value); }
+void add_context(const std::string& what, const std::string& value) { benchmark::AddCustomContext(what, value); }
 
-void enter(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender) {
+void register_contender(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender) {
   const std::string name = query + "/" + who + "/" + way + "/" NEARMISS_SCALAR_NAME;
   entries().push_back(std::make_unique<Entry>(Entry{std::move(query), std::move(contender), {}}));
   benchmark::RegisterBenchmark(name.c_str(), [entry = entries().back().get()](benchmark::State& s) { entry->run(s); });
@@ -163,9 +163,9 @@ int main(int argc, char** argv) {
     std::cerr << "--scenes must be a power of two\n";
     return 2;
   }
-  nearmiss::benchmarks::tell("flags", NEARMISS_BENCHMARK_FLAGS);
-  nearmiss::benchmarks::tell("processor", nearmiss::benchmarks::processor());
-  nearmiss::benchmarks::tell("scenes", std::to_string(nearmiss::benchmarks::scene_count()));
+  nearmiss::benchmarks::add_context("flags", NEARMISS_BENCHMARK_FLAGS);
+  nearmiss::benchmarks::add_context("processor", nearmiss::benchmarks::processor());
+  nearmiss::benchmarks::add_context("scenes", std::to_string(nearmiss::benchmarks::scene_count()));
   nearmiss::benchmarks::enter_all();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

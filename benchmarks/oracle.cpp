@@ -143,7 +143,7 @@ void time_cases(benchmark::State& state, const Pairing& p, const std::vector<Ask
   set_counters(state, p, cases, detail);
 }
 
-void enter(const Pairing& p, const char* way, void (*measure)(benchmark::State&, const Pairing&)) {
+void register_benchmark(const Pairing& p, const char* way, void (*measure)(benchmark::State&, const Pairing&)) {
   const std::string name = std::string(p.query->name) + "/" + way + "/" + std::string(name_of(p.scalar));
   benchmark::RegisterBenchmark(name.c_str(), [p, measure](benchmark::State& s) { measure(s, p); });
 }
@@ -153,17 +153,22 @@ void enter_all() {
     for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
       const Subject* fast = find_subject("collide-fast-" + std::string(name_of(scalar)));
       const Pairing p{&q, scalar, &fast->offering(q.name)};
-      enter(p, "judge",
-            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::verdict); });
-      enter(p, "wrong",
-            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, with_wrong_answers(x), Detail::verdict); });
-      enter(p, "forward",
-            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_scenes(x), Detail::forward); });
-      enter(p, "degenerate",
-            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, degenerate(x), Detail::verdict); });
-      enter(p, "worst", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, {costliest(x)}, Detail::full); });
-      enter(p, "stages",
-            [](benchmark::State& s, const Pairing& x) { time_cases(s, x, all_sorts(x), Detail::verdict); });
+      register_benchmark(p, "judge", [](benchmark::State& s, const Pairing& x) {
+        time_cases(s, x, plain_scenes(x), Detail::verdict);
+      });
+      register_benchmark(p, "wrong", [](benchmark::State& s, const Pairing& x) {
+        time_cases(s, x, with_wrong_answers(x), Detail::verdict);
+      });
+      register_benchmark(p, "forward", [](benchmark::State& s, const Pairing& x) {
+        time_cases(s, x, plain_scenes(x), Detail::forward);
+      });
+      register_benchmark(p, "degenerate", [](benchmark::State& s, const Pairing& x) {
+        time_cases(s, x, degenerate(x), Detail::verdict);
+      });
+      register_benchmark(p, "worst",
+                         [](benchmark::State& s, const Pairing& x) { time_cases(s, x, {costliest(x)}, Detail::full); });
+      register_benchmark(
+          p, "stages", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, all_sorts(x), Detail::verdict); });
     }
   }
 }

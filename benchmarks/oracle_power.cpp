@@ -28,7 +28,7 @@ namespace {
 constexpr double widening_epsilons = 0x1p24;
 constexpr int random_samples = 24;
 constexpr double most_median = 4;
-constexpr double least_told = 0.999;
+constexpr double least_detected = 0.999;
 
 using Hull = std::array<Bounds, Answer::capacity>;
 
@@ -160,33 +160,33 @@ std::string shown(double ratio) { return ratio < 1e6 ? fmt::format("{:.3g}", rat
 
 // Lies.
 
-struct Told {
-  std::uint64_t lies = 0, told = 0;
+struct Detected {
+  std::uint64_t lies = 0, detected = 0;
 
-  void add(bool is_told) { ++lies, told += is_told; }
-  void add(const Told& t) { lies += t.lies, told += t.told; }
-  bool enough() const { return double(lies - told) <= (1 - least_told) * double(lies); }
+  void add(bool is_refuted) { ++lies, detected += is_refuted; }
+  void add(const Detected& t) { lies += t.lies, detected += t.detected; }
+  bool enough() const { return double(lies - detected) <= (1 - least_detected) * double(lies); }
   /// Never rounded up to all of them.
   std::string share() const {
     if (lies == 0) return "";
-    return told == lies ? "all" : fmt::format("{:.2f} %", std::floor(1e4 * double(told) / double(lies)) / 100);
+    return detected == lies ? "all" : fmt::format("{:.2f} %", std::floor(1e4 * double(detected) / double(lies)) / 100);
   }
 };
 
 /// By family.
-using ToldOf = std::array<Told, std::size(families)>;
+using DetectedOf = std::array<Detected, std::size(families)>;
 
-ToldOf lies_told(const Query& query, std::uint64_t cases, std::array<Told, topic_count>& by_topic) {
-  ToldOf all;
+DetectedOf lies_detected(const Query& query, std::uint64_t cases, std::array<Detected, topic_count>& by_topic) {
+  DetectedOf all;
   for (const Family family : families) {
     for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
       for (const double bound : bounds_for_lies(query, scalar)) {
         for (std::uint64_t i = 0; i < cases; ++i) {
           const Case c = case_of(family, query, scalar, 2028, i);
           for (const Lie& lie : lies_about(c, widening_of_lies(c, bound), i)) {
-            const bool told = is_told(c, lie, bound);
-            all[std::size_t(family)].add(told);
-            by_topic[std::size_t(lie.topic)].add(told);
+            const bool refuted = is_refuted(c, lie, bound);
+            all[std::size_t(family)].add(refuted);
+            by_topic[std::size_t(lie.topic)].add(refuted);
           }
         }
       }
@@ -214,28 +214,28 @@ bound. `tiny`, `thin` and `degenerate` are scenes of which some things are small
   fmt::print("\n|---|---|");
   for (std::size_t i = 0; i < std::size(families); ++i) fmt::print("---|");
   fmt::print("\n");
-  std::array<Told, topic_count> by_topic;
-  Told every;
+  std::array<Detected, topic_count> by_topic;
+  Detected every;
   std::string few;
   for (const Query* q : queries) {
-    const ToldOf told = lies_told(*q, cases, by_topic);
-    Told sum;
-    for (const Told& t : told) sum.add(t);
+    const DetectedOf detected = lies_detected(*q, cases, by_topic);
+    Detected sum;
+    for (const Detected& t : detected) sum.add(t);
     every.add(sum);
     fmt::print("| `{}` | {} |", q->name, sum.lies);
     for (const Family f : families) {
-      const Told& t = told[std::size_t(f)];
+      const Detected& t = detected[std::size_t(f)];
       fmt::print(" {} |", t.share());
       if (!t.enough()) few += fmt::format("{}`{}` {}", few.empty() ? "" : ", ", q->name, name_of(f));
     }
     fmt::print("\n");
   }
-  fmt::print("\nOf {} lies {} are told", every.lies, every.told);
+  fmt::print("\nOf {} lies {} are told", every.lies, every.detected);
   for (int i = 0; i < topic_count; ++i) {
-    const Told& t = by_topic[std::size_t(i)];
-    fmt::print("{} {} of {} about a {}", i == 0 ? ":" : ",", t.told, t.lies, name_of(Topic(i)));
+    const Detected& t = by_topic[std::size_t(i)];
+    fmt::print("{} {} of {} about a {}", i == 0 ? ":" : ",", t.detected, t.lies, name_of(Topic(i)));
   }
-  fmt::print(". Fewer than {} % of them: {}.\n", 100 * least_told, few.empty() ? "nowhere" : few);
+  fmt::print(". Fewer than {} % of them: {}.\n", 100 * least_detected, few.empty() ? "nowhere" : few);
   return few.empty();
 }
 

@@ -13,7 +13,7 @@ namespace nearmiss::benchmarks {
 
 template <class Tier, class Q>
 void enter_tier(const char* query, const char* tier) {
-  enter(query, "collide", tier, std::make_unique<ContenderOf<Ready<Tier, Q>, Q, Tier>>());
+  register_contender(query, "collide", tier, std::make_unique<ContenderOf<Ready<Tier, Q>, Q, Tier>>());
 }
 
 template <class Q>

@@ -146,7 +146,7 @@ function(nearmiss_finish_subjects)
   nearmiss_write_subjects(${NEARMISS_GENERATED}/subjects/all.cpp ${in_process})
   nearmiss_write_hosts(${NEARMISS_GENERATED}/subjects/hosts.cpp ${subjects})
   add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp
-    ${PROJECT_SOURCE_DIR}/impl/host/hosts.cpp ${PROJECT_SOURCE_DIR}/impl/host/keeper.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
+    ${PROJECT_SOURCE_DIR}/impl/host/hosts.cpp ${PROJECT_SOURCE_DIR}/impl/host/supervisor.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
     ${PROJECT_SOURCE_DIR}/impl/host/worker.cpp ${PROJECT_SOURCE_DIR}/impl/subject/printable.cpp)
   target_link_libraries(nearmiss_subjects PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
   target_compile_definitions(nearmiss_subjects PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}")

@@ -128,12 +128,12 @@ class Liar {
  public:
   Liar(Scalar scalar, std::uint64_t salt) : scalar_(scalar), random_(salt) {}
 
-  std::vector<Lie> told() { return std::move(told_); }
+  std::vector<Lie> take_lies() { return std::move(lies_); }
 
   void surely(bool yes) {
     Answer a;
     a.yes = !yes, a.given = 0;
-    told_.push_back({Topic::decision, a});
+    lies_.push_back({Topic::decision, a});
   }
   /// Every answer with that decision has output `leaf` in [low, high]; `leaf` belongs to a vector with numbers up to
   /// `largest`. A lie lies outside [low, high], but inside [least, most].
@@ -145,13 +145,13 @@ class Liar {
     const bool above = random_.one_in(2);
     const Real end = above ? high : low, side = above ? 1 : -1;
     const Real wrong = end + side * (by(high - low, size) + pad(size));
-    const double told = nearest(wrong);
-    if (!std::isfinite(told) || !(told >= least && told <= most) ||
-        !(side * (told - end) >= pad(std::max<Real>(size, std::abs(told))) / 2))
+    const double wrong_value = nearest(wrong);
+    if (!std::isfinite(wrong_value) || !(wrong_value >= least && wrong_value <= most) ||
+        !(side * (wrong_value - end) >= pad(std::max<Real>(size, std::abs(wrong_value))) / 2))
       return;
     Answer a;
-    a.yes = yes, a.given = std::uint64_t{1} << leaf, a.values[leaf] = told;
-    told_.push_back({topic, a});
+    a.yes = yes, a.given = std::uint64_t{1} << leaf, a.values[leaf] = wrong_value;
+    lies_.push_back({topic, a});
   }
   void about(Topic topic, std::size_t leaf, const Number& x, Real largest, bool yes = true, Real least = -infinite,
              Real most = infinite) {
@@ -173,7 +173,7 @@ class Liar {
     }
     if (!(size < largest_finite(scalar_) / 4) || !(off > moved + pad(size))) return;
     a.yes = true;
-    told_.push_back({Topic::place, a});
+    lies_.push_back({Topic::place, a});
   }
   std::size_t below(std::size_t n) { return random_.below(n); }
   bool is_a_time(Real t) const { return t < largest_finite(scalar_) / 4; }
@@ -199,7 +199,7 @@ class Liar {
 
   Scalar scalar_;
   Random random_;
-  std::vector<Lie> told_;
+  std::vector<Lie> lies_;
 };
 
 // Closest points.
@@ -849,7 +849,7 @@ std::vector<double> bounds_for_lies(const Query& query, Scalar scalar) {
   return bounds;
 }
 
-bool is_told(const Case& c, const Lie& lie, double backward) {
+bool is_refuted(const Case& c, const Lie& lie, double backward) {
   collide::Contract contract;
   contract.backward = backward;
   return judge(c, lie.answer, contract, Detail::verdict).is_proved();
@@ -862,7 +862,7 @@ std::vector<Lie> lies_about(const Case& c, std::span<const double> widening, std
   if (k == nullptr) return {};
   Liar liar(c.scalar, salt);
   k->lie(Inputs(c, widening), liar);
-  return liar.told();
+  return liar.take_lies();
 }
 
 }  // namespace nearmiss

@@ -38,7 +38,7 @@ std::vector<double> widening_of_lies(const Case& c, double backward, double beyo
 std::vector<double> bounds_for_lies(const Query& query, Scalar scalar);
 
 /// Whether the judge proves that the lie exceeds the bound.
-bool is_told(const Case& c, const Lie& lie, double backward);
+bool is_refuted(const Case& c, const Lie& lie, double backward);
 
 /// Whether lies() knows the query.
 bool has_lies(const Query& query);

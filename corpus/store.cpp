@@ -67,10 +67,10 @@ Expected expectation_from(const json& j, const std::string& where, const std::st
 }  // namespace
 
 fs::path corpus_folder() {
-  const char* told = std::getenv("NEARMISS_CORPUS");
-  if (told == nullptr || *told == '\0') return NEARMISS_CORPUS_FOLDER;
-  if (!fs::is_directory(told)) throw BadInput(fmt::format("NEARMISS_CORPUS is {}: there is no such folder", told));
-  return told;
+  const char* value = std::getenv("NEARMISS_CORPUS");
+  if (value == nullptr || *value == '\0') return NEARMISS_CORPUS_FOLDER;
+  if (!fs::is_directory(value)) throw BadInput(fmt::format("NEARMISS_CORPUS is {}: there is no such folder", value));
+  return value;
 }
 
 StoredCase read_stored_case(const fs::path& file) {

@@ -80,12 +80,12 @@ void hear_replies(std::string_view bytes, std::size_t outputs,
 
 /// Heads, then numbers, as a host may leave them; its reasons are the same bytes again.
 void look_at_shared_memory(std::string_view bytes, std::size_t outputs) {
-  static const auto memory = std::make_unique<wire::Answered>();
+  static const auto memory = std::make_unique<wire::SharedAnswers>();
   static std::array<Answer, wire::capacity> into;
   constexpr std::size_t most = 64;
-  const std::size_t count = std::min(most, bytes.size() / sizeof(wire::Answered::Head));
+  const std::size_t count = std::min(most, bytes.size() / sizeof(wire::SharedAnswers::Head));
   if (count > 0)
-    std::memcpy(static_cast<void*>(memory->heads.data()), bytes.data(), count * sizeof(wire::Answered::Head));
+    std::memcpy(static_cast<void*>(memory->heads.data()), bytes.data(), count * sizeof(wire::SharedAnswers::Head));
   for (std::size_t i = 0; i < count; ++i) {
     if (!bytes.empty()) memory->reasons[i].fill(bytes[i % bytes.size()]);
   }

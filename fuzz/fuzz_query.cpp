@@ -43,9 +43,9 @@ const Query& query() {
 }
 
 std::vector<std::string> named_in_environment() {
-  const char* told = std::getenv("NEARMISS_SUBJECTS");
+  const char* value = std::getenv("NEARMISS_SUBJECTS");
   std::vector<std::string> names;
-  for (std::string_view rest = told == nullptr ? "" : told; !rest.empty();) {
+  for (std::string_view rest = value == nullptr ? "" : value; !rest.empty();) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     if (comma > 0) names.emplace_back(rest.substr(0, comma));
     rest.remove_prefix(std::min(comma + 1, rest.size()));
@@ -67,8 +67,7 @@ std::vector<const Subject*> asked_subjects() {
     return std::find(all.begin(), all.end(), name) != all.end();
   };
   for (const Subject& s : subjects()) {
-    const bool chosen =
-        s.own || s.host != nullptr || (has(names, "added") && has(added, s.name));
+    const bool chosen = s.own || s.host != nullptr || (has(names, "added") && has(added, s.name));
     if (chosen && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
   }
   for (const std::string& name : names) {
@@ -81,9 +80,9 @@ std::vector<const Subject*> asked_subjects() {
     }
     if (std::find(asked.begin(), asked.end(), s) == asked.end()) asked.push_back(s);
   }
-  std::string told;
-  for (const Subject* s : asked) told += " " + s->name;
-  std::fprintf(stderr, "asks:%s\n", told.c_str());
+  std::string line;
+  for (const Subject* s : asked) line += " " + s->name;
+  std::fprintf(stderr, "asks:%s\n", line.c_str());
   return asked;
 }
 

@@ -190,7 +190,7 @@ class Judgement {
     if (answer_.status != Answer::Status::answered) {
       f_.verdict = answer_.status == Answer::Status::broke ? Verdict::broke : Verdict::cannot_answer;
       f_.clause = answer_.reason();
-      f_.late = answer_.late;
+      f_.cause = answer_.cause;
       return std::move(f_);
     }
     f_.unit_error = length_error(query_, answer_, question_.scalar);

@@ -84,7 +84,7 @@ struct Finding {
   Clause broken = Clause::none;                    ///< for a violation
   /// The clause in words; or the reason why the subject broke, cannot answer or is not asked.
   std::string clause;
-  bool late = false;  ///< broke: a time limit was reached
+  BreakCause cause = BreakCause::other;  ///< for a subject that broke
 
   bool truth_yes = false;              ///< the exact decision
   Stage decided_by = Stage::interval;  ///< the stage that decided it

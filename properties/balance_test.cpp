@@ -226,18 +226,18 @@ TEST_P(GeneratorBalance, ReachesEveryFeatureTieAndKnifesEdgeOftenEnough) {
   for (const Scalar scalar : scalars) {
     const Balance b = balance_of(query, scalar, cases);
     RecordProperty(std::string(name_of(scalar)), b.text());
-    const std::string told = fmt::format("{} {}: {}", query.name, name_of(scalar), b.text());
+    const std::string line = fmt::format("{} {}: {}", query.name, name_of(scalar), b.text());
     if (decides(query.kind)) {
       const auto [knifes_edge_per_mille, either_percent] = query.traits.balance;
-      EXPECT_GE(b.knifes_edge, cases * knifes_edge_per_mille / 1000) << told;
-      EXPECT_GE(std::min(b.yes, cases - b.yes), cases * either_percent / 100) << told;
+      EXPECT_GE(b.knifes_edge, cases * knifes_edge_per_mille / 1000) << line;
+      EXPECT_GE(std::min(b.yes, cases - b.yes), cases * either_percent / 100) << line;
     }
-    for (const std::string& f : features_of(query)) EXPECT_GE(b.feature(f), cases * 5 / 1000) << f << ": " << told;
-    for (const std::string& t : expected_ties(query)) EXPECT_GE(b.tie(t), cases / 2000) << t << ": " << told;
+    for (const std::string& f : features_of(query)) EXPECT_GE(b.feature(f), cases * 5 / 1000) << f << ": " << line;
+    for (const std::string& t : expected_ties(query)) EXPECT_GE(b.tie(t), cases / 2000) << t << ": " << line;
     for (const auto& [name, count] : b.ties) {
-      EXPECT_TRUE(expected_ties(query).contains(name)) << "a tie without a stated share: " << name << ": " << told;
+      EXPECT_TRUE(expected_ties(query).contains(name)) << "a tie without a stated share: " << name << ": " << line;
     }
-    if (std::getenv("NEARMISS_PRINT_BALANCE") != nullptr) fmt::print("{}\n", told);
+    if (std::getenv("NEARMISS_PRINT_BALANCE") != nullptr) fmt::print("{}\n", line);
   }
 }
 

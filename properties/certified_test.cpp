@@ -16,7 +16,7 @@ TEST_P(CertifiedTier, IsRightAboutRawNumbersOfAnyMagnitude) {
   const auto [query, subject] = GetParam();
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Case c = raw_case(*query, subject->scalar, i);
-    ASSERT_FALSE(is_violation(examined(c, *subject))) << told(c, *subject);
+    ASSERT_FALSE(is_violation(examined(c, *subject))) << failure_text(c, *subject);
   }
 }
 

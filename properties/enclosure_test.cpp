@@ -93,8 +93,8 @@ TEST_P(Enclosures, OfStoredCasesContainTheExactAnswers) {
 
 /// Cases per family. CI runs few, the nightly job NEARMISS_FAMILY_CASES.
 int cases_per_family() {
-  const char* told = std::getenv("NEARMISS_FAMILY_CASES");
-  return told != nullptr ? std::stoi(told) : 250;
+  const char* value = std::getenv("NEARMISS_FAMILY_CASES");
+  return value != nullptr ? std::stoi(value) : 250;
 }
 
 TEST_P(Enclosures, ContainTheExactAnswersOfEveryFamily) {

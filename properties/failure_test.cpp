@@ -11,7 +11,7 @@
 #include "impl/catalogue/queries/sphere_sphere_overlap.hpp"
 #include "impl/subject/adapter.hpp"
 #include "properties/support.hpp"
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 
 namespace nearmiss {
 namespace {
@@ -69,7 +69,7 @@ class OwnRuns {
   std::optional<std::string> before_;
 };
 
-void expect_told(const std::string& text, const fs::path& report) {
+void expect_reported(const std::string& text, const fs::path& report) {
   const std::string replay = fmt::format("replay:  nearmiss replay {}\n", report.string());
   for (const std::string& part : {std::string("seed:    3, index "), std::string("--seed 3 --cases "), replay,
                                   std::string("\"query\": \"sphere_sphere_overlap\""),
@@ -83,7 +83,7 @@ TEST(FailingProperty, OfAgreementIsToldAndLeavesAReport) {
   const std::string text = failure_of_agreement(*find_query("sphere_sphere_overlap"), broken_subject(), 3, 2000);
   ASSERT_NE(text, "") << "a slack of 0.001 was not found";
   const fs::path file = runs.report();
-  expect_told(text, file);
+  expect_reported(text, file);
   const auto report = nlohmann::json::parse(read_file(file));
   EXPECT_EQ(report["finding"]["disagreement"], "false hit");
   EXPECT_EQ(report["replay"], "nearmiss replay " + file.string());
@@ -96,13 +96,13 @@ TEST(FailingProperty, OfARelationIsToldAndLeavesAReportOfAllItsCases) {
   const std::string text = failure_of_relations(*find_query("sphere_sphere_overlap"), broken_subject(), 3, 2000);
   ASSERT_NE(text, "") << "a slack of 0.001 was not found";
   const fs::path file = runs.report();
-  expect_told(text, file);
+  expect_reported(text, file);
   EXPECT_NE(text.find("case 2:"), std::string::npos) << text;
   const auto report = nlohmann::json::parse(read_file(file));
   EXPECT_EQ(report["relation"]["breach"], "contract");
   EXPECT_EQ(report["relation"]["breaks_contract"], true);
   EXPECT_GE(report["relation"]["partners"].size(), 1u);
-  ASSERT_TRUE(read_related(file));
+  ASSERT_TRUE(read_relation_case(file));
 }
 
 TEST(FailingProperty, IsQuietWhereNothingIsWrong) {

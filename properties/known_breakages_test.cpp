@@ -51,7 +51,7 @@ class KnownBreakage : public testing::TestWithParam<Known> {};
 
 TEST_P(KnownBreakage, CostsOneCase) {
   const Known& known = GetParam();
-  Worker worker({.patience = 0.5});
+  Worker worker({.case_timeout = 0.5});
   const Offering offering{"distance", Offer::answers, "", {}, ask_fcl};
   const std::vector<double> inputs{double(known.question), known.at, two_balls, 3};
   const std::vector<Answer> answers = worker.ask(offering, inputs, 2);

@@ -19,22 +19,22 @@ class Lies : public testing::TestWithParam<NamedQuery> {
   const Query& query() const { return *GetParam().query; }
 };
 
-struct Told {
-  int lies = 0, told = 0;
-  std::string first_untold;
+struct RefutedLies {
+  int lies = 0, refuted = 0;
+  std::string first_missed;
 };
 
-void tell(const Case& c, double bound, double beyond, std::uint64_t salt, Told& sum) {
+void tell(const Case& c, double bound, double beyond, std::uint64_t salt, RefutedLies& sum) {
   for (const Lie& lie : lies_about(c, widening_of_lies(c, bound, beyond), salt)) {
-    const bool told = is_told(c, lie, bound);
+    const bool refuted = is_refuted(c, lie, bound);
     ++sum.lies;
-    sum.told += told;
-    if (told || !sum.first_untold.empty()) continue;
-    sum.first_untold =
+    sum.refuted += refuted;
+    if (refuted || !sum.first_missed.empty()) continue;
+    sum.first_missed =
         fmt::format("{} {} of {}", lie.answer.yes ? "yes" : "no", name_of(lie.topic), case_to_json(c).dump());
     for (std::size_t i = 0; i < c.query->outputs.size(); ++i) {
       if (lie.answer.gives(i))
-        sum.first_untold += fmt::format(", {} = {}", c.query->outputs[i].name, lie.answer.values[i]);
+        sum.first_missed += fmt::format(", {} = {}", c.query->outputs[i].name, lie.answer.values[i]);
     }
   }
 }
@@ -47,8 +47,8 @@ constexpr int may_be_missing = 1;
 constexpr double least_share_not_gross = 0.98;
 
 /// Lies about a class of cases that exceed the bound by a given factor.
-Told lies_told(const Query& query, Family family, double beyond, std::uint64_t seed, std::uint64_t cases) {
-  Told sum;
+RefutedLies refuted_lies(const Query& query, Family family, double beyond, std::uint64_t seed, std::uint64_t cases) {
+  RefutedLies sum;
   for (const Scalar scalar : scalars) {
     for (const double bound : bounds_for_lies(query, scalar)) {
       for (std::uint64_t i = 0; i < cases; ++i) tell(case_of(family, query, scalar, seed, i), bound, beyond, i, sum);
@@ -59,16 +59,16 @@ Told lies_told(const Query& query, Family family, double beyond, std::uint64_t s
 
 TEST_P(Lies, AreTold) {
   for (const Family family : families) {
-    const Told sum = lies_told(query(), family, lies_beyond, 31, 120);
-    EXPECT_GE(sum.told + may_be_missing, sum.lies) << name_of(family) << ": " << sum.first_untold;
+    const RefutedLies sum = refuted_lies(query(), family, lies_beyond, 31, 120);
+    EXPECT_GE(sum.refuted + may_be_missing, sum.lies) << name_of(family) << ": " << sum.first_missed;
   }
 }
 
 TEST_P(Lies, ThatAreNotGrossAreToldToo) {
   constexpr double beyond = 8;
   for (const Family family : families) {
-    const Told sum = lies_told(query(), family, beyond, 33, 60);
-    EXPECT_GE(sum.told, least_share_not_gross * sum.lies) << name_of(family) << ": " << sum.first_untold;
+    const RefutedLies sum = refuted_lies(query(), family, beyond, 33, 60);
+    EXPECT_GE(sum.refuted, least_share_not_gross * sum.lies) << name_of(family) << ": " << sum.first_missed;
   }
 }
 
@@ -114,7 +114,7 @@ TEST_P(SpheresFarFromThinTriangles, AreSurelyApart) {
   EXPECT_GE(truth_of(c).margin_at_least * unit_roundoff(c.scalar), 0.125);
   Answer overlap;
   overlap.yes = true, overlap.given = 0;
-  EXPECT_TRUE(is_told(c, {Topic::decision, overlap}, 0.125 / unit_roundoff(c.scalar)));
+  EXPECT_TRUE(is_refuted(c, {Topic::decision, overlap}, 0.125 / unit_roundoff(c.scalar)));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -57,8 +57,8 @@ TEST(NyuCcdSample, HasTheTruthThatTheOracleFinds) {
 
 /// The folder of the benchmark: NEARMISS_NYU_CCD, or a folder beside the sources.
 fs::path benchmark_folder() {
-  const char* told = std::getenv("NEARMISS_NYU_CCD");
-  return told != nullptr && *told != '\0' ? fs::path(told) : corpus_folder() / ".." / ".." / "shared" / "nyu-ccd";
+  const char* value = std::getenv("NEARMISS_NYU_CCD");
+  return value != nullptr && *value != '\0' ? fs::path(value) : corpus_folder() / ".." / ".." / "shared" / "nyu-ccd";
 }
 
 std::vector<fs::path> csv_files(const fs::path& folder) {

@@ -15,8 +15,8 @@ namespace {
 
 /// The number of different cases per query. CI runs the default, the nightly job NEARMISS_LATTICE_CASES.
 int cases_per_query() {
-  const char* told = std::getenv("NEARMISS_LATTICE_CASES");
-  return told != nullptr ? std::stoi(told) : 45000;
+  const char* value = std::getenv("NEARMISS_LATTICE_CASES");
+  return value != nullptr ? std::stoi(value) : 45000;
 }
 
 struct Compared {

@@ -184,7 +184,7 @@ TEST_P(CertifiedPostconditions, FollowFromEveryAnswer) {
   const auto failure_of = [s = subject](const Case& c) { return broken_postcondition(c, *s); };
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Case c = generate(*query, subject->scalar, stream(23), i);
-    ASSERT_EQ(failure_of(c), "") << told(c, *subject, failure_of);
+    ASSERT_EQ(failure_of(c), "") << failure_text(c, *subject, failure_of);
   }
 }
 

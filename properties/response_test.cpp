@@ -48,8 +48,8 @@ TEST_P(Response, HasTheLengthOfADirection) {
     const Case c = generate(*query, subject->scalar, stream(21), i);
     if (has_extreme_mutator(c)) continue;
     moving += length(answer(c)) > 0;
-    ASSERT_EQ(fault(c, answer(c)), "") << told(c, *subject,
-                                               [&](const Case& other) { return fault(other, answer(other)); });
+    ASSERT_EQ(fault(c, answer(c)), "") << failure_text(c, *subject,
+                                                       [&](const Case& other) { return fault(other, answer(other)); });
   }
   EXPECT_GT(moving, 10000);
 }

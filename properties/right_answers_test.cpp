@@ -63,18 +63,18 @@ std::string text(const Asked& a) {
 /// A contract that only a correctly rounded exact answer keeps, apart from the length of normals.
 constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 8};
 
-Finding told(const Asked& a, Detail detail = Detail::full) { return judge(a.question, a.answer, strict, detail); }
+Finding judged(const Asked& a, Detail detail = Detail::full) { return judge(a.question, a.answer, strict, detail); }
 
 void expect_right(const Asked& a, double ulps = 1) {
-  const Finding f = told(a);
+  const Finding f = judged(a);
   EXPECT_EQ(f.truth_yes, a.answer.yes) << text(a);
   EXPECT_LE(f.forward_ulps, ulps) << text(a) << ": " << name_of(f.disagreement);
   if (ulps > 1) return;
   EXPECT_EQ(f.verdict, Verdict::agrees) << text(a) << ": " << name_of(f.disagreement) << ", " << f.clause;
-  EXPECT_EQ(told(a, Detail::verdict).verdict, Verdict::agrees) << text(a);
+  EXPECT_EQ(judged(a, Detail::verdict).verdict, Verdict::agrees) << text(a);
 }
 void expect_wrong(const Asked& a, double ulps) {
-  const Finding f = told(a);
+  const Finding f = judged(a);
   EXPECT_EQ(f.verdict, Verdict::violates_contract) << text(a) << ", " << f.forward_ulps << " ulps";
   EXPECT_GE(f.forward_ulps, ulps) << text(a);
 }

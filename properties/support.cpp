@@ -14,7 +14,7 @@
 #include "oracles/confirmed.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/pretty_json.hpp"
 
@@ -31,8 +31,8 @@ namespace {
 
 /// Our own subjects, plugins, and those in the environment variable NEARMISS_SUBJECTS, separated by commas.
 bool is_held_to_its_word(const Subject& s) {
-  const char* told = std::getenv("NEARMISS_SUBJECTS");
-  const std::string names = fmt::format(",{},", told == nullptr ? "" : told);
+  const char* value = std::getenv("NEARMISS_SUBJECTS");
+  const std::string names = fmt::format(",{},", value == nullptr ? "" : value);
   const auto named = [&](const std::string& name) {
     return names.find(fmt::format(",{},", name)) != std::string::npos;
   };
@@ -55,8 +55,9 @@ std::vector<Pairing> our_pairings() {
 
 std::vector<Pairing> certified_pairings() {
   std::vector<Pairing> certified = our_pairings();
-  std::erase_if(certified,
-                [](const Pairing& p) { return !p.subject->offering(p.query->name).contract.exact_decisions; });
+  std::erase_if(certified, [](const Pairing& p) {
+    return !p.subject->own || !p.subject->offering(p.query->name).contract.exact_decisions;
+  });
   return certified;
 }
 
@@ -95,8 +96,8 @@ std::string seed_text(const Case& c, const Subject& s) {
 
 }  // namespace
 
-std::string told(const Case& question, const Subject& subject,
-                 const std::function<std::string(const Case&)>& failure_of) {
+std::string failure_text(const Case& question, const Subject& subject,
+                         const std::function<std::string(const Case&)>& failure_of) {
   const std::string first = failure_of(question);
   const Case shrunk = shrink(
       question, [&](const Case& c) { return !failure_of(c).empty(); }, 4000);
@@ -109,9 +110,9 @@ std::string told(const Case& question, const Subject& subject,
                      case_to_json(shrunk).dump(2), case_to_cpp(shrunk));
 }
 
-std::string told(const Case& question, const Subject& subject) {
+std::string failure_text(const Case& question, const Subject& subject) {
   const Disagreement first = examined(question, subject).disagreement;
-  return told(question, subject, [&](const Case& c) -> std::string {
+  return failure_text(question, subject, [&](const Case& c) -> std::string {
     const Finding f = examined(c, subject);
     if (!is_violation(f) || f.disagreement != first) return {};
     return fmt::format("{} ({}), backward error above {} epsilon", name_of(f.disagreement), f.clause,
@@ -131,7 +132,7 @@ bool breaks(const std::optional<RelationFinding>& f) { return f && !(f->broken.e
 
 }  // namespace
 
-std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject) {
+std::string failure_text(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject) {
   const Case shrunk = shrink(
       question, [&](const Case& c) { return breaks(examined_here(relation, c, seed, subject)); }, 2000);
   const RelationFinding found = *examined_here(relation, shrunk, seed, subject);
@@ -156,7 +157,7 @@ std::string failure_of_agreement(const Query& query, const Subject& subject, std
   Case c;
   for (std::uint64_t i = 0; i < cases; ++i) {
     generate_inside(c, query, subject.scalar, stream, i, subject.offering(query.name).required);
-    if (is_violation(examined(c, subject))) return told(c, subject);
+    if (is_violation(examined(c, subject))) return failure_text(c, subject);
   }
   return {};
 }
@@ -167,7 +168,7 @@ std::string failure_of_relations(const Query& query, const Subject& subject, std
   for (std::uint64_t i = 0; i < cases; ++i) {
     generate_inside(c, query, subject.scalar, stream, i, subject.offering(query.name).required);
     for (const Relation& r : relations()) {
-      if (breaks(examined_here(r, c, i, subject))) return told(r, c, i, subject);
+      if (breaks(examined_here(r, c, i, subject))) return failure_text(r, c, i, subject);
     }
   }
   return {};

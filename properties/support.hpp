@@ -43,19 +43,19 @@ Finding examined(const Case& question, const Subject& subject);
 inline bool is_violation(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
 /// The text of a violation: the finding, its seed, the command that replays it, the shrunk case as JSON and as C++.
 /// Leaves a report in properties/QUERY/ of runs_folder().
-std::string told(const Case& question, const Subject& subject);
+std::string failure_text(const Case& question, const Subject& subject);
 /// The same for a property that `failure_of` checks: it returns how a case violates the property, "" if it does not.
-std::string told(const Case& question, const Subject& subject,
-                 const std::function<std::string(const Case&)>& failure_of);
+std::string failure_text(const Case& question, const Subject& subject,
+                         const std::function<std::string(const Case&)>& failure_of);
 /// The same for a broken relation, with all of its cases.
-std::string told(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject);
+std::string failure_text(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject);
 
 /// The stream of generated cases for a property whose default seed is `usual`. The environment variable NEARMISS_SEED
 /// changes it.
 std::uint64_t stream(std::uint64_t usual);
 
-/// The text, by told(), of the first of `cases` cases of the stream whose answer breaks the subject's contract; "" if
-/// there is none.
+/// The text, by failure_text(), of the first of `cases` cases of the stream whose answer breaks the subject's contract;
+/// "" if there is none.
 std::string failure_of_agreement(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);
 /// The text of the first case that breaks one of the relations.
 std::string failure_of_relations(const Query& query, const Subject& subject, std::uint64_t stream, std::uint64_t cases);

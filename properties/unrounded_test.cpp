@@ -125,8 +125,8 @@ bool same(const Answer& a, const Answer& b) { return a.yes == b.yes && a.given =
 
 /// Cases per query and scalar. CI runs fewer, the nightly job NEARMISS_LATTICE_CASES.
 int cases_per_query() {
-  const char* told = std::getenv("NEARMISS_LATTICE_CASES");
-  return told != nullptr ? std::atoi(told) : 4000;
+  const char* value = std::getenv("NEARMISS_LATTICE_CASES");
+  return value != nullptr ? std::atoi(value) : 4000;
 }
 
 struct Counts {

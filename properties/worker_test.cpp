@@ -53,7 +53,7 @@ Answer misbehave(std::span<const double> inputs) {
 
 Offering offering() { return {"misbehave", Offer::answers, "", {}, misbehave}; }
 
-WorkerLimits limits() { return {.patience = 0.5, .bytes = std::size_t{256} << 20}; }
+WorkerLimits limits() { return {.case_timeout = 0.5, .bytes = std::size_t{256} << 20}; }
 
 class WorkerSurvives : public testing::TestWithParam<std::tuple<const char*, Misdeed, const char*>> {};
 
@@ -63,7 +63,7 @@ TEST_P(WorkerSurvives, AndOnlyTheCaseBreaks) {
   if (misdeed == eats_memory) GTEST_SKIP() << "AddressSanitizer leaves no address space to limit";
 #endif
   WorkerLimits limits = nearmiss::limits();
-  if (misdeed == eats_memory) limits.patience = 30;  // a sanitizer is slow at allocating memory
+  if (misdeed == eats_memory) limits.case_timeout = 30;  // a sanitizer is slow at allocating memory
   Worker worker(limits);
   const std::vector<double> inputs{none, 1, double(misdeed), 2, none, 3};
   const std::vector<Answer> answers = worker.ask(offering(), inputs, 2);
@@ -218,7 +218,9 @@ Offering leaving() { return {"leaving", Offer::answers, "", {}, leave_something_
 class WhatASubjectStarted : public testing::TestWithParam<std::tuple<Leaving, bool>> {
  protected:
   double how() const { return double(std::get<0>(GetParam())); }
-  WorkerLimits patient(double seconds) const { return {.patience = seconds, .pid_namespace = std::get<1>(GetParam())}; }
+  WorkerLimits patient(double seconds) const {
+    return {.case_timeout = seconds, .pid_namespace = std::get<1>(GetParam())};
+  }
 };
 
 TEST_P(WhatASubjectStarted, EndsWhenTheSubjectHangs) {
@@ -226,7 +228,7 @@ TEST_P(WhatASubjectStarted, EndsWhenTheSubjectHangs) {
   Worker worker(patient(0.5));
   const auto answers = worker.ask(leaving(), std::vector<double>{hangs, how()}, 2);
   EXPECT_EQ(answers[0].reason(), "no answer within 0.500 s of processor time");
-  EXPECT_TRUE(answers[0].late);
+  EXPECT_TRUE(answers[0].late());
   EXPECT_TRUE(lifeline.says_something_within(0));
   EXPECT_TRUE(lifeline.ends_within(5));
 }
@@ -236,7 +238,7 @@ TEST_P(WhatASubjectStarted, EndsWhenTheSubjectCrashesAndTheCrashIsTold) {
   Worker worker(patient(60));
   const auto answers = worker.ask(leaving(), std::vector<double>{aborts, how()}, 2);
   EXPECT_NE(answers[0].reason().find("signal 6"), std::string_view::npos) << answers[0].reason();
-  EXPECT_FALSE(answers[0].late);
+  EXPECT_FALSE(answers[0].late());
   EXPECT_EQ(worker.output(0), "subject: assertion depth > 0 failed\n");
   EXPECT_TRUE(lifeline.ends_within(5));
 }
@@ -325,17 +327,17 @@ TEST(Worker, KeepsWhatASubjectWroteBeforeItBroke) {
 }
 
 TEST(Worker, GivesUpABatchOfWhichManyAreLate) {
-  Worker worker({.patience = 0.02});
+  Worker worker({.case_timeout = 0.02});
   const std::vector<double> inputs(64, double(hangs));
   const auto answers = worker.ask(offering(), inputs, 2);
   EXPECT_EQ(answers.size(), Worker::most_late);
-  for (const Answer& a : answers) EXPECT_TRUE(a.late);
+  for (const Answer& a : answers) EXPECT_TRUE(a.late());
 }
 
 TEST(Worker, StopsWaitingWhenItIsTold) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  Worker worker({.patience = 3600}, nullptr, [&] { return Clock::now() < begin + std::chrono::milliseconds(300); });
+  Worker worker({.case_timeout = 3600}, nullptr, [&] { return Clock::now() < begin + std::chrono::milliseconds(300); });
   const auto answers = worker.ask(offering(), std::vector<double>{none, 1, sleeps, 2, none, 3}, 2);
   EXPECT_LT(Clock::now() - begin, std::chrono::milliseconds(1300));
   ASSERT_EQ(answers.size(), 1u);

@@ -13,8 +13,8 @@ namespace {
 
 bool proves_wrong(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
 
-std::string said_of(const RelationFinding& r, const Subject& subject, const FollowUps& follow_ups, bool bit_for_bit,
-                    Breach& breach) {
+std::string broken_promise_text(const RelationFinding& r, const Subject& subject, const FollowUps& follow_ups,
+                                bool bit_for_bit, Breach& breach) {
   bool exact = true, near = true;
   breach = Breach::contract;
   for (std::size_t i = 0; i < r.cases.size(); ++i) {
@@ -55,7 +55,7 @@ bool some_decision_is_wrong(const RelationFinding& r) {
 }
 
 /// The findings on a case and on its image must not contradict each other.
-std::string said_of_the_oracle(const RelationFinding& r, const Subject& subject, const FollowUps& follow_ups) {
+std::string oracle_error_text(const RelationFinding& r, const Subject& subject, const FollowUps& follow_ups) {
   if (!follow_ups.image) return {};
   if (r.findings[0].verdict == Verdict::out_of_domain || r.findings[1].verdict == Verdict::out_of_domain) return {};
   if (r.findings[0].verdict == Verdict::broke) return {};
@@ -112,8 +112,8 @@ RelationFinding relate(const Relation& relation, const FollowUps& follow_ups, co
     const Standard standard = subject.standard_for(r.cases[i].query->name);
     r.findings.push_back(confirmed(r.cases[i], r.answers[i], standard, Detail::verdict));
   }
-  r.broken = said_of(r, subject, follow_ups, bit_for_bit, r.breach);
-  r.oracle = said_of_the_oracle(r, subject, follow_ups);
+  r.broken = broken_promise_text(r, subject, follow_ups, bit_for_bit, r.breach);
+  r.oracle = oracle_error_text(r, subject, follow_ups);
   if (r.breach != Breach::none || r.agreement != Agreement::decisions_differ) return r;
   if (some_decision_is_wrong(r)) {
     r.breach = Breach::contradiction;

@@ -10,6 +10,8 @@
 
 #include <collide/answers.hpp>
 
+#include "impl/catalogue/break_cause.hpp"
+
 namespace nearmiss {
 
 /// The scalar in which a subject computes.
@@ -42,18 +44,20 @@ struct Answer {
 
   Status status = Status::answered;
   bool yes = false;                         ///< hit, overlap, inside
-  bool late = false;                        ///< broke: a time limit was reached
   std::uint8_t count = capacity;            ///< of values; those behind are 0
   std::uint64_t given = ~std::uint64_t{0};  ///< bit i: values[i] is part of the answer
   std::array<double, capacity> values{};    ///< in the order of the query's outputs
-  std::array<char, 200> why{};              ///< of cannot_answer and broke, cut to fit
+  std::array<char, 200> why{};              ///< the reason of cannot_answer and broke, cut to fit
+  BreakCause cause = BreakCause::other;     ///< of broke
 
+  bool late() const { return cause == BreakCause::time_limit; }
   bool gives(std::size_t i) const { return (given >> i & 1u) != 0; }
   std::string_view reason() const { return {why.data(), strnlen(why.data(), why.size())}; }
 
-  static Answer without(Status status, std::string_view reason) {
+  static Answer without(Status status, std::string_view reason, BreakCause cause = BreakCause::other) {
     Answer a;
     a.status = status;
+    a.cause = cause;
     a.count = 0;
     a.given = 0;
     a.explain(reason);

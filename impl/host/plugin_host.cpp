@@ -76,7 +76,8 @@ collide::Contract contract_of(const nearmiss_contract* c) {
 }
 
 /// What the library says of itself, taken over word by word: whoever hears the hello judges it.
-Subject told_by(const nearmiss_plugin& plugin, const FloatingPointModes& modes, std::vector<AskedFunction>& functions) {
+Subject described_by(const nearmiss_plugin& plugin, const FloatingPointModes& modes,
+                     std::vector<AskedFunction>& functions) {
   Subject s;
   s.name = text_or_none(plugin.name);
   s.version = text_or_none(plugin.library_version);
@@ -129,7 +130,7 @@ std::string fault_of(const nearmiss_plugin* plugin) {
 
 int host_plugin(const std::string& path) {
   // What the library starts in place of this program does not get the pipes.
-  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered})
+  for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
     fcntl(file, F_SETFD, FD_CLOEXEC);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
@@ -144,7 +145,7 @@ int host_plugin(const std::string& path) {
   FloatingPointModes::standard().set();
   if (const std::string fault = fault_of(plugin); !fault.empty()) return refuse(fault);
   std::vector<AskedFunction> functions;
-  return host(told_by(*plugin, modes, functions));
+  return host(described_by(*plugin, modes, functions));
 }
 
 }  // namespace

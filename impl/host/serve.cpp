@@ -56,7 +56,7 @@ T* mapped(int file, int protection) {
 
 }  // namespace
 
-void serve(int from_judge, int to_judge, const wire::Asked& asked, wire::Answered& answered,
+void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
            std::span<const AnswerFunction> offers) {
   while (woken(from_judge)) {
     const AnswerFunction answer = offers.empty() ? asked.answer : offers[asked.offer];
@@ -65,7 +65,7 @@ void serve(int from_judge, int to_judge, const wire::Asked& asked, wire::Answere
     for (std::size_t i = asked.first; i < count; ++i) {
       const std::span<const double> values{asked.values.data() + i * inputs, inputs};
       const Answer a = answer_or_broke([&] { return answer(values); });
-      answered.heads[i] = {a.status, a.yes, a.count, a.given};
+      answered.heads[i] = {a.status, a.yes, a.count, a.cause, a.given};
       std::copy_n(a.values.begin(), a.count, answered.numbers.begin() + std::ptrdiff_t(used));
       if (a.status != Answer::Status::answered) answered.reasons[i] = a.why;
       used += a.count;
@@ -108,15 +108,15 @@ int refuse(const std::string& why) { return say(wire::to_judge, refusal(why)) ? 
 
 int host_of(Subject (*subject)()) {
   // What a library starts in place of this program does not get the pipes.
-  for (const int file : {wire::from_judge, wire::to_judge, wire::asked, wire::answered})
+  for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
     fcntl(file, F_SETFD, FD_CLOEXEC);
   FloatingPointModes::standard().set();  // a library may have set others when it was loaded
   return host(subject());
 }
 
 int host(const Subject& subject) {
-  const auto* asked = mapped<const wire::Asked>(wire::asked, PROT_READ);
-  auto* answered = mapped<wire::Answered>(wire::answered, PROT_READ | PROT_WRITE);
+  const auto* asked = mapped<const wire::SharedRequest>(wire::shared_request, PROT_READ);
+  auto* answered = mapped<wire::SharedAnswers>(wire::shared_answers, PROT_READ | PROT_WRITE);
   if (asked == nullptr || answered == nullptr) {
     std::fputs("this program is a part of nearmiss, which starts it where a subject is to be asked\n", stderr);
     return 2;

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 /// Answers in shared memory, for as long as the judge is there. `offers` are those of the hello, or empty where the
 /// request has the function itself.
-void serve(int from_judge, int to_judge, const wire::Asked& asked, wire::Answered& answered,
+void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
            std::span<const AnswerFunction> offers);
 
 /// What a host says of its subject, as one line of JSON.

@@ -19,8 +19,8 @@ inline constexpr int version = 1;
 enum File : int {
   from_judge = 3,
   to_judge = 4,
-  asked = 5,     ///< shared memory, to be read; of hosts of this project alone
-  answered = 6,  ///< shared memory, to be written; likewise
+  shared_request = 5,  ///< shared memory, to be read; of hosts of this project alone
+  shared_answers = 6,  ///< shared memory, to be written; likewise
 };
 
 inline constexpr std::size_t capacity = 2048;             ///< cases of a batch
@@ -29,7 +29,7 @@ inline constexpr std::size_t max_hello = std::size_t{1} << 20;
 inline constexpr std::size_t max_reason = 65535;
 
 /// Written by the judge before it wakes the host, which can only read it.
-struct Asked {
+struct SharedRequest {
   std::uint32_t offer;  ///< position among the hello's offers
   std::uint32_t inputs;
   std::uint32_t first, count;  ///< the cases [first, count) are asked
@@ -39,11 +39,12 @@ struct Asked {
 
 /// Written by the host while it works. To move memory from one core to another is what isolation costs most, so an
 /// answer takes no more of it than it has numbers, one behind the other. The judge believes none of it.
-struct Answered {
+struct SharedAnswers {
   struct Head {
     Answer::Status status;
     bool yes;
     std::uint8_t count;
+    BreakCause cause;
     std::uint64_t given;
   };
 
@@ -73,16 +74,20 @@ static_assert(sizeof(Request) == 16 && sizeof(Reply) == 16);
 /// Takes the answers [begin, end) out of shared memory; `at` counts the numbers before `begin`. False where one of them
 /// is none: nothing behind it is taken, and `begin` is its position. `outputs` is how many numbers an answer must have,
 /// or 0.
-inline bool take(const Answered& from, std::size_t& begin, std::size_t end, std::size_t& at, std::size_t outputs,
+inline bool take(const SharedAnswers& from, std::size_t& begin, std::size_t end, std::size_t& at, std::size_t outputs,
                  Answer* into) {
   for (; begin < end; ++begin) {
-    const Answered::Head head = from.heads[begin];
+    const SharedAnswers::Head head = from.heads[begin];
     std::atomic_signal_fence(std::memory_order_seq_cst);  // what has been looked at is never read again: it may change
     const auto status = static_cast<std::uint8_t>(head.status);
     if (status > static_cast<std::uint8_t>(Answer::Status::broke) || head.count > Answer::capacity) return false;
     if (head.status == Answer::Status::answered && outputs > 0 && head.count != outputs) return false;
     Answer& a = into[begin];
-    a.late = false;
+    // A host that still answers knows one cause; the judge's process sees the others.
+    std::uint8_t cause;
+    std::memcpy(&cause, &head.cause, 1);
+    const bool is_exception = cause == std::uint8_t(BreakCause::exception);
+    a.cause = is_exception ? BreakCause::exception : BreakCause::other;
     a.status = head.status, a.given = head.given;
     unsigned char yes;
     std::memcpy(&yes, &head.yes, 1);

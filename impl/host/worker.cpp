@@ -25,23 +25,23 @@ namespace nearmiss {
 
 namespace {
 
-constexpr int between_looks = 50;  ///< milliseconds
-constexpr std::size_t most_output = 4096;
+constexpr int poll_interval = 50;  ///< milliseconds
+constexpr std::size_t max_output = 4096;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// While it lives, files may be as large as this process may ever make them: memory is a file here, and what limits
 /// files, or stands for a full disk, is not meant for it.
-class AnyFileSize {
+class UnlimitedFileSize {
  public:
-  AnyFileSize() {
+  UnlimitedFileSize() {
     getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit any{before_.rlim_max, before_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &any);
   }
-  ~AnyFileSize() { setrlimit(RLIMIT_FSIZE, &before_); }
-  AnyFileSize(const AnyFileSize&) = delete;
-  AnyFileSize& operator=(const AnyFileSize&) = delete;
+  ~UnlimitedFileSize() { setrlimit(RLIMIT_FSIZE, &before_); }
+  UnlimitedFileSize(const UnlimitedFileSize&) = delete;
+  UnlimitedFileSize& operator=(const UnlimitedFileSize&) = delete;
 
  private:
   rlimit before_{};
@@ -50,7 +50,7 @@ class AnyFileSize {
 /// Shared memory that neither side can make smaller, which would kill who reads it.
 template <class T>
 T* new_shared(const char* name, int& file) {
-  const AnyFileSize any;
+  const UnlimitedFileSize any;
   file = memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (file < 0 || ftruncate(file, sizeof(T)) != 0) fail("shared memory for a host");
   void* memory = mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
@@ -60,7 +60,9 @@ T* new_shared(const char* name, int& file) {
 }
 
 /// Errors of the operating system that are of the moment, and nobody's fault.
-bool is_a_lack(int error) { return error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE; }
+bool is_resource_shortage(int error) {
+  return error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE;
+}
 
 std::string last_line_of(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
@@ -97,7 +99,7 @@ struct Pipe {
 
 struct Worker::Child {
   int to_host = -1, from_host = -1;
-  std::unique_ptr<Kept> kept;
+  std::unique_ptr<SupervisedProcess> process;
   std::string out;          ///< not yet written
   std::size_t written = 0;  ///< of it
   std::string in;           ///< not yet understood
@@ -107,7 +109,7 @@ struct Worker::Child {
 
   Child() = default;
   ~Child() {
-    kept.reset();
+    process.reset();
     for (const int file : {to_host, from_host}) {
       if (file >= 0) close(file);
     }
@@ -130,26 +132,26 @@ struct Worker::Child {
 
 /// How long a host takes for a case: of processor time, and of time that passes without that for which a busy machine
 /// lets it wait. A host that keeps the machine busy itself gets that grace as well, so it is bounded.
-class Worker::Patience {
+class Worker::CaseTimeout {
  public:
-  static constexpr double most_in_line = 5;  ///< times WorkerLimits::wall
-  void begin() { since_ = Clock::now(), before_.reset(); }
+  static constexpr double most_in_run_queue = 5;  ///< times WorkerLimits::wall
+  void restart() { since_ = Clock::now(), before_.reset(); }
   /// To be asked often: what it did before it was first asked does not count. Empty while there is patience left.
-  std::optional<std::string> lost(Kept& host, const WorkerLimits& limits) {
-    const Used now{host.processor_seconds(), host.seconds_in_line()};
+  std::optional<std::string> expired(SupervisedProcess& host, const WorkerLimits& limits) {
+    const Used now{host.processor_seconds(), host.run_queue_seconds()};
     if (!before_) before_ = now;
-    if (now.processor - before_->processor > limits.patience) {
-      return "no answer within " + seconds_text(limits.patience) + " of processor time";
+    if (now.processor - before_->processor > limits.case_timeout) {
+      return "no answer within " + seconds_text(limits.case_timeout) + " of processor time";
     }
     const double passed = std::chrono::duration<double>(Clock::now() - since_).count();
-    const double in_line = std::min(now.in_line - before_->in_line, most_in_line * limits.wall());
-    if (passed - in_line > limits.wall()) return "no answer within " + seconds_text(limits.wall());
+    const double in_run_queue = std::min(now.in_run_queue - before_->in_run_queue, most_in_run_queue * limits.wall());
+    if (passed - in_run_queue > limits.wall()) return "no answer within " + seconds_text(limits.wall());
     return std::nullopt;
   }
 
  private:
   struct Used {
-    double processor, in_line;
+    double processor, in_run_queue;
   };
   Clock::time_point since_ = Clock::now();
   std::optional<Used> before_;
@@ -162,13 +164,13 @@ WorkerLimits the_limits;
 const WorkerLimits& worker_limits() { return the_limits; }
 void set_worker_limits(const WorkerLimits& limits) { the_limits = limits; }
 
-Worker::Worker(WorkerLimits limits, std::shared_ptr<const HostProgram> program, Pulse pulse)
+Worker::Worker(WorkerLimits limits, std::shared_ptr<const HostProgram> program, WaitCallback on_wait)
     : limits_(limits),
       program_(std::move(program)),
-      pulse_(std::move(pulse)),
-      asked_(new_shared<wire::Asked>("nearmiss-asked", asked_file_)),
-      answered_(new_shared<wire::Answered>("nearmiss-answered", answered_file_)),
-      patience_(std::make_unique<Patience>()) {
+      on_wait_(std::move(on_wait)),
+      asked_(new_shared<wire::SharedRequest>("nearmiss-asked", asked_file_)),
+      answered_(new_shared<wire::SharedAnswers>("nearmiss-answered", answered_file_)),
+      timeout_(std::make_unique<CaseTimeout>()) {
   // From now on nobody gets a mapping that can be written, and this one stays.
   if (fcntl(asked_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) fail("shared memory for a host");
 }
@@ -189,19 +191,19 @@ void Worker::spawn() {
       spawn_once();
       return;
     } catch (const std::system_error& e) {
-      if (!is_a_lack(e.code().value())) throw;
-      wait_for_the_system(e.code().value());
+      if (!is_resource_shortage(e.code().value())) throw;
+      wait_for_resources(e.code().value());
     }
   }
 }
 
 /// To be called each time that the system refuses a process or memory; throws std::system_error after some seconds.
-void Worker::wait_for_the_system(int error) {
+void Worker::wait_for_resources(int error) {
   using namespace std::chrono_literals;
   const Clock::time_point now = Clock::now();
   if (!refused_since_) refused_since_ = now;
   const bool may_pass = error != EMFILE;  // which is of this process alone
-  if (!may_pass || now - *refused_since_ > 3s || !goes_on()) {
+  if (!may_pass || now - *refused_since_ > 3s || !keeps_waiting()) {
     throw std::system_error(error, std::generic_category(), "a process for a host");
   }
   std::this_thread::sleep_for(50ms);
@@ -215,8 +217,8 @@ void Worker::spawn_once() {
     run.arguments = program_->arguments;
     run.files = {{down.ends[0], wire::from_judge}, {up.ends[1], wire::to_judge}};
     if (is_shared()) {
-      run.files.push_back({asked_file_, wire::asked});
-      run.files.push_back({answered_file_, wire::answered});
+      run.files.push_back({asked_file_, wire::shared_request});
+      run.files.push_back({answered_file_, wire::shared_answers});
     }
   } else {
     run.files = {{down.ends[0], wire::from_judge}, {up.ends[1], wire::to_judge}};
@@ -226,8 +228,8 @@ void Worker::spawn_once() {
       return 0;
     };
   }
-  child->kept =
-      std::make_unique<Kept>(run, Confinement{.bytes = limits_.bytes, .pid_namespace = limits_.pid_namespace});
+  child->process = std::make_unique<SupervisedProcess>(
+      run, Confinement{.bytes = limits_.bytes, .pid_namespace = limits_.pid_namespace});
   child->to_host = down.take(1);
   child->from_host = up.take(0);
   for (const int file : {child->to_host, child->from_host}) fcntl(file, F_SETFL, O_NONBLOCK);
@@ -250,10 +252,10 @@ void Worker::start() {
 
 /// What the host says first, with its end of line.
 std::string Worker::first_line() {
-  Patience patience;
-  while (goes_on()) {
-    pollfd files[2] = {{child_->from_host, POLLIN, 0}, {child_->kept->status_file(), POLLIN, 0}};
-    poll(files, 2, between_looks);
+  CaseTimeout timeout;
+  while (keeps_waiting()) {
+    pollfd files[2] = {{child_->from_host, POLLIN, 0}, {child_->process->status_file(), POLLIN, 0}};
+    poll(files, 2, poll_interval);
     const bool ended = (files[0].revents & (POLLIN | POLLHUP)) != 0 && !child_->read_some();
     if (const std::size_t at = child_->unread().find('\n'); at != std::string_view::npos) {
       std::string line(child_->unread().substr(0, at + 1));
@@ -261,18 +263,18 @@ std::string Worker::first_line() {
       return line;
     }
     if (child_->unread().size() > wire::max_hello) throw HostFailed("its hello has more than 1,048,576 bytes");
-    if (ended || child_->kept->has_ended()) {
-      if (!child_->kept->has_ended(200)) throw HostFailed("it closed the pipe before it said hello");
-      if (const int lack = child_->kept->failed_to_start(); is_a_lack(lack)) {
-        wait_for_the_system(lack);
+    if (ended || child_->process->has_ended()) {
+      if (!child_->process->has_ended(200)) throw HostFailed("it closed the pipe before it said hello");
+      if (const int lack = child_->process->failed_to_start(); is_resource_shortage(lack)) {
+        wait_for_resources(lack);
         spawn();
-        patience.begin();
+        timeout.restart();
         continue;
       }
-      const std::string last = last_line_of(child_->kept->output(most_output));
-      throw HostFailed(child_->kept->how_it_ended() + (last.empty() ? "" : ": " + last));
+      const std::string last = last_line_of(child_->process->output(max_output));
+      throw HostFailed(child_->process->exit_text() + (last.empty() ? "" : ": " + last));
     }
-    if (const auto late = patience.lost(*child_->kept, limits_)) {
+    if (const auto late = timeout.expired(*child_->process, limits_)) {
       throw HostFailed(std::string("no hello").append(*late, std::string_view("no answer").size()), true);
     }
   }
@@ -298,7 +300,7 @@ void Worker::send(const Offering& offering, std::span<const double> values, std:
   got_ = 0;
   outputs_ = offering.outputs;
   decides_ = offering.decides;
-  singly_ = false;
+  one_by_one_ = false;
   suspected_.reset();
   broken_.clear();
   answers_.resize(std::max(answers_.size(), count_));
@@ -328,7 +330,7 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
       return;
     }
   }
-  patience_->begin();
+  timeout_->restart();
   if (is_shared()) {
     asked_->first = std::uint32_t(first);
     asked_->count = std::uint32_t(end_of_request);
@@ -360,21 +362,24 @@ bool Worker::flush() {
 }
 
 Worker::Event Worker::end_as(Event::What what, std::string reason, bool is_of_one_case) {
-  suspected_output_ = child_->kept->output(most_output);
+  suspected_output_ = child_->process->output(max_output);
   end();
-  return {what, std::move(reason), is_of_one_case};
+  return {what, std::move(reason), is_of_one_case, what == Event::late ? BreakCause::time_limit : BreakCause::other};
 }
 
 /// Says in one line what became of a host that has ended or hung up.
-Worker::Event Worker::how_it_ended() {
+Worker::Event Worker::event_of_end() {
   constexpr int moment = 200;  // milliseconds that a process may take from its last word to its end
-  if (!child_->kept->has_ended(moment)) return end_as(Event::broke, "hung up without ending");
-  const std::string last = last_line_of(child_->kept->output(most_output));
-  return end_as(Event::broke, child_->kept->how_it_ended() + (last.empty() ? "" : ": " + last));
+  if (!child_->process->has_ended(moment)) return end_as(Event::broke, "hung up without ending");
+  const std::string last = last_line_of(child_->process->output(max_output));
+  const BreakCause cause = child_->process->break_cause();
+  Event event = end_as(Event::broke, child_->process->exit_text() + (last.empty() ? "" : ": " + last));
+  event.cause = cause;
+  return event;
 }
 
 /// What the host has done since it was last looked at.
-std::optional<Worker::Event> Worker::take_shared() {
+std::optional<Worker::Event> Worker::read_shared_answers() {
   const std::size_t done = answered_->done.load(std::memory_order_acquire);
   if (done > requested_) return end_as(Event::broke, "counts more answers than it was asked for", true);
   const std::size_t before = got_;
@@ -383,12 +388,12 @@ std::optional<Worker::Event> Worker::take_shared() {
     if (!decides_) answers_[i].yes = true;
     make_printable(answers_[i]);
   }
-  if (got_ > before) patience_->begin();
+  if (got_ > before) timeout_->restart();
   if (!all) return end_as(Event::broke, "answered with what is no answer", true);
   return std::nullopt;
 }
 
-std::optional<Worker::Event> Worker::take_piped() {
+std::optional<Worker::Event> Worker::read_piped_answers() {
   while (got_ < requested_) {
     const wire::Taken taken = program_->batches == HostProgram::Batches::binary
                                   ? wire::take_binary(child_->unread(), child_->answered, outputs_)
@@ -400,7 +405,7 @@ std::optional<Worker::Event> Worker::take_piped() {
     answers_[got_] = taken.answer;
     if (!decides_) answers_[got_].yes = true;
     make_printable(answers_[got_++]);
-    patience_->begin();
+    timeout_->restart();
   }
   if (!child_->unread().empty()) {
     --got_;
@@ -412,11 +417,11 @@ std::optional<Worker::Event> Worker::take_piped() {
 /// Waits until all that was requested is answered, or something else comes of it.
 Worker::Event Worker::await() {
   while (true) {
-    if (!goes_on()) return end_as(Event::gave_up, "");
+    if (!keeps_waiting()) return end_as(Event::gave_up, "");
     pollfd files[3] = {{child_->from_host, POLLIN, 0},
-                       {child_->kept->status_file(), POLLIN, 0},
+                       {child_->process->status_file(), POLLIN, 0},
                        {child_->to_host, short(child_->has_more_to_say() ? POLLOUT : 0), 0}};
-    const int ready = poll(files, child_->has_more_to_say() ? 3 : 2, between_looks);
+    const int ready = poll(files, child_->has_more_to_say() ? 3 : 2, poll_interval);
     bool open = true;
     if (ready > 0 && files[0].revents != 0) {
       open = child_->read_some();
@@ -424,7 +429,7 @@ Worker::Event Worker::await() {
     }
     if (is_shared()) {
       const bool woken = !child_->unread().empty();
-      if (auto event = take_shared()) return *event;
+      if (auto event = read_shared_answers()) return *event;
       if (woken) {
         child_->understood = child_->in.size();
         if (got_ < requested_) return end_as(Event::broke, "says that all is done, and did not answer", true);
@@ -432,27 +437,27 @@ Worker::Event Worker::await() {
       }
     } else {
       if (ready > 0 && files[2].revents != 0 && child_->has_more_to_say()) open = flush() && open;
-      if (auto event = take_piped()) return *event;
+      if (auto event = read_piped_answers()) return *event;
     }
-    const bool is_gone = !open || child_->kept->has_ended();
-    if (!is_gone && ready > 0 && Clock::now() < looked_ + std::chrono::milliseconds(between_looks)) continue;
+    const bool is_gone = !open || child_->process->has_ended();
+    if (!is_gone && ready > 0 && Clock::now() < looked_ + std::chrono::milliseconds(poll_interval)) continue;
     looked_ = Clock::now();
-    const auto late = is_gone ? std::nullopt : patience_->lost(*child_->kept, limits_);
+    const auto late = is_gone ? std::nullopt : timeout_->expired(*child_->process, limits_);
     const bool is_too_large =
-        limits_.bytes > 0 && child_->kept->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
+        limits_.bytes > 0 && child_->process->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
     if (!is_gone && !late && !is_too_large) continue;
     if (got_ == requested_) {  // what it does after its last answer is no case's fault
       end();
       return {Event::all_answered};
     }
     if (is_gone) {
-      child_->kept->has_ended(200);
-      if (const int lack = child_->kept->failed_to_start(); is_a_lack(lack)) {
-        wait_for_the_system(lack);
+      child_->process->has_ended(200);
+      if (const int lack = child_->process->failed_to_start(); is_resource_shortage(lack)) {
+        wait_for_resources(lack);
         end();
         return {Event::not_asked};
       }
-      return how_it_ended();
+      return event_of_end();
     }
     if (late)
       return end_as(Event::late,
@@ -461,9 +466,8 @@ Worker::Event Worker::await() {
   }
 }
 
-void Worker::break_case(std::size_t i, std::string_view reason, std::string output, bool late) {
-  answers_[i] = Answer::without(Answer::Status::broke, printable(reason));
-  answers_[i].late = late;
+void Worker::mark_broken(std::size_t i, std::string_view reason, std::string output, BreakCause cause) {
+  answers_[i] = Answer::without(Answer::Status::broke, printable(reason), cause);
   if (!output.empty()) broken_.push_back({i, std::move(output)});
 }
 
@@ -479,7 +483,8 @@ std::span<const Answer> Worker::receive() {
   for (std::size_t late = 0; got_ < count_ && late < most_late;) {
     if (cannot_start_) {
       const std::string why = std::string("it cannot be started again: ") + cannot_start_->what();
-      while (got_ < count_) break_case(got_++, why, {}, cannot_start_->late);
+      while (got_ < count_)
+        mark_broken(got_++, why, {}, cannot_start_->late ? BreakCause::time_limit : BreakCause::other);
       break;
     }
     Event event = await();
@@ -490,30 +495,30 @@ std::span<const Answer> Worker::receive() {
     }
     refused_since_.reset();
     if (event.what == Event::all_answered) {
-      if (!is_shared() && !singly_) adapt(Clock::now() - requested_since_);
-      if (got_ < count_) request(got_, singly_ ? got_ + 1 : count_);
+      if (!is_shared() && !one_by_one_) adapt(Clock::now() - requested_since_);
+      if (got_ < count_) request(got_, one_by_one_ ? got_ + 1 : count_);
       continue;
     }
     // Of a host that answers over a pipe nobody knows how many answers it kept to itself.
     const bool is_surely_next = is_shared() || event.is_of_one_case || requested_ - got_ == 1;
     if (is_surely_next) {
-      break_case(got_++, event.reason, std::move(suspected_output_), event.what == Event::late);
-      singly_ = false;
+      mark_broken(got_++, event.reason, std::move(suspected_output_), event.cause);
+      one_by_one_ = false;
       suspected_.reset();
       late += event.what == Event::late;
       if (late == most_late) break;
     } else {
-      singly_ = true;
+      one_by_one_ = true;
       suspected_ = std::move(event);
       suspected_at_ = got_;
       suspected_with_ = std::move(suspected_output_);
     }
-    if (got_ < count_) request(got_, singly_ ? got_ + 1 : count_);
+    if (got_ < count_) request(got_, one_by_one_ ? got_ + 1 : count_);
   }
   // It ended in a batch, and not when it was asked one by one; to be late in a batch is nothing.
   if (got_ == count_ && suspected_ && suspected_->what == Event::broke) {
-    break_case(suspected_at_, suspected_->reason + "; not again when the cases of its batch were asked one by one",
-               std::move(suspected_with_), false);
+    mark_broken(suspected_at_, suspected_->reason + "; not again when the cases of its batch were asked one by one",
+                std::move(suspected_with_), suspected_->cause);
   }
   return {answers_.data(), got_};
 }
@@ -527,7 +532,7 @@ std::string_view Worker::output(std::size_t case_of_batch) const {
 
 double Worker::processor_seconds() const {
   const FloatingPointScope standard;
-  return child_ ? child_->kept->processor_seconds() : 0;
+  return child_ ? child_->process->processor_seconds() : 0;
 }
 
 std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {

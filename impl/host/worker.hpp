@@ -12,18 +12,18 @@
 #include <string_view>
 #include <vector>
 
-#include "impl/host/keeper.hpp"
+#include "impl/host/supervisor.hpp"
 #include "impl/host/wire.hpp"
 #include "impl/subject/subject.hpp"
 
 namespace nearmiss {
 
 struct WorkerLimits {
-  double patience = 2.0;                     ///< seconds of processor time for a case
+  double case_timeout = 2.0;                 ///< seconds of processor time for a case
   std::size_t bytes = std::size_t{2} << 30;  ///< of memory, beyond what the process starts with
   bool pid_namespace = true;                 ///< see Confinement
   /// Seconds that may pass for a case, but for those in which others had the processor; and until a host says hello.
-  double wall() const { return 5 * patience; }
+  double wall() const { return 5 * case_timeout; }
 };
 
 /// For all that have none of their own: those of the command line. For the rest of the process.
@@ -47,9 +47,10 @@ struct HostFailed : std::runtime_error {
 class Worker {
  public:
   /// Called some twenty times a second while a host is awaited; false gives it up.
-  using Pulse = std::function<bool()>;
+  using WaitCallback = std::function<bool()>;
 
-  explicit Worker(WorkerLimits limits = {}, std::shared_ptr<const HostProgram> program = nullptr, Pulse pulse = {});
+  explicit Worker(WorkerLimits limits = {}, std::shared_ptr<const HostProgram> program = nullptr,
+                  WaitCallback on_wait = {});
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -61,8 +62,8 @@ class Worker {
 
   /// Answers to values.size() / inputs_per_case cases, in order. Until `receive` the caller is free to
   /// do other work: the host runs beside it. At most `capacity` cases and max_values numbers. What is received stays
-  /// valid until the next send. It is less than what was asked where the pulse gave up, and where `most_late` cases of
-  /// the batch were late.
+  /// valid until the next send. It is less than what was asked where the on_wait gave up, and where `most_late` cases
+  /// of the batch were late.
   void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
   std::span<const Answer> receive();
   /// The end of what the host had written when the case broke: standard output and error, some thousand bytes at most;
@@ -82,12 +83,13 @@ class Worker {
  private:
   using Clock = std::chrono::steady_clock;
   struct Child;
-  class Patience;
+  class CaseTimeout;
   /// What came of waiting.
   struct Event {
     enum What { all_answered, broke, late, not_asked, gave_up } what;
     std::string reason{};
     bool is_of_one_case = false;  ///< it is the next case that broke, surely
+    BreakCause cause = BreakCause::other;
   };
   struct Output {
     std::size_t of;
@@ -98,28 +100,28 @@ class Worker {
   void start();
   void spawn();
   void spawn_once();
-  void wait_for_the_system(int error);
+  void wait_for_resources(int error);
   std::string first_line();
   void request(std::size_t first, std::size_t end);
   Event await();
-  std::optional<Event> take_shared();
-  std::optional<Event> take_piped();
-  Event how_it_ended();
+  std::optional<Event> read_shared_answers();
+  std::optional<Event> read_piped_answers();
+  Event event_of_end();
   Event end_as(Event::What what, std::string reason, bool is_of_one_case = false);
-  void break_case(std::size_t i, std::string_view reason, std::string output, bool late);
+  void mark_broken(std::size_t i, std::string_view reason, std::string output, BreakCause cause);
   void end();
-  bool goes_on() const { return !pulse_ || pulse_(); }
+  bool keeps_waiting() const { return !on_wait_ || on_wait_(); }
   bool flush();
   void adapt(Clock::duration took);
 
   WorkerLimits limits_;
   std::shared_ptr<const HostProgram> program_;
-  Pulse pulse_;
+  WaitCallback on_wait_;
   int asked_file_ = -1, answered_file_ = -1;  // before what is mapped of them
-  wire::Asked* asked_;
-  wire::Answered* answered_;
+  wire::SharedRequest* asked_;
+  wire::SharedAnswers* answered_;
   std::unique_ptr<Child> child_;
-  std::unique_ptr<Patience> patience_;
+  std::unique_ptr<CaseTimeout> timeout_;
   std::optional<HostFailed> cannot_start_;
   bool decides_ = true;          ///< an answer's yes says something
   bool heard_ = false;           ///< something came by the pipe since the request
@@ -132,7 +134,7 @@ class Worker {
   std::optional<Clock::time_point> refused_since_;  ///< the system has no process or memory
   Clock::time_point looked_{};                      ///< at how long it takes, and how much memory
   std::size_t piped_at_once_ = 64;                  ///< cases of a request over a pipe, at most
-  bool singly_ = false;  ///< which of them broke a host that answers late is found out by asking one by one
+  bool one_by_one_ = false;  ///< which of them broke a host that answers late is found out by asking one by one
   std::optional<Event> suspected_;
   std::size_t suspected_at_ = 0;
   std::string suspected_output_, suspected_with_;

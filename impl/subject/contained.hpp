@@ -17,9 +17,10 @@ Answer answer_or_broke(const Ask& ask) {
   } catch (const std::bad_alloc&) {
     return Answer::without(Answer::Status::broke, "memory limit reached");
   } catch (const std::exception& e) {
-    return Answer::without(Answer::Status::broke, std::string("exception: ") + e.what());
+    return Answer::without(Answer::Status::broke, std::string(reason_prefix(BreakCause::exception)) + e.what(),
+                           BreakCause::exception);
   } catch (...) {
-    return Answer::without(Answer::Status::broke, "exception that is no std::exception");
+    return Answer::without(Answer::Status::broke, "exception that is no std::exception", BreakCause::exception);
   }
 }
 

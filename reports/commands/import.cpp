@@ -14,9 +14,9 @@
 #include "reports/engine/progress.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/engine/tally.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -53,7 +53,7 @@ struct Score {
 class NyuCcd : public Sink {
  public:
   NyuCcd(std::span<const Subject* const> subjects, fs::path out)
-      : out_(std::move(out)), campaign_({out_.empty() ? runs_folder() : out_, [this] { tell_progress(); }}, {this}) {
+      : out_(std::move(out)), campaign_({out_.empty() ? runs_folder() : out_, [this] { show_progress(); }}, {this}) {
     for (const Subject* s : subjects) {
       if (s->offering(query()).answer != nullptr) scores_.emplace_back().subject = s;
     }
@@ -65,7 +65,7 @@ class NyuCcd : public Sink {
     skipped_ += read.skipped;
     for (std::size_t at = 0; at < read.fit.size() && !interrupted(); at += Worker::capacity) {
       take_batch({read.fit.data() + at, std::min(Worker::capacity, read.fit.size() - at)});
-      tell_progress();
+      show_progress();
     }
   }
   void take(const Examined& e) override { score(*now_, e, batch_[at_[e.of_batch]].where, truth_[at_[e.of_batch]]); }
@@ -82,9 +82,9 @@ class NyuCcd : public Sink {
 
  private:
   std::uint64_t late_of(const Score& s) {
-    return campaign_.asking().lateness(*s.subject, query_of(QueryId::moving_point_triangle)).late;
+    return campaign_.dispatcher().lateness(*s.subject, query_of(QueryId::moving_point_triangle)).late;
   }
-  void tell_progress() { progress_.tell(fit_, std::nullopt, std::nullopt, oracle_wrong_.size()); }
+  void show_progress() { progress_.show(fit_, std::nullopt, std::nullopt, oracle_wrong_.size()); }
   void take_batch(std::span<const GroundTruth> batch) {
     batch_ = batch;
     truth_.clear();

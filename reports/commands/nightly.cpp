@@ -65,7 +65,7 @@ class Expectations : public Sink {
 
 /// Asks every stored case of every subject.
 void replay_stored(Run& run) {
-  run.doing("stored cases");
+  run.set_activity("stored cases");
   std::uint64_t cases = 0;
   Expectations expectations;
   for (const Query* q : run.settings().queries) {
@@ -140,7 +140,7 @@ Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point
       all.no_time.push_back(query);
       continue;
     }
-    run.doing(fmt::format("fuzzing {}", query));
+    run.set_activity(fmt::format("fuzzing {}", query));
     const double share = left / double(targets.size() - i);
     all.ran.push_back(fuzz(targets[i], {run.settings().folder, foreign, unsigned(std::max(1.0, share)),
                                         [&] { run.tick(); }, [&] { return run.should_stop(); }}));
@@ -161,7 +161,7 @@ std::optional<Case> fuzzed_case(const fs::path& file) {
 
 /// Turns what the targets left into findings of this run.
 Json examine_fuzzed(Run& run) {
-  run.doing("judging what fuzzing found");
+  run.set_activity("judging what fuzzing found");
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(run.settings().folder / "fuzz")) {
     if (entry.is_regular_file() && entry.path().extension() != ".log") files.push_back(entry.path());
@@ -183,7 +183,7 @@ Json examine_fuzzed(Run& run) {
 
 /// Related cases of every subject. Returns 0, 1 for broken promises, or InternalError's exit code.
 int relate(Run& run, Clock::time_point until) {
-  run.doing("relations");
+  run.set_activity("relations");
   std::vector<const Relation*> all;
   for (const Relation& r : relations()) all.push_back(&r);
   RelationsRun related({run.settings().command, run.settings().folder, run.settings().queries, run.settings().subjects,
@@ -211,7 +211,7 @@ bool ask_properties(Run& run, Clock::time_point until) {
     fmt::print("properties: {}\n", program ? "no time was left" : "not built");
     return false;
   }
-  run.doing("properties");
+  run.set_activity("properties");
   const PropertyOutcome o =
       run_property_tests(*program, {run.settings().folder, foreign_subjects(), run.settings().seed, left,
                                     [&] { run.tick(); }, [&] { return run.should_stop(); }});
@@ -282,7 +282,7 @@ class NightlyCommand : public Command {
     replay_stored(run);
     const double later = (found.targets.empty() ? 0 : fuzzing_share);
     run.set_until(between(begin, end, 1 - later - properties_share));
-    run.doing("generated cases");
+    run.set_activity("generated cases");
     run.generate(std::nullopt);
     run.set_until(end);
     const int related = relate(run, between(begin, end, 1 - later - properties_share / 2));

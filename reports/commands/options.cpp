@@ -116,12 +116,12 @@ void declare_foreign_subjects(CLI::App& app) {
          "--patience",
          [](const std::string& text) {
            WorkerLimits limits;
-           limits.patience = *parsed<double>(text);
+           limits.case_timeout = *parsed<double>(text);
            set_worker_limits(limits);
          },
          fmt::format("How long a subject may take for one case: S seconds of processor time, and {:g} times as many in "
                      "all. Default: {:g}",
-                     usual.wall() / usual.patience, usual.patience))
+                     usual.wall() / usual.case_timeout, usual.case_timeout))
       ->type_name("S")
       ->check(number_from(least, most));
   add_loading(app, "--plugin", load_plugin,

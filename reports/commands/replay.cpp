@@ -11,7 +11,7 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/progress.hpp"
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/engine/run_folder.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
@@ -46,14 +46,14 @@ class ReplayCommand : public Command {
         ->disable_flag_override();
   }
   int run(const CLI::App&) override {
-    std::vector<std::variant<Case, RelatedCase>> cases;
+    std::vector<std::variant<Case, RelationCase>> cases;
     std::vector<Measure> measures;
     for (const std::string& f : files_) {
       settle_run_of(f);
       const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe gives its text no second time
-      tell_of_missing(j, f);
+      warn_of_missing_subject(j, f);
       measures.push_back(measure_ ? Measure{*measure_, true} : measure_of(j, f));
-      if (auto related = read_related(j, f)) {
+      if (auto related = read_relation_case(j, f)) {
         cases.emplace_back(std::move(*related));
       } else {
         cases.emplace_back(case_of(j, f));
@@ -70,7 +70,7 @@ class ReplayCommand : public Command {
 
  private:
   /// A report of which the subject is not there is replayed without the answer that it is about.
-  static void tell_of_missing(const nlohmann::json& report, const std::string& file) {
+  static void warn_of_missing_subject(const nlohmann::json& report, const std::string& file) {
     if (!report.is_object() || !report.contains("finding") || !report.contains("subject")) return;
     const nlohmann::json& subject = report["subject"];
     if (!subject.is_object() || !subject.contains("name") || !subject["name"].is_string()) return;
@@ -89,8 +89,8 @@ class ReplayCommand : public Command {
     }
     if (!json_) fmt::print("{}", replay_text(r));
   }
-  void again(const RelatedCase& related, const std::string& file) {
-    const RelatedReplay r = replay(related, file, selection_.subjects(), workers_);
+  void again(const RelationCase& related, const std::string& file) {
+    const RelationReplay r = replay(related, file, selection_.subjects(), workers_);
     for (const RelationReport& report : r.reports) {
       bad_ = bad_ || is_bad(report.breach);
       contradicted_ = contradicted_ || !report.oracle.empty();

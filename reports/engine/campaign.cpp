@@ -44,7 +44,7 @@ void make(Batch& batch, Schedule& schedule, std::uint64_t seed) {
 Campaign::Campaign(Settings settings, std::vector<Sink*> sinks)
     : settings_(std::move(settings)),
       sinks_(std::move(sinks)),
-      asking_([this] { return settings_.tick(), goes_on(); }, settings_.give_up),
+      dispatcher_([this] { return settings_.tick(), goes_on(); }, settings_.give_up),
       internal_errors_(settings_.folder) {}
 
 bool Campaign::should_stop() const { return interrupted() || (until_ && Clock::now() >= *until_); }
@@ -62,12 +62,13 @@ Standard Campaign::standard_for(const Subject& subject, const Query& query) cons
 void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers) {
   constexpr std::size_t between_looks = 64;
   const Query& query = *cases.front().query;
-  if (answers.size() < cases.size() && !should_stop()) asking_.pass_over(subject, query, cases.size() - answers.size());
+  if (answers.size() < cases.size() && !should_stop())
+    dispatcher_.pass_over(subject, query, cases.size() - answers.size());
   const Standard standard = standard_for(subject, query);
   for (std::size_t i = 0; i < answers.size() && (i % between_looks != 0 || !should_stop()); ++i) {
     const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, Detail::verdict);
     if (!f) continue;
-    const Examined e{cases[i], subject, answers[i], *f, asking_.workers().output(subject, i), i};
+    const Examined e{cases[i], subject, answers[i], *f, dispatcher_.workers().output(subject, i), i};
     for (Sink* s : sinks_) s->take(e);
   }
 }
@@ -75,7 +76,7 @@ void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, st
 void Campaign::hand_on_given_up(std::span<const Subject* const> subjects, const Query& query) {
   for (const Subject* subject : subjects) {
     std::uint64_t& known = given_up_[{subject, &query}];
-    const std::uint64_t now = asking_.lateness(*subject, query).gave_up;
+    const std::uint64_t now = dispatcher_.lateness(*subject, query).gave_up;
     if (now == known) continue;
     for (Sink* s : sinks_) s->take_given_up(query, *subject, now - known);
     known = now;
@@ -90,8 +91,8 @@ void Campaign::examine(std::span<const Subject* const> subjects, std::span<const
 
 void Campaign::ask_and_judge(std::span<const Subject* const> subjects, std::span<const Case> cases,
                              const std::function<void()>& meanwhile) {
-  asking_.ask(subjects, cases, meanwhile,
-              [&](const Subject& s, std::span<const Answer> answers) { judge_all(s, cases, answers); });
+  dispatcher_.ask(subjects, cases, meanwhile,
+                  [&](const Subject& s, std::span<const Answer> answers) { judge_all(s, cases, answers); });
   if (!cases.empty()) hand_on_given_up(subjects, *cases.front().query);
   for (Sink* s : sinks_) s->end_batch();
   settings_.tick();

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "reports/engine/asking.hpp"
+#include "reports/engine/dispatcher.hpp"
 #include "reports/engine/internal_errors.hpp"
 #include "reports/engine/schedule.hpp"
 
@@ -48,7 +48,7 @@ class Campaign {
     std::function<void()> tick;    ///< called often, also while subjects are awaited
     /// What answers are held to; without one, what the subject promises, or else the measure.
     std::function<Standard(const Subject&, const Query&)> standard{};
-    Asking::GiveUp give_up = Asking::GiveUp::when_often_late;
+    Dispatcher::GiveUp give_up = Dispatcher::GiveUp::when_often_late;
   };
 
   Campaign(Settings settings, std::vector<Sink*> sinks);
@@ -69,7 +69,7 @@ class Campaign {
   std::optional<Clock::time_point> until() const { return until_; }
 
   const InternalErrors& internal_errors() const { return internal_errors_; }
-  Asking& asking() { return asking_; }
+  Dispatcher& dispatcher() { return dispatcher_; }
 
  private:
   bool goes_on() const;
@@ -82,7 +82,7 @@ class Campaign {
   Settings settings_;
   std::vector<Sink*> sinks_;
   std::optional<Clock::time_point> until_;
-  Asking asking_;
+  Dispatcher dispatcher_;
   InternalErrors internal_errors_;
   std::map<std::pair<const Subject*, const Query*>, std::uint64_t> given_up_;  ///< as the sinks know
 };

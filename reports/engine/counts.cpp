@@ -85,12 +85,12 @@ const Tally* Counts::of(const Query& query, const Subject& subject) const {
 void Counts::take(const Examined& e) {
   Tally& t = tallies_.at({e.question.query, &e.subject});
   t.count(e.finding);
-  t.late += e.answer.late;
+  t.late += e.answer.late();
   ++cases_;
   bad_ += is_bad(e.finding);
   if (has_classes_) count_by_class(e);
   if (e.of_batch < touching_.size()) {  // not of a case alone: stored cases touch on purpose
-    touches_.count(e.question, e.subject, e.answer, e.finding, touching_[e.of_batch]);
+    touch_counts_.count(e.question, e.subject, e.answer, e.finding, touching_[e.of_batch]);
   }
 }
 
@@ -136,9 +136,9 @@ void Counts::add_to(Json& index) const {
                                  {"wrong", t.wrong},
                                  {"broke", t.of(Verdict::broke)}});
   }
-  index["touches"] = touches_.to_json();
+  index["touches"] = touch_counts_.to_json();
   index["inconsistent_conventions"] = Json::array();
-  for (const Touches::Inconsistent& i : touches_.inconsistent()) {
+  for (const TouchCounts::Inconsistent& i : touch_counts_.inconsistent()) {
     index["inconsistent_conventions"].push_back(
         {{"subject", i.subject->name}, {"closed", i.closed}, {"strict", i.strict}});
   }
@@ -153,7 +153,7 @@ std::string Counts::violated_text() const {
     for (int d = 0; d < disagreement_count; ++d) faults[noun_of(Disagreement(d))] += t.violations[std::size_t(d)];
     faults["breakage"] += t.of(Verdict::broke);
   }
-  faults["inconsistent convention"] += touches_.inconsistent().size();
+  faults["inconsistent convention"] += touch_counts_.inconsistent().size();
   std::vector<std::string> counted;
   for (const auto& [fault, count] : faults) {
     if (count == 0) continue;
@@ -254,8 +254,8 @@ std::string Counts::stages_text() const {
 }
 
 std::string Counts::touches_text() const {
-  std::string text = touches_.text();
-  for (const Touches::Inconsistent& i : touches_.inconsistent()) {
+  std::string text = touch_counts_.text();
+  for (const TouchCounts::Inconsistent& i : touch_counts_.inconsistent()) {
     text += fmt::format("{} has an inconsistent convention: exact touches are contact in {}, and none in {}\n",
                         i.subject->name, list_text(i.closed), list_text(i.strict));
   }

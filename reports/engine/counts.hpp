@@ -10,7 +10,7 @@
 
 #include "reports/engine/campaign.hpp"
 #include "reports/engine/tally.hpp"
-#include "reports/engine/touches.hpp"
+#include "reports/engine/touch_counts.hpp"
 
 namespace nearmiss {
 
@@ -29,7 +29,7 @@ class Counts : public Sink {
   /// Answers that are violations or breakages.
   std::uint64_t bad_answers() const { return bad_; }
   /// The same, and every subject that has two conventions of touching.
-  std::uint64_t bad() const { return bad_ + touches_.inconsistent().size(); }
+  std::uint64_t bad() const { return bad_ + touch_counts_.inconsistent().size(); }
 
   /// "nothing violated", or all that was by kind; and how many queries had no turn.
   std::string violated_text() const;
@@ -60,7 +60,7 @@ class Counts : public Sink {
   bool has_classes_;
   std::map<std::pair<const Query*, const Subject*>, Tally> tallies_;
   std::map<std::pair<const Subject*, std::string>, Tally> by_class_;
-  Touches touches_;
+  TouchCounts touch_counts_;
   std::vector<std::optional<bool>> touching_;  ///< of the cases of the batch, where it is known
   std::uint64_t cases_ = 0, bad_ = 0;
 };

@@ -108,8 +108,8 @@ class Extremes::Place : public Sink {
   void take(const Examined& e) override {
     ExtremesMap& m =
         **std::find_if(maps_.begin(), maps_.end(), [&](const ExtremesMap* o) { return o->subject == &e.subject; });
-    m.time_outs += e.answer.late;
-    m.time_outs_in_row += e.answer.late;
+    m.time_outs += e.answer.late();
+    m.time_outs_in_row += e.answer.late();
     count(m.cells[cell_], e.finding);
   }
 
@@ -131,8 +131,8 @@ Extremes::~Extremes() = default;
 Extremes::Extremes(ExtremesSettings settings)
     : settings_(std::move(settings)),
       place_(std::make_unique<Place>()),
-      campaign_({settings_.folder, [this] { progress_.tell(done_, total_, std::nullopt, 0); }, nothing_promised,
-                 Asking::GiveUp::never},
+      campaign_({settings_.folder, [this] { progress_.show(done_, total_, std::nullopt, 0); }, nothing_promised,
+                 Dispatcher::GiveUp::never},
                 {place_.get()}) {
   make_folder(settings_.folder);
   if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
@@ -154,7 +154,7 @@ void Extremes::sweep() {
   for (const Query* q : settings_.queries) {
     for (const SweepPlane& plane : planes_of(*q)) {
       for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
-        progress_.doing(fmt::format("{}, {} and {}", q->name, name_of(plane.x).name, name_of(plane.y).name));
+        progress_.set_activity(fmt::format("{}, {} and {}", q->name, name_of(plane.x).name, name_of(plane.y).name));
         fill(*q, scalar, plane);
         if (interrupted()) return;
       }
@@ -185,7 +185,7 @@ void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) 
       ask(asked, cell, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
     }
     done_ += asked.size() * settings_.cases;
-    progress_.tell(done_, total_, std::nullopt, 0);
+    progress_.show(done_, total_, std::nullopt, 0);
   }
 }
 

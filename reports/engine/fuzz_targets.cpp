@@ -14,7 +14,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "impl/host/hosts.hpp"
-#include "impl/host/keeper.hpp"
+#include "impl/host/supervisor.hpp"
 #include "reports/engine/interrupt.hpp"
 
 namespace nearmiss {
@@ -98,7 +98,7 @@ std::vector<std::string> asked_in(const fs::path& log) {
 
 }  // namespace
 
-std::vector<std::string> telling_of_added(const ForeignSubjects& foreign) {
+std::vector<std::string> environment_for_added(const ForeignSubjects& foreign) {
   const char* named = std::getenv("NEARMISS_SUBJECTS");
   const std::string before = named == nullptr || *named == '\0' ? "" : fmt::format("{},", named);
   return {fmt::format("NEARMISS_SUBJECTS={}added", before),
@@ -135,30 +135,30 @@ FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
                                            fmt::format("-artifact_prefix={}/", artifacts.string()),
                                            "-print_final_stats=1",
                                            fmt::format("-timeout={}", seconds_for_one_case)};
-  std::vector<std::string> environment = telling_of_added(budget.foreign);
+  std::vector<std::string> environment = environment_for_added(budget.foreign);
   environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
   Program program;
   program.arguments = arguments;
   program.environment = environment;
   program.log = log.string();
-  Kept child(program, Confinement::none());
-  bool told = false, is_forced = false;
+  SupervisedProcess child(program, Confinement::none());
+  bool end_requested = false, is_forced = false;
   for (auto deadline = begin + std::chrono::seconds(budget.seconds) + grace; !child.has_ended(50);) {
     budget.tick();
-    if (!told && (Clock::now() > deadline || budget.cancelled())) {
+    if (!end_requested && (Clock::now() > deadline || budget.cancelled())) {
       child.send(SIGINT);  // libFuzzer prints its statistics and leaves
-      told = true;
+      end_requested = true;
       deadline = Clock::now() + (budget.cancelled() ? short_grace : grace);
     }
-    if (!told || Clock::now() <= deadline) continue;
+    if (!end_requested || Clock::now() <= deadline) continue;
     child.end();
     is_forced = true;
   }
   FuzzOutcome o{query,
                 std::chrono::duration<double>(Clock::now() - begin).count(),
                 executions_in(log),
-                is_forced ? "ended by force: it did not end when it was told to" : child.how_it_ended(),
-                child.failed_to_start() != 0 || (child.exit_code() != 0 && !told),
+                is_forced ? "ended by force: it did not end when it was told to" : child.exit_text(),
+                child.failed_to_start() != 0 || (child.exit_code() != 0 && !end_requested),
                 asked_in(log)};
   return o;
 }

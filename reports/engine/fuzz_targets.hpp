@@ -46,7 +46,7 @@ struct ForeignSubjects {
 
 /// What tells a fuzz target, or the properties, to ask them and the subjects of NEARMISS_ADD as well: for its
 /// environment.
-std::vector<std::string> telling_of_added(const ForeignSubjects& foreign);
+std::vector<std::string> environment_for_added(const ForeignSubjects& foreign);
 
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "reports/engine/replay.hpp"
-#include "reports/engine/worst.hpp"
-#include "reports/findings/explain.hpp"
+#include "reports/engine/worst_findings.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/report_text.hpp"
 
 namespace nearmiss {
 
@@ -23,7 +23,7 @@ void KeptReports::list_those_on_disk() {
 }
 
 void KeptReports::take(const Examined& e) {
-  if (!is_bad(e.finding) || !keeper_.keep(*counts_.of(*e.question.query, e.subject), e.finding)) return;
+  if (!is_bad(e.finding) || !retention_.keep(*counts_.of(*e.question.query, e.subject), e.finding)) return;
   pending_.push_back({e.question, &e.subject, e.answer, std::string(e.output)});
 }
 

@@ -47,7 +47,7 @@ class KeptReports : public Sink {
   const Counts& counts_;
   Write write_;
   Workers* workers_ = nullptr;
-  Keeper keeper_;
+  FindingRetention retention_;
   std::vector<Pending> pending_;
   std::vector<WrittenReport> written_;
 };

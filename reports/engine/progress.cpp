@@ -17,19 +17,19 @@ void say_on_stderr(const std::string& text) noexcept {
   std::fflush(stderr);
 }
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), told_(begin_) {}
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_shown_(begin_) {}
 
 Progress::~Progress() {
   if (shown_ && terminal_) say_on_stderr("\r\033[K");
 }
 
-void Progress::doing(std::string what) { what_ = std::move(what); }
+void Progress::set_activity(std::string what) { what_ = std::move(what); }
 
-void Progress::tell(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
+void Progress::show(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
                     std::uint64_t findings) {
   const auto now = Clock::now();
-  if (now - told_ < (terminal_ ? Clock::duration(200ms) : Clock::duration(10s))) return;
-  told_ = now;
+  if (now - last_shown_ < (terminal_ ? Clock::duration(200ms) : Clock::duration(10s))) return;
+  last_shown_ = now;
   shown_ = true;
   const std::string text = line(done, total, seconds_left, findings);
   say_on_stderr(terminal_ ? "\r\033[K" + text : "nearmiss: " + text + "\n");

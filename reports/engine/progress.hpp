@@ -17,9 +17,9 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// What is being done now: "stored cases", "fuzzing moving_sphere_box".
-  void doing(std::string what);
+  void set_activity(std::string what);
   /// Where the total is known, or else the seconds until the end, the time left is shown as well.
-  void tell(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
+  void show(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
             std::uint64_t findings);
 
  private:
@@ -29,7 +29,7 @@ class Progress {
 
   const bool terminal_;
   const Clock::time_point begin_;
-  Clock::time_point told_;
+  Clock::time_point last_shown_;
   std::string what_;
   bool shown_ = false;
 };

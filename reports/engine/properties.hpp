@@ -8,8 +8,8 @@
 
 namespace nearmiss {
 
-/// "SUITE.TEST" for each test of properties/ that runs for the query. CMake makes the list from the tests' sources; a test
-/// compares it with the tests that the program has.
+/// "SUITE.TEST" for each test of properties/ that runs for the query. CMake makes the list from the tests' sources; a
+/// test compares it with the tests that the program has.
 std::vector<std::string> properties_of(const Query& query);
 
 }  // namespace nearmiss

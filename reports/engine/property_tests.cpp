@@ -5,7 +5,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "impl/host/keeper.hpp"
+#include "impl/host/supervisor.hpp"
 #include "reports/engine/fuzz_targets.hpp"
 
 namespace nearmiss {
@@ -53,7 +53,7 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
   PropertyOutcome o;
   for (std::uint64_t seed = budget.seed; Clock::now() + 1s < end && !budget.cancelled() && o.ended.empty(); ++seed) {
     const fs::path log = folder / fmt::format("{}.log", seed);
-    std::vector<std::string> environment = telling_of_added(budget.foreign);
+    std::vector<std::string> environment = environment_for_added(budget.foreign);
     environment.push_back(fmt::format("NEARMISS_SEED={}", seed));
     environment.push_back(fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()));
     if (budget.seconds >= time_for_long_watch) environment.emplace_back(long_watch);
@@ -64,7 +64,7 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
                        "--gtest_color=no", fmt::format("--gtest_random_seed={}", 1 + seed % 99999)};
     tests.environment = std::move(environment);
     tests.log = log.string();
-    Kept child(tests, Confinement::none());
+    SupervisedProcess child(tests, Confinement::none());
     bool stopped = false;
     while (!child.has_ended(50)) {
       budget.tick();
@@ -76,7 +76,7 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
     count(log, o);
     if (stopped) break;
     // GoogleTest's own program leaves with 0 or 1.
-    if (child.exit_code().value_or(2) > 1) o.ended = fmt::format("{}, see {}", child.how_it_ended(), log.string());
+    if (child.exit_code().value_or(2) > 1) o.ended = fmt::format("{}, see {}", child.exit_text(), log.string());
     if (child.exit_code() == 0 && o.passed == 0) o.ended = fmt::format("no test ran, see {}", log.string());
   }
   o.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

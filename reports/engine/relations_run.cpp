@@ -11,7 +11,7 @@
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/schedule.hpp"
 #include "reports/engine/tally.hpp"
-#include "reports/engine/worst.hpp"
+#include "reports/engine/worst_findings.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 
@@ -63,8 +63,8 @@ void RelationTally::add(const RelationTally& other) {
 RelationsRun::RelationsRun(RelationsSettings settings)
     : settings_(std::move(settings)),
       begin_(Clock::now()),
-      asking_([this] {
-        tell_progress();
+      dispatcher_([this] {
+        show_progress();
         return !should_stop();
       }),
       internal_errors_(settings_.folder) {
@@ -79,17 +79,17 @@ void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::
   if (cases) total_ = *cases * schedule.streams().size();
   for (Stream* stream = schedule.next(); stream != nullptr && !should_stop(); stream = schedule.next()) {
     const Clock::time_point begin = Clock::now();
-    progress_.doing(fmt::format("relations of {}", stream->query->name));
+    progress_.set_activity(fmt::format("relations of {}", stream->query->name));
     batch(*stream, schedule.batch_of(*stream, Workers::capacity_for(*stream->query)));
     stream->seconds += std::chrono::duration<double>(Clock::now() - begin).count();
-    tell_progress();
+    show_progress();
   }
 }
 
-void RelationsRun::tell_progress() {
+void RelationsRun::show_progress() {
   std::optional<double> seconds_left;
   if (until_) seconds_left = std::chrono::duration<double>(*until_ - Clock::now()).count();
-  progress_.tell(done_, total_, seconds_left, bad());
+  progress_.show(done_, total_, seconds_left, bad());
 }
 
 std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<Case>& cases) {
@@ -98,15 +98,15 @@ std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<
   const Query& query = *cases.front().query;
   const std::size_t most = Workers::capacity_for(query);
   const Subject* const asked[] = {&subject};
-  const std::uint64_t passed_over = asking_.lateness(subject, query).gave_up;
+  const std::uint64_t passed_over = dispatcher_.lateness(subject, query).gave_up;
   for (std::size_t at = 0; at < cases.size() && answers.size() == at; at += most) {
-    asking_.ask(
+    dispatcher_.ask(
         asked, std::span(cases).subspan(at, std::min(most, cases.size() - at)), {},
         [&](const Subject&, std::span<const Answer> some) { answers.insert(answers.end(), some.begin(), some.end()); });
   }
   const std::uint64_t missing = cases.size() - answers.size();
-  const std::uint64_t counted = asking_.lateness(subject, query).gave_up - passed_over;
-  if (!should_stop()) asking_.pass_over(subject, query, missing - counted);
+  const std::uint64_t counted = dispatcher_.lateness(subject, query).gave_up - passed_over;
+  if (!should_stop()) dispatcher_.pass_over(subject, query, missing - counted);
   answers.resize(cases.size(), answer_of_given_up());
   return answers;
 }
@@ -183,7 +183,7 @@ void RelationsRun::take(const Key& key, const RelationChoice& choice, const Rela
   tallies_[key].count(found);
   const double above = worst_backward(found);
   if (!worth_a_report(key, found, above)) return;
-  RelationReport r = report_of(choice, found, *key.subject, asking_.workers());
+  RelationReport r = report_of(choice, found, *key.subject, dispatcher_.workers());
   const std::string name =
       fmt::format("{}-{}-{}-{}.json", key.subject->name, choice.relation->name, breach_of(r), id_of(r));
   const std::filesystem::path below = std::filesystem::path("relations") / key.query->name / name;
@@ -231,7 +231,7 @@ Json RelationsRun::to_json() const {
       }
     }
   }
-  for (const auto& [key, l] : asking_.all_lateness()) {
+  for (const auto& [key, l] : dispatcher_.all_lateness()) {
     if (l.gave_up == 0) continue;
     j["gave_up"].push_back(
         {{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
@@ -283,7 +283,7 @@ std::string RelationsRun::table() const {
 
 std::vector<std::string> RelationsRun::given_up() const {
   std::vector<std::string> lines;
-  for (const auto& [key, l] : asking_.all_lateness()) {
+  for (const auto& [key, l] : dispatcher_.all_lateness()) {
     if (l.gave_up > 0) lines.push_back(given_up_text(key.first->name, key.second->name, l.late, l.gave_up));
   }
   return lines;

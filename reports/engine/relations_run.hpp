@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "reports/engine/asking.hpp"
+#include "reports/engine/dispatcher.hpp"
 #include "reports/engine/internal_errors.hpp"
 #include "reports/engine/progress.hpp"
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/engine/retention.hpp"
 #include "reports/engine/schedule.hpp"
 
@@ -94,12 +94,12 @@ class RelationsRun {
   std::vector<Answer> ask(const Subject& subject, const std::vector<Case>& cases);
   RelationTally sum() const;
   bool should_stop() const;
-  void tell_progress();
+  void show_progress();
 
   RelationsSettings settings_;
   Clock::time_point begin_;
   std::optional<Clock::time_point> until_;
-  Asking asking_;
+  Dispatcher dispatcher_;
   Progress progress_;
   std::map<Key, RelationTally> tallies_;
   Retention retention_;

@@ -8,7 +8,7 @@
 
 #include "corpus/codec.hpp"
 #include "oracles/requirements.hpp"
-#include "reports/findings/explain.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {

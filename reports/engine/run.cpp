@@ -18,8 +18,8 @@
 #include "corpus/fit.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/replay.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -86,7 +86,7 @@ Run::Run(RunSettings settings)
       kept_(settings_.folder, counts_, [this](const auto& below, const std::string& text) { write(below, text); }),
       campaign_({settings_.folder, [this] { tick(); }}, {&counts_, &kept_, &listener_}) {
   campaign_.set_until(settings_.until);
-  kept_.ask_with(campaign_.asking().workers());
+  kept_.ask_with(campaign_.dispatcher().workers());
   make_folder(settings_.folder);
   settle_runs_below(settings_.folder.has_parent_path() ? settings_.folder.parent_path() : ".");
   settle_run(settings_.folder);
@@ -135,12 +135,12 @@ void Run::generate(std::optional<std::uint64_t> cases) {
 
 void Run::note(const std::string& part, Json value) { notes_->parts[part] = std::move(value); }
 
-void Run::doing(std::string what) { progress_.doing(std::move(what)); }
+void Run::set_activity(std::string what) { progress_.set_activity(std::move(what)); }
 
 void Run::tick() {
   std::optional<double> left;
   if (campaign_.until()) left = std::chrono::duration<double>(*campaign_.until() - Clock::now()).count();
-  progress_.tell(counts_.cases(), total_, left, counts_.bad_answers());
+  progress_.show(counts_.cases(), total_, left, counts_.bad_answers());
   const auto since = Clock::now() - indexed_;
   if (since >= between_indexes && since >= index_share * indexing_) write_index(RunState::running);
 }

@@ -71,7 +71,7 @@ class Run {
   void set_until(Clock::time_point until) { campaign_.set_until(until); }
   /// A part of the run beyond its counts, such as "stored" or "fuzz", for the index.
   void note(const std::string& part, nlohmann::ordered_json value);
-  void doing(std::string what);
+  void set_activity(std::string what);
   /// For work outside of this class: shows progress, and brings the index up to date from time to time.
   void tick();
 

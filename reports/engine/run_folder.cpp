@@ -61,7 +61,8 @@ std::optional<WrittenReport> report_in(const fs::path& folder, const fs::path& f
                   j.at("headline")};
   if (w.verdict == name_of(Verdict::broke)) {
     const Json& answer = j.at("answer");
-    w.breakage = kind_of_breakage(answer.at("reason").get<std::string>(), answer.value("late", false));
+    const std::string reason = answer.at("reason");
+    w.breakage = kind_of_breakage(reason, cause_in_report(reason, answer.value("late", false)));
   }
   if (const Json& backward = j.at("finding").at("backward"); backward.is_object())
     w.above = backward.at("above_epsilon");

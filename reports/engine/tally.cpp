@@ -56,7 +56,7 @@ void Tally::count(const Finding& f) {
 }
 
 std::string Tally::breakage_of(const Finding& f) const {
-  std::string kind = kind_of_breakage(f.clause, f.late);
+  std::string kind = kind_of_breakage(f.clause, f.cause);
   return breakages.contains(kind) || breakages.size() < most_kinds ? kind : other_kind;
 }
 
@@ -103,7 +103,7 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
           {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
 }
 
-bool Keeper::keep(const Tally& of, const Finding& f) {
+bool FindingRetention::keep(const Tally& of, const Finding& f) {
   const auto kind = [&](std::string_view fault) {
     return fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
   };

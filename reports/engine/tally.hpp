@@ -58,7 +58,7 @@ nlohmann::ordered_json tally_to_json(const Tally& t);
 /// Says which findings are kept as reports: of each query, subject and fault of a member, or kind of breakage that the
 /// tally knows, the first `first_few`, then only those whose proved backward bound is at least twice that of the worst
 /// kept so far. A finding with several faults is kept where one of them is.
-class Keeper {
+class FindingRetention {
  public:
   bool keep(const Tally& of, const Finding& f);
   static constexpr std::uint64_t first_few = 8;

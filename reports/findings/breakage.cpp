@@ -75,13 +75,19 @@ std::string without_numbers(std::string_view text) {
 
 }  // namespace
 
-std::string kind_of_breakage(std::string_view reason, bool late) {
+BreakCause cause_in_report(std::string_view reason, bool late) {
+  if (late) return BreakCause::time_limit;
+  for (const BreakCause cause : {BreakCause::exception, BreakCause::signal, BreakCause::exit_code}) {
+    if (reason.starts_with(reason_prefix(cause))) return cause;
+  }
+  return BreakCause::other;
+}
+
+std::string kind_of_breakage(std::string_view reason, BreakCause cause) {
   if (reason.empty()) return "no reason given";
-  if (late) return "no answer in time";
-  // The head's own number, a signal or an exit code, is part of the cause.
-  const bool ended = reason.starts_with("killed by signal ") || reason.starts_with("left with exit code ");
-  const bool has_head = ended || reason.starts_with("exception: ");
-  const std::string_view head = has_head ? reason.substr(0, reason.find(": ")) : "";
+  if (cause == BreakCause::time_limit) return "no answer in time";
+  // The number of a signal and an exit code are part of the kind: only the text behind them loses its numbers.
+  const std::string_view head = cause == BreakCause::other ? "" : reason.substr(0, reason.find(": "));
   const std::string place = place_in(reason);
   if (!place.empty()) return one_line(head.empty() ? place : std::string(head) + " at " + place);
   std::string kind = std::string(head) + without_numbers(reason.substr(head.size()));

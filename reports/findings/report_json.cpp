@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/version.hpp"
 
@@ -149,7 +149,7 @@ Json answer_to_json(const Query& query, const Answer& answer) {
     case Answer::Status::cannot_answer: return {{"status", "cannot answer"}, {"reason", answer.reason()}};
     case Answer::Status::broke: {
       Json broke{{"status", "broke"}, {"reason", answer.reason()}};
-      if (answer.late) broke["late"] = true;
+      if (answer.late()) broke["late"] = true;
       return broke;
     }
     case Answer::Status::answered: j = {{"status", "answered"}, {"yes", answer.yes}};

@@ -8,7 +8,7 @@ namespace nearmiss {
 
 Workers::Asked& Workers::of(const Subject& subject) {
   Asked& asked = workers_[&subject];
-  if (!asked.worker) asked.worker = std::make_unique<Worker>(worker_limits(), subject.host, pulse_);
+  if (!asked.worker) asked.worker = std::make_unique<Worker>(worker_limits(), subject.host, on_wait_);
   return asked;
 }
 
@@ -17,7 +17,7 @@ std::size_t Workers::capacity_for(const Query& query) {
 }
 
 Answer Workers::ask(const Subject& subject, const Case& question) {
-  if (pulse_ && !pulse_()) return answer_of_given_up();
+  if (on_wait_ && !on_wait_()) return answer_of_given_up();
   send(subject, {&question, 1});
   const std::span<const Answer> answers = receive(subject);
   return answers.empty() ? answer_of_given_up() : answers.front();

@@ -14,8 +14,8 @@ namespace nearmiss {
 /// Not for use from several threads. Throws std::system_error where a process cannot be started.
 class Workers {
  public:
-  /// `pulse` is called while a host is awaited; false gives it up.
-  explicit Workers(Worker::Pulse pulse = {}) : pulse_(std::move(pulse)) {}
+  /// `on_wait` is called while a host is awaited; false gives it up.
+  explicit Workers(Worker::WaitCallback on_wait = {}) : on_wait_(std::move(on_wait)) {}
 
   /// The subject must offer the case's query. For a batch, `cases` are all of one query. A case outside of what the
   /// subject requires does not reach it; what is received in place of an answer is answer_of_unasked().
@@ -43,7 +43,7 @@ class Workers {
   };
   Asked& of(const Subject& subject);
 
-  Worker::Pulse pulse_;
+  Worker::WaitCallback on_wait_;
   std::map<const Subject*, Asked> workers_;
   std::vector<double> flat_;
 };

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "corpus/codec.hpp"
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 

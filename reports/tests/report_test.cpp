@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "corpus/codec.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/tests/schema.hpp"
 
 namespace nearmiss {

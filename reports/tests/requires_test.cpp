@@ -6,7 +6,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
 #include "oracles/requirements.hpp"
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/tests/program.hpp"

@@ -60,14 +60,15 @@ TEST(Tally, CountsByMember) {
 TEST(Keeper, KeepsAFaultThatACommonerOneHides) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   const Tally t = tally_of(s);
-  Keeper keeper;
-  for (std::uint64_t i = 0; i < 3 * Keeper::first_few; ++i) keeper.keep(t, violation(Disagreement::wrong_normal, 1024));
+  FindingRetention retention;
+  for (std::uint64_t i = 0; i < 3 * FindingRetention::first_few; ++i)
+    retention.keep(t, violation(Disagreement::wrong_normal, 1024));
   Finding normal_alone = two_violations(16);
   normal_alone.members.erase(normal_alone.members.begin());
   normal_alone.headline = 0;
-  for (std::uint64_t i = 0; i < Keeper::first_few; ++i) EXPECT_TRUE(keeper.keep(t, normal_alone));
-  EXPECT_FALSE(keeper.keep(t, normal_alone));
-  EXPECT_TRUE(keeper.keep(t, two_violations(16)));
+  for (std::uint64_t i = 0; i < FindingRetention::first_few; ++i) EXPECT_TRUE(retention.keep(t, normal_alone));
+  EXPECT_FALSE(retention.keep(t, normal_alone));
+  EXPECT_TRUE(retention.keep(t, two_violations(16)));
 }
 
 TEST(Tally, CountsTruthOnlyWhereItWasAskedFor) {
@@ -90,21 +91,22 @@ TEST(Tally, CountsTruthOnlyWhereItWasAskedFor) {
 TEST(Keeper, KeepsTheFirstFewThenOnlyTheMuchWorse) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   const Tally t = tally_of(s);
-  Keeper keeper;
-  for (std::uint64_t i = 0; i < Keeper::first_few; ++i)
-    EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_hit, 4)));
-  EXPECT_FALSE(keeper.keep(t, violation(Disagreement::false_hit, 4)));
-  EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_hit, 8)));
-  EXPECT_FALSE(keeper.keep(t, violation(Disagreement::false_hit, 8)));
-  EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_hit, 64)));
-  EXPECT_FALSE(keeper.keep(t, violation(Disagreement::false_hit, 32)));
-  EXPECT_TRUE(keeper.keep(t, violation(Disagreement::false_miss, 0))) << "another fault has its own first few";
+  FindingRetention retention;
+  for (std::uint64_t i = 0; i < FindingRetention::first_few; ++i)
+    EXPECT_TRUE(retention.keep(t, violation(Disagreement::false_hit, 4)));
+  EXPECT_FALSE(retention.keep(t, violation(Disagreement::false_hit, 4)));
+  EXPECT_TRUE(retention.keep(t, violation(Disagreement::false_hit, 8)));
+  EXPECT_FALSE(retention.keep(t, violation(Disagreement::false_hit, 8)));
+  EXPECT_TRUE(retention.keep(t, violation(Disagreement::false_hit, 64)));
+  EXPECT_FALSE(retention.keep(t, violation(Disagreement::false_hit, 32)));
+  EXPECT_TRUE(retention.keep(t, violation(Disagreement::false_miss, 0))) << "another fault has its own first few";
 }
 
 Finding breakage(const std::string& reason) {
   Finding f;
   f.verdict = Verdict::broke;
   f.clause = reason;
+  f.cause = cause_in_report(reason, false);
   return f;
 }
 
@@ -116,16 +118,16 @@ std::string assertion(int line) {
 TEST(Keeper, KeepsTheFirstFewOfEachReasonToBreak) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   Tally t = tally_of(s);
-  Keeper keeper;
+  FindingRetention retention;
   const auto keeps = [&](const std::string& reason) {
     t.count(breakage(reason));
-    return keeper.keep(t, breakage(reason));
+    return retention.keep(t, breakage(reason));
   };
-  for (std::uint64_t i = 0; i < Keeper::first_few; ++i) EXPECT_TRUE(keeps(assertion(1643)));
+  for (std::uint64_t i = 0; i < FindingRetention::first_few; ++i) EXPECT_TRUE(keeps(assertion(1643)));
   EXPECT_FALSE(keeps(assertion(1643)));
   EXPECT_TRUE(keeps(assertion(1644))) << "a rarer one is not hidden by the commonest";
   EXPECT_TRUE(keeps("exception: no root between 0.25 and 3"));
-  EXPECT_EQ(t.breakages.at("killed by signal 6 (Aborted) at gjk-inl.h:1643"), Keeper::first_few + 1);
+  EXPECT_EQ(t.breakages.at("killed by signal 6 (Aborted) at gjk-inl.h:1643"), FindingRetention::first_few + 1);
   EXPECT_EQ(t.breakages.at("killed by signal 6 (Aborted) at gjk-inl.h:1644"), 1u);
   EXPECT_EQ(t.breakages.at("exception: no root between N and N"), 1u);
 }
@@ -141,10 +143,10 @@ TEST(Tally, KnowsSoManyReasonsAndNoMore) {
 }
 
 TEST(Breakage, IsToldByItsReason) {
-  const auto kind = [](std::string_view reason) { return kind_of_breakage(reason); };
+  const auto kind = [](std::string_view reason) { return kind_of_breakage(reason, cause_in_report(reason, false)); };
   EXPECT_EQ(kind("killed by signal 11 (Segmentation fault)"), "killed by signal 11 (Segmentation fault)");
-  EXPECT_EQ(kind_of_breakage("no answer within 2.000 s", true), "no answer in time");
-  EXPECT_EQ(kind_of_breakage("no hello within 2.000 s", true), "no answer in time");
+  EXPECT_EQ(kind_of_breakage("no answer within 2.000 s", BreakCause::time_limit), "no answer in time");
+  EXPECT_EQ(kind_of_breakage("no hello within 2.000 s", BreakCause::time_limit), "no answer in time");
   EXPECT_EQ(kind("no answer within reach"), "no answer within reach") << "a subject's own words";
   EXPECT_EQ(kind("memory limit reached"), "memory limit reached");
   EXPECT_EQ(kind("left with exit code 3"), "left with exit code 3");
@@ -158,6 +160,8 @@ TEST(Breakage, IsToldByItsReason) {
             "exception: no root in [N, N] of vec3, see N:N, N or N");
   EXPECT_EQ(kind("exception: " + std::string(300, 'x')).size(), 80u);
   EXPECT_EQ(kind(""), "no reason given");
+  EXPECT_EQ(kind_of_breakage("killed by signal 6 at x", BreakCause::other), "killed by signal N at x")
+      << "the cause decides, not the words";
 }
 
 TEST(Text, ShowsTheShortestDecimalWithinTightBounds) {

@@ -1,4 +1,4 @@
-#include "reports/engine/touches.hpp"
+#include "reports/engine/touch_counts.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@ namespace nearmiss {
 
 namespace {
 
-Touched sum(const std::map<std::string, Touched>& features) {
-  Touched all;
+TouchCount sum(const std::map<std::string, TouchCount>& features) {
+  TouchCount all;
   for (const auto& [feature, t] : features) all.touches += t.touches, all.yes += t.yes;
   return all;
 }
@@ -23,21 +23,21 @@ bool is_about_contact(const Query& query) { return decides(query.kind) && query.
 
 }  // namespace
 
-void Touches::count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f,
-                    std::optional<bool>& known) {
+void TouchCounts::count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f,
+                        std::optional<bool>& known) {
   const bool may_touch = f.truth_yes && is_about_contact(*question.query);
   if (!may_touch || answer.status != Answer::Status::answered) return;
   if (!known) known = touches_exactly(question);
   if (!*known) return;
-  Touched& t = by_feature_[{&subject, question.query}][std::string(feature_of_touch(question))];
+  TouchCount& t = by_feature_[{&subject, question.query}][std::string(feature_of_touch(question))];
   ++t.touches;
   t.yes += answer.yes;
 }
 
-std::vector<Touches::Inconsistent> Touches::inconsistent() const {
+std::vector<TouchCounts::Inconsistent> TouchCounts::inconsistent() const {
   std::map<const Subject*, Inconsistent> found;
   for (const auto& [key, features] : by_feature_) {
-    const Touched all = sum(features);
+    const TouchCount all = sum(features);
     if (all.touches < enough) continue;
     Inconsistent& of = found[key.subject];
     of.subject = key.subject;
@@ -51,11 +51,11 @@ std::vector<Touches::Inconsistent> Touches::inconsistent() const {
   return list;
 }
 
-std::string Touches::text() const {
+std::string TouchCounts::text() const {
   constexpr std::size_t shown = 12;
   std::vector<std::pair<double, std::string>> lines;
   for (const auto& [key, features] : by_feature_) {
-    const Touched all = sum(features);
+    const TouchCount all = sum(features);
     if (all.yes == all.touches) continue;
     std::vector<std::string> parts;
     for (const auto& [feature, t] : features) {
@@ -73,7 +73,7 @@ std::string Touches::text() const {
   return text;
 }
 
-nlohmann::ordered_json Touches::to_json() const {
+nlohmann::ordered_json TouchCounts::to_json() const {
   auto list = nlohmann::ordered_json::array();
   for (const auto& [key, features] : by_feature_) {
     for (const auto& [feature, t] : features) {

@@ -14,12 +14,12 @@
 namespace nearmiss {
 
 /// Of so many exact touches, so many answers are yes.
-struct Touched {
+struct TouchCount {
   std::uint64_t touches = 0, yes = 0;
   double share() const { return touches == 0 ? 0 : double(yes) / double(touches); }
 };
 
-class Touches {
+class TouchCounts {
  public:
   /// Counts an answer to a case that is an exact touch. `known` remembers, for the case, whether it is one.
   void count(const Case& question, const Subject& subject, const Answer& answer, const Finding& f,
@@ -47,7 +47,7 @@ class Touches {
     const Query* query;
     auto operator<=>(const Key&) const = default;
   };
-  std::map<Key, std::map<std::string, Touched>> by_feature_;
+  std::map<Key, std::map<std::string, TouchCount>> by_feature_;
 };
 
 }  // namespace nearmiss

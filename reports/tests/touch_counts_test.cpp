@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oracles/touch.hpp"
-#include "reports/engine/touches.hpp"
+#include "reports/engine/touch_counts.hpp"
 
 namespace nearmiss {
 namespace {
@@ -58,7 +58,7 @@ void touch(Touches& touches, const Subject& s, const Contact& c, bool says, std:
 
 TEST(Touches, AreCountedByFeature) {
   const Subject s{"s", "", Scalar::float64, false, {}};
-  Touches touches;
+  TouchCounts touches;
   touch(touches, s, contacts[0], true, 3);
   touch(touches, s, contacts[0], false, 5);
   touch(touches, s, contacts[1], true, 7);  // no touch
@@ -71,11 +71,11 @@ TEST(Touches, AreCountedByFeature) {
 
 TEST(Touches, ClosedHereAndStrictThereIsInconsistent) {
   const Subject closed{"closed", "", Scalar::float64, false, {}}, both{"both", "", Scalar::float64, false, {}};
-  Touches touches;
-  touch(touches, closed, contacts[0], true, Touches::enough);
-  touch(touches, closed, contacts[3], true, Touches::enough);
-  touch(touches, both, contacts[0], true, Touches::enough);
-  touch(touches, both, contacts[3], false, Touches::enough - 1);
+  TouchCounts touches;
+  touch(touches, closed, contacts[0], true, TouchCounts::enough);
+  touch(touches, closed, contacts[3], true, TouchCounts::enough);
+  touch(touches, both, contacts[0], true, TouchCounts::enough);
+  touch(touches, both, contacts[3], false, TouchCounts::enough - 1);
   EXPECT_TRUE(touches.inconsistent().empty()) << "too few to tell";
   touch(touches, both, contacts[3], false, 1);
   ASSERT_EQ(touches.inconsistent().size(), 1u);

@@ -20,13 +20,13 @@ struct Lateness {
   bool gives_up() const { return late >= 8 && 20 * late >= asked; }
 };
 
-class Asking {
+class Dispatcher {
  public:
   enum class GiveUp { when_often_late, never };
 
-  /// `pulse` is called while a host is awaited; false ends the waiting.
-  explicit Asking(Worker::Pulse pulse, GiveUp rule = GiveUp::when_often_late)
-      : workers_(std::move(pulse)), rule_(rule) {}
+  /// `on_wait` is called while a host is awaited; false ends the waiting.
+  explicit Dispatcher(Worker::WaitCallback on_wait, GiveUp rule = GiveUp::when_often_late)
+      : workers_(std::move(on_wait)), rule_(rule) {}
 
   /// Sends the cases, which are of one query and exact in the subjects' scalars, to all subjects, does `meanwhile`, and
   /// hands on what each answers: fewer answers than cases where the waiting was ended. A subject that is given up is

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "impl/catalogue/break_cause.hpp"
+
 namespace nearmiss {
 
 /// Each number may be `unlimited`.
@@ -43,18 +45,19 @@ struct Program {
 /// that the program starts outlives this object, whatever sessions and groups it joins, and neither outlives this
 /// process. Without a namespace this has two exceptions: what starts processes faster than a keeper finds them, and
 /// what ends its keeper.
-class Kept {
+class SupervisedProcess {
  public:
   /// Throws std::system_error where the operating system refuses a process, a pipe or memory.
-  explicit Kept(const Program& program, const Confinement& confinement = {});
-  ~Kept();
-  Kept(const Kept&) = delete;
-  Kept& operator=(const Kept&) = delete;
+  explicit SupervisedProcess(const Program& program, const Confinement& confinement = {});
+  ~SupervisedProcess();
+  SupervisedProcess(const SupervisedProcess&) = delete;
+  SupervisedProcess& operator=(const SupervisedProcess&) = delete;
 
   /// Looks whether it has ended, for at most so long; all that it started has ended with it then.
   bool has_ended(int milliseconds = 0);
   /// How, in one line for people: "left with exit code 3", "killed by signal 11 (Segmentation fault)".
-  std::string how_it_ended() const;
+  std::string exit_text() const;
+  BreakCause break_cause() const;
   std::optional<int> exit_code() const;
   /// Where it could not be started: why, as errno.
   int failed_to_start() const { return failed_to_start_; }
@@ -66,7 +69,7 @@ class Kept {
   /// Seconds of processor time that the program itself has used, and seconds that it waited for a processor; 0 where
   /// the system does not tell.
   double processor_seconds();
-  double seconds_in_line();
+  double run_queue_seconds();
   /// The memory that it has now, in bytes.
   std::size_t resident_bytes();
 
@@ -76,7 +79,7 @@ class Kept {
   int status_file() const { return status_; }
 
  private:
-  void hear();
+  void read_messages();
   pid_t process();
 
   pid_t keeper_ = -1;

@@ -51,23 +51,23 @@ nlohmann::ordered_json report_to_json(const RelationReport& r);
 
 /// A report of a relation, read back. Empty where the file is none. Throws BadInput: malformed, or made by a version
 /// whose table of relations leads to other follow-ups.
-struct RelatedCase {
+struct RelationCase {
   Case question;
   RelationChoice choice;
   std::string subject;
 };
-std::optional<RelatedCase> read_related(const std::filesystem::path& file);
+std::optional<RelationCase> read_relation_case(const std::filesystem::path& file);
 /// The same for what was read from `file` already.
-std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::string& file);
+std::optional<RelationCase> read_relation_case(const nlohmann::json& j, const std::string& file);
 
 /// What every subject says to a case and its follow-ups.
-struct RelatedReplay {
+struct RelationReplay {
   std::string file;
   std::vector<RelationReport> reports;
   std::vector<Replay::Unasked> unasked;
 };
-RelatedReplay replay(const RelatedCase& related, const std::string& file, std::span<const Subject* const> subjects,
-                     Workers& workers);
-std::string replay_text(const RelatedCase& related, const RelatedReplay& r);
+RelationReplay replay(const RelationCase& related, const std::string& file, std::span<const Subject* const> subjects,
+                      Workers& workers);
+std::string replay_text(const RelationCase& related, const RelationReplay& r);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-#include "impl/host/keeper.hpp"
+#include "impl/host/supervisor.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -55,12 +55,14 @@ class File {
 };
 
 /// What a keeper and its program tell, on a pipe.
-struct Word {
+struct Message {
   enum What : int { process, could_not_start, ended } what;
   int value;
 };
 
-void say(int file, Word word) { [[maybe_unused]] const ssize_t put = write(file, &word, sizeof word); }
+void send_message(int file, Message message) {
+  [[maybe_unused]] const ssize_t put = write(file, &message, sizeof message);
+}
 
 void limit(int resource, std::size_t value) {
   rlimit r{};
@@ -139,7 +141,7 @@ struct Plan {
 };
 
 [[noreturn]] void cannot_start(int status, int why) {
-  say(status, {Word::could_not_start, why});
+  send_message(status, {Message::could_not_start, why});
   _exit(127);
 }
 
@@ -163,7 +165,7 @@ int give_files(const Plan& plan) {
   }
   if (status != next && dup3(status, next, O_CLOEXEC) < 0) cannot_start(status, errno);
   if (close_range(unsigned(next) + 1, ~0u, 0) != 0) cannot_start(next, errno);
-  say(next, {Word::process, number_in_proc()});
+  send_message(next, {Message::process, number_in_proc()});
   return next;
 }
 
@@ -217,7 +219,7 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
 }
 
 /// The keeper's whole life.
-[[noreturn]] void keep(const Plan& plan, bool namespaced) {
+[[noreturn]] void supervise(const Plan& plan, bool namespaced) {
   sigset_t awaited;
   sigemptyset(&awaited);
   sigaddset(&awaited, SIGCHLD);
@@ -246,7 +248,7 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
     }
   }
   how = end_all_that_is_left(namespaced, program).value_or(how);
-  say(0, {Word::ended, how});
+  send_message(0, {Message::ended, how});
   _exit(0);
 }
 
@@ -284,7 +286,7 @@ pid_t fork_apart(bool wanted, bool& namespaced) {
 
 }  // namespace
 
-Kept::Kept(const Program& program, const Confinement& confinement) {
+SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& confinement) {
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) fail("a pipe to a host's keeper");
   File hears(pipe_ends[0]), speaks(pipe_ends[1]);
@@ -313,36 +315,36 @@ Kept::Kept(const Program& program, const Confinement& confinement) {
   std::fflush(nullptr);  // what is in buffers would be flushed twice by a body that calls exit
   keeper_ = fork_apart(confinement.pid_namespace, namespaced_);
   if (keeper_ < 0) fail("a process for a host");
-  if (keeper_ == 0) keep(plan, namespaced_);
+  if (keeper_ == 0) supervise(plan, namespaced_);
   status_ = hears.take();
   output_ = output.take();
 }
 
-Kept::~Kept() {
+SupervisedProcess::~SupervisedProcess() {
   end();
   close(status_);
   close(output_);
 }
 
-void Kept::hear() {
+void SupervisedProcess::read_messages() {
   constexpr int most = 16;  // words; a program that is the superuser's may find a way to say more
-  Word word{};
-  for (int i = 0; i < most && read(status_, &word, sizeof word) == ssize_t(sizeof word); ++i) {
-    if (word.what == Word::process) process_ = word.value;
-    if (word.what == Word::could_not_start) failed_to_start_ = word.value;
-    if (word.what == Word::ended) wait_status_ = word.value;
+  Message message{};
+  for (int i = 0; i < most && read(status_, &message, sizeof message) == ssize_t(sizeof word); ++i) {
+    if (message.what == Message::process) process_ = message.value;
+    if (message.what == Message::could_not_start) failed_to_start_ = message.value;
+    if (message.what == Message::ended) wait_status_ = message.value;
   }
 }
 
-bool Kept::has_ended(int milliseconds) {
+bool SupervisedProcess::has_ended(int milliseconds) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point until = Clock::now() + std::chrono::milliseconds(milliseconds);
   while (!reaped_) {
-    hear();
+    read_messages();
     // A keeper that ended without a word was killed: by the program, or by who kills everything.
     const pid_t ended = waitpid(keeper_, nullptr, WNOHANG);
     if (ended == keeper_ || (ended < 0 && errno == ECHILD)) {
-      hear();
+      read_messages();
       reaped_ = true;
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
@@ -353,63 +355,69 @@ bool Kept::has_ended(int milliseconds) {
   return reaped_;
 }
 
-void Kept::send(int signal) {
+void SupervisedProcess::send(int signal) {
   if (!reaped_ && process() > 0) kill(process(), signal);
 }
 
-void Kept::end() {
+void SupervisedProcess::end() {
   if (reaped_) return;
   // The system ends all of a namespace with its init; a keeper without one looks for what is left, which may be
   // thousands.
-  constexpr int patience = 5000;  // milliseconds
+  constexpr int end_timeout = 5000;  // milliseconds
   if (!namespaced_) {
     kill(keeper_, SIGCONT);
     kill(keeper_, SIGTERM);
-    if (has_ended(patience)) return;
+    if (has_ended(end_timeout)) return;
   }
   kill(keeper_, SIGKILL);
-  has_ended(patience);  // what the system cannot end even so (a disk that does not answer) is left to it
+  has_ended(end_timeout);  // what the system cannot end even so (a disk that does not answer) is left to it
   reaped_ = true;
 }
 
-std::string Kept::how_it_ended() const {
+std::string SupervisedProcess::exit_text() const {
   if (failed_to_start_ != 0) return std::string("cannot be started: ") + std::strerror(failed_to_start_);
   if (!wait_status_) return "ended with the process that keeps it";
   const int status = *wait_status_;
-  if (!WIFSIGNALED(status)) return "left with exit code " + std::to_string(WEXITSTATUS(status));
-  return "killed by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+  const std::string prefix(reason_prefix(break_cause()));
+  if (!WIFSIGNALED(status)) return prefix + std::to_string(WEXITSTATUS(status));
+  return prefix + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
 }
 
-std::optional<int> Kept::exit_code() const {
+BreakCause SupervisedProcess::break_cause() const {
+  if (failed_to_start_ != 0 || !wait_status_) return BreakCause::other;
+  return WIFSIGNALED(*wait_status_) ? BreakCause::signal : BreakCause::exit_code;
+}
+
+std::optional<int> SupervisedProcess::exit_code() const {
   if (!wait_status_ || !WIFEXITED(*wait_status_)) return std::nullopt;
   return WEXITSTATUS(*wait_status_);
 }
 
-pid_t Kept::process() {
-  if (!process_) hear();
+pid_t SupervisedProcess::process() {
+  if (!process_) read_messages();
   return process_.value_or(0);
 }
 
-double Kept::processor_seconds() {
+double SupervisedProcess::processor_seconds() {
   clockid_t clock{};
   timespec t{};
   if (process() <= 0 || clock_getcpuclockid(process(), &clock) != 0 || clock_gettime(clock, &t) != 0) return 0;
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-double Kept::seconds_in_line() {
-  double running = 0, in_line = 0;  // nanoseconds
-  if (process() > 0) std::ifstream("/proc/" + std::to_string(process()) + "/schedstat") >> running >> in_line;
-  return 1e-9 * in_line;
+double SupervisedProcess::run_queue_seconds() {
+  double running = 0, waited = 0;  // nanoseconds
+  if (process() > 0) std::ifstream("/proc/" + std::to_string(process()) + "/schedstat") >> running >> waited;
+  return 1e-9 * waited;
 }
 
-std::size_t Kept::resident_bytes() {
+std::size_t SupervisedProcess::resident_bytes() {
   std::size_t all = 0, resident = 0;
   if (process() > 0) std::ifstream("/proc/" + std::to_string(process()) + "/statm") >> all >> resident;
   return resident * std::size_t(sysconf(_SC_PAGESIZE));
 }
 
-std::string Kept::output(std::size_t most) const {
+std::string SupervisedProcess::output(std::size_t most) const {
   const off_t size = lseek(output_, 0, SEEK_END);
   std::string text(std::size_t(std::clamp<off_t>(size, 0, off_t(most))), '\0');
   const ssize_t got = pread(output_, text.data(), text.size(), std::max<off_t>(0, size - off_t(text.size())));

@@ -1,16 +1,16 @@
-#include "reports/engine/asking.hpp"
+#include "reports/engine/dispatcher.hpp"
 
 #include <algorithm>
 
 namespace nearmiss {
 
-bool Asking::is_given_up(const Subject& subject, const Query& query) {
+bool Dispatcher::is_given_up(const Subject& subject, const Query& query) {
   return rule_ == GiveUp::when_often_late && lateness(subject, query).gives_up();
 }
 
-void Asking::ask(std::span<const Subject* const> subjects, std::span<const Case> cases,
-                 const std::function<void()>& meanwhile,
-                 const std::function<void(const Subject&, std::span<const Answer>)>& take) {
+void Dispatcher::ask(std::span<const Subject* const> subjects, std::span<const Case> cases,
+                     const std::function<void()>& meanwhile,
+                     const std::function<void(const Subject&, std::span<const Answer>)>& take) {
   if (cases.empty()) return;
   const Query& query = *cases.front().query;
   std::vector<const Subject*> asked;
@@ -27,7 +27,7 @@ void Asking::ask(std::span<const Subject* const> subjects, std::span<const Case>
     const std::span<const Answer> answers = workers_.receive(*s);
     Lateness& l = lateness_[{s, &query}];
     l.asked += answers.size();
-    l.late += std::uint64_t(std::count_if(answers.begin(), answers.end(), [](const Answer& a) { return a.late; }));
+    l.late += std::uint64_t(std::count_if(answers.begin(), answers.end(), [](const Answer& a) { return a.late(); }));
     take(*s, answers);
   }
 }

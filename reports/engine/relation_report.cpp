@@ -1,4 +1,4 @@
-#include "reports/engine/related.hpp"
+#include "reports/engine/relation_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
-#include "reports/findings/explain.hpp"
 #include "reports/findings/hash.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -148,17 +148,17 @@ Json report_to_json(const RelationReport& r) {
   return j;
 }
 
-std::optional<RelatedCase> read_related(const std::filesystem::path& file) {
-  return read_related(parse_json(read_file(file), file.string()), file.string());
+std::optional<RelationCase> read_relation_case(const std::filesystem::path& file) {
+  return read_relation_case(parse_json(read_file(file), file.string()), file.string());
 }
 
-std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::string& file) {
+std::optional<RelationCase> read_relation_case(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || !j.contains("finding") || !j.contains("relation")) return std::nullopt;
   const auto malformed = [&](const std::string& what) { return BadInput(fmt::format("{}: relation: {}", file, what)); };
   const nlohmann::json& relation = j["relation"];
   if (!relation.is_object() || !relation.contains("name") || !relation["name"].is_string()) throw malformed("no name");
   if (!relation.contains("seed") || !relation["seed"].is_number_unsigned()) throw malformed("no seed");
-  RelatedCase related{case_of(j, file), {}, {}};
+  RelationCase related{case_of(j, file), {}, {}};
   const auto name = relation["name"].get<std::string>();
   related.choice.relation = find_relation(name);
   if (related.choice.relation == nullptr) throw malformed(fmt::format("unknown name '{}'", name));
@@ -180,9 +180,9 @@ std::optional<RelatedCase> read_related(const nlohmann::json& j, const std::stri
   return related;
 }
 
-RelatedReplay replay(const RelatedCase& related, const std::string& file, std::span<const Subject* const> subjects,
-                     Workers& workers) {
-  RelatedReplay r{file, {}, {}};
+RelationReplay replay(const RelationCase& related, const std::string& file, std::span<const Subject* const> subjects,
+                      Workers& workers) {
+  RelationReplay r{file, {}, {}};
   for (const Subject* s : subjects) {
     RelationChoice choice = related.choice;
     choice.bit_for_bit = claims_same_bits(*s) || (choice.bit_for_bit && s->name == related.subject);
@@ -201,7 +201,7 @@ RelatedReplay replay(const RelatedCase& related, const std::string& file, std::s
   return r;
 }
 
-std::string replay_text(const RelatedCase& related, const RelatedReplay& r) {
+std::string replay_text(const RelationCase& related, const RelationReplay& r) {
   std::string text =
       fmt::format("{}\nRelation {}: {}\n", r.file, related.choice.relation->name, related.choice.relation->what);
   std::vector<Case> cases{related.question};

@@ -1,4 +1,4 @@
-#include "reports/findings/explain.hpp"
+#include "reports/findings/report_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "reports/engine/worst.hpp"
+#include "reports/engine/worst_findings.hpp"
 
 #include <fmt/format.h>
 
