@@ -1,4 +1,4 @@
-/// An answer with its type erased: what crosses from a subject to the judge, and between processes.
+/// An answer with its type erased, as subjects give it to the judge and processes send it to each other.
 #pragma once
 
 #include <algorithm>
@@ -33,18 +33,18 @@ inline double ulp(double x, Scalar s) {
 }
 inline bool representable(double x, Scalar s) { return s == Scalar::float64 || double(float(x)) == x; }
 
-/// Plain bytes, so that a worker process can hand it over.
+/// Trivially copyable, so that it can be passed through shared memory.
 struct Answer {
   enum class Status : std::uint8_t {
     answered,
-    cannot_answer,  ///< the subject has no answer to this case; never a miss
+    cannot_answer,  ///< the subject has no answer to this case; never counted as a miss
     broke,          ///< exception, abort, crash, time or memory limit
   };
   static constexpr std::size_t capacity = 40;
 
   Status status = Status::answered;
   bool yes = false;                         ///< hit, overlap, inside
-  std::uint8_t count = capacity;            ///< of values; those behind are 0
+  std::uint8_t count = capacity;            ///< of `values`; the values behind them are 0
   std::uint64_t given = ~std::uint64_t{0};  ///< bit i: values[i] is part of the answer
   std::array<double, capacity> values{};    ///< in the order of the query's outputs
   std::array<char, 200> why{};              ///< the reason of cannot_answer and broke, cut to fit
@@ -72,7 +72,7 @@ struct Answer {
   }
 };
 
-/// Types a query's inputs and fills them from numbers; the numbers are exact in T (see representable).
+/// The inputs of a query from numbers that are exact in its scalar (see representable).
 template <class Inputs>
 Inputs inputs_from(const double* values) {
   Inputs q;

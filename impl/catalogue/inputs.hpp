@@ -1,8 +1,8 @@
-/// What the inputs of a query are made of: the shapes of `collide`, listed members and their roles.
+/// The building blocks of a query's inputs: the shapes of `collide`, listed members and their roles.
 ///
-/// Each file of `queries/` has one query: a struct of its inputs, with the name of the query, that lists its members
-/// and names the type of its answer, and states its traits. Where members depend on each other, `broken()` names the
-/// rule that they break.
+/// Each file of `queries/` defines one query: a struct of its inputs that has the query's name, lists its members,
+/// names the type of its answer and states its traits. Where members depend on each other, `broken()` returns the rule
+/// that they break.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ using collide::Sphere;
 using collide::Triangle;
 using collide::Vec3;
 
-/// Three of each box, and the cross products of the nine pairs.
+/// The number of axes of two boxes: three of each box, and the cross products of the nine pairs.
 inline constexpr int box_box_axes = 15;
 
 }  // namespace nearmiss::inputs

@@ -8,7 +8,7 @@
 namespace nearmiss {
 
 enum class Kind {
-  decision,   ///< yes or no, perhaps with what explains a yes
+  decision,   ///< yes or no, some with numbers that explain a yes
   impact,     ///< a time of contact or a miss
   points,     ///< points that always exist
   depth,      ///< an overlap or a separation
@@ -18,7 +18,7 @@ enum class Kind {
 
 std::string_view name_of(Kind kind);
 
-/// True where an answer of the kind is yes or no; otherwise it is always yes.
+/// True where answers of this kind are yes or no; all other answers are always yes.
 constexpr bool decides(Kind kind) { return kind == Kind::decision || kind == Kind::impact || kind == Kind::depth; }
 
 namespace detail {

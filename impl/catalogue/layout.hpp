@@ -1,4 +1,4 @@
-/// The members of an answer, each a run of its numbers: what the oracle compares and the judge tells apart.
+/// The members of an answer, each a range of its numbers. The oracle and the judge compare member by member.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace nearmiss {
 
-/// The leaves of an answer type in its order: which member each belongs to. A member without a role of its
-/// own is as many members as it lists. At most one member is a normal.
+/// Assigns the leaves of an answer type, in their order, to its members. A member without a role of its own counts as
+/// the members that it lists. At most one member is a normal.
 struct Layout {
   struct Part {
     std::size_t begin, end;

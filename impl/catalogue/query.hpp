@@ -1,4 +1,4 @@
-/// A query with its types erased: names and roles of its numbers, its rules.
+/// A query with its types erased: the names and roles of its numbers, and the rules of valid input.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct Field {
   Role role;
 };
 
-/// A rule that an input breaks: which field, its value, what it must be.
+/// A rule that an input breaks: the field, its value, and the rule.
 struct Invalid {
   std::string field;
   double value;
@@ -40,19 +40,19 @@ struct Query {
   Kind kind;
   std::vector<Field> inputs;
   std::vector<Field> outputs;
-  Layout layout;  ///< the members of an answer, as runs of its outputs
+  Layout layout;  ///< the members of an answer, as ranges of its outputs
   /// The first rule that the inputs break, if any. Expects inputs.size() values.
   std::optional<Invalid> (*broken)(std::span<const double> values);
   Traits traits;
 
-  /// "location", "corners.2.point": the outputs' name without their component.
+  /// "location", "corners.2.point": the name of the member's outputs without their component.
   std::string member_name(std::size_t part) const;
 };
 
 /// All queries, in the catalogue's order.
 std::span<const Query> catalogue();
 const Query& query_of(QueryId id);
-/// nullptr when the catalogue has no such line.
+/// nullptr where the catalogue has no query of that name.
 const Query* find_query(std::string_view name);
 
 }  // namespace nearmiss

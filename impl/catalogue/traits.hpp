@@ -1,5 +1,5 @@
-/// What is known of a query besides its inputs: relations, static checks, explanations and tests read it here and name
-/// no query.
+/// The traits of a query. Relations, static checks, explanations and tests read them here, so that none of these names
+/// a query.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace nearmiss {
 
-/// The queries by name, in the catalogue's order.
+/// The identifiers of the queries, in the order of the catalogue.
 enum class QueryId {
 #define NEARMISS_QUERY(query) query,
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
 };
 
-/// A way in which several answers may be right: the role of what differs between them, or a cone of normals.
+/// A reason for several right answers: the role of the member in which they differ, or a cone of normals.
 enum class Tie : std::uint8_t { position, normal, depth, weight, index, cone };
 std::string_view name_of(Tie tie);
 inline constexpr std::array<Tie, 6> all_ties = {Tie::position, Tie::normal, Tie::depth,
@@ -35,32 +35,32 @@ class Ties {
   unsigned bits_ = 0;
 };
 
-/// How two operands whose names end with 1 and 2 may be exchanged.
+/// Whether two operands whose names end with 1 and 2 may be exchanged.
 enum class Exchange : std::uint8_t {
-  none,                    ///< what is answered depends on their order, or there are no two
-  always,                  ///< the answer follows
-  unless_nearly_parallel,  ///< parallel directions have many answers, of which the order chooses one
+  none,                    ///< the answer depends on their order, or there are no two such operands
+  always,                  ///< the answer of the exchanged operands follows
+  unless_nearly_parallel,  ///< for parallel directions the order selects one of many answers
 };
 
-/// In which frame the outputs are, and what besides the scene decides which of several outputs is given.
+/// The frame of the outputs, and what else selects one of several possible outputs.
 enum class OutputFrame : std::uint8_t {
-  space,              ///< they turn with the scene
-  operands,           ///< they are numbers in the operands' own frames
-  order_of_axes,      ///< they name the first axes, in the order of the axes of the operands, that have a property
+  space,              ///< the outputs turn with the scene
+  operands,           ///< the outputs are numbers in the operands' own frames
+  order_of_axes,      ///< the outputs name the first axes of the operands, in their order, that have a property
   order_of_operands,  ///< a direction whose sign is that of a cross product of the operands' axes
 };
 
-/// A query whose answer to a related question is known where this one's is. An input of the other query has the value
-/// of the input of the same name, after `renamed`; 0 where there is none, 1 for the w of a rotation, or what `set`
-/// says.
+/// Another query whose answer to a related case follows from the answer of this query. An input of the other query
+/// takes the value of the input with the same name, after `renamed`. Without such an input it takes 0, or 1 for the w
+/// of a rotation, or the value that `set` gives.
 struct Link {
   enum class Kind : std::uint8_t {
-    prepared,           ///< the same question, with something of an operand computed beforehand
-    halves,             ///< of a rectangle: the two triangles that it consists of
-    same_decision,      ///< the same yes or no
-    implied_decision,   ///< a yes here is a yes there
-    within_any_time,    ///< what hits at some time passes there
-    contained_ball,     ///< a ball inside of a solid operand
+    prepared,           ///< the same question with a prepared operand
+    halves,             ///< the two triangles that a rectangle consists of
+    same_decision,      ///< the same decision
+    implied_decision,   ///< a yes of this query implies a yes of the other
+    within_any_time,    ///< a hit at any time implies a yes of the query without a limit
+    contained_ball,     ///< a ball inside a solid operand
     point_as_sphere,    ///< a moving point as a sphere of radius 0
     sphere_as_point,    ///< a moving sphere of radius 0 as a point
     capsule_as_sphere,  ///< a capsule whose ends are one point
@@ -68,7 +68,7 @@ struct Link {
     at_rest,            ///< the static query about the place of the moving body at one time
   };
   struct Renamed {
-    std::string_view there, here;  ///< beginnings of names; "-": there is none here
+    std::string_view there, here;  ///< prefixes of names; "-": no such input here
   };
   struct Set {
     std::string_view name;
@@ -79,31 +79,31 @@ struct Link {
   QueryId to;
   std::array<Renamed, 3> renamed{};
   Set set{};
-  bool times_alone = false;                  ///< of an answer, the decision and the time are the same and nothing else
-  std::array<std::string_view, 2> except{};  ///< members of the answer that are not the same
+  bool times_alone = false;                  ///< only the decision and the time are equal
+  std::array<std::string_view, 2> except{};  ///< members of the answer that may differ
 };
 
-/// What a decision is called when people are told of it.
+/// The sentences for a decision in reports.
 struct Sentences {
-  std::string_view yes{}, no{};  ///< "the point is in the triangle"; empty: made from the operands
+  std::string_view yes{}, no{};  ///< "the point is in the triangle"; empty: composed from the operands
 };
 
-/// The least shares that the generator reaches.
+/// The shares that the generator reaches at least.
 struct Balance {
-  int knifes_edge_per_mille = 10;  ///< of decisions that inputs within 4 epsilon turn
-  int either_percent = 12;         ///< of yes, and of no
+  int knifes_edge_per_mille = 10;  ///< cases whose decision flips within 4 epsilon
+  int either_percent = 12;         ///< cases with a yes, and cases with a no
 };
 
 struct Traits {
-  /// "the sphere", "the box": the two things of which the query asks whether they meet; empty where there are none.
+  /// "the sphere", "the box": the two operands whose contact the query decides; empty where there are none.
   std::array<std::string_view, 2> operands{};
   Sentences decision{};
-  bool touching_is_yes = true;  ///< the decision is whether closed sets meet; false where it is of another kind
-  bool one_sided = false;       ///< the plane, triangle or rectangle has a front, and is met from there alone
-  bool grows = false;           ///< with each of its sizes a solid grows: a yes stays a yes, no later and no shallower
-  bool projects = false;        ///< it looks along an axis of space, which a normal chooses
-  bool directions_are_lines = false;     ///< the sign of a direction means nothing
-  bool contact_is_of_the_first = false;  ///< of two operands that may be exchanged
+  bool touching_is_yes = true;  ///< true: the query decides whether two closed sets meet
+  bool one_sided = false;       ///< the plane, triangle or rectangle can be hit from its front only
+  bool grows = false;     ///< a larger size contains the smaller solid: a yes stays a yes, no later and no shallower
+  bool projects = false;  ///< it projects along an axis of space that a normal selects
+  bool directions_are_lines = false;     ///< the sign of a direction has no meaning
+  bool contact_is_of_the_first = false;  ///< the contact lies on the first of two operands that may be exchanged
   Exchange exchange = Exchange::none;
   OutputFrame frame = OutputFrame::space;
   Ties ties{};

@@ -25,7 +25,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_of_a_name = 64, most_of_a_text = 500;
 
-/// What is wrong with a hello.
+/// Reports an error in a hello.
 struct BadHello : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -35,7 +35,7 @@ template <class... Arguments>
   throw BadHello(fmt::format(text, std::forward<Arguments>(arguments)...));
 }
 
-/// An object of a hello, of which every member must be known.
+/// A JSON object in a hello. Throws BadHello for a member that is not known.
 class Members {
  public:
   Members(const Json& object, std::string path, std::initializer_list<std::string_view> known)
@@ -68,7 +68,7 @@ class Members {
       refuse("{} is no whole number within a million", of(name));
     return j->get<int>();
   }
-  /// Infinity where it is null or missing.
+  /// Infinity where the member is null or missing.
   double bound(const char* name) const {
     const Json* j = find(name);
     if (j == nullptr || j->is_null()) return std::numeric_limits<double>::infinity();
@@ -127,12 +127,12 @@ Preconditions requirements_in(const Json& list, const std::string& query) {
   return required;
 }
 
-/// How a host's subject is asked where no Worker is at hand.
+/// The context of the function that asks a host without a Worker of the caller.
 struct HostedOffer {
   std::shared_ptr<const HostProgram> host;
   Offering offering;
 };
-using HostedOffers = std::deque<HostedOffer>;  // functions are told where they lie
+using HostedOffers = std::deque<HostedOffer>;  // functions keep pointers to the elements
 
 Answer ask_hosted(const void* offer, std::span<const double> inputs) {
   static std::map<const HostProgram*, std::unique_ptr<Worker>> workers;
@@ -229,7 +229,7 @@ Subject described(std::string_view hello, HostProgram program) {
 
 std::string host_of_plugins() { return NEARMISS_HOSTS "/plugin"; }
 
-/// Adds what the program says that it is.
+/// Adds the subject that the program's hello describes.
 void add_hosted(const std::string& where, HostProgram program, const std::string& plugin, const std::string& command) {
   std::string hello;
   try {
@@ -254,9 +254,9 @@ std::vector<std::string> parts_of(const char* text, char separator) {
   return parts;
 }
 
-/// A simple command's words, as a shell has them; of any other (pipes, assignments, several commands) what a shell
-/// needs to run it. How long a program works, and what signal ended it, is known only of one that no shell stands
-/// before.
+/// The words of a simple command, split as a shell splits them; for any other command (pipes, assignments, several
+/// commands) the words that run it in a shell. A simple command runs without a shell, because the processor time and
+/// the signal of a program are known only without a shell in between.
 std::vector<std::string> words_of(const std::string& command) {
   const std::vector<std::string> by_shell{"/bin/sh", "-c", command};
   wordexp_t words{};
@@ -281,7 +281,7 @@ std::string quoted(const std::string& text) {
   return all + "'";
 }
 
-/// The command as it runs from any folder: from this one, where a word of it names a file here.
+/// The command in a form that runs from any folder: it changes to this folder where a word names a file here.
 std::string from_any_folder(const std::string& command, const std::vector<std::string>& words) {
   const bool by_shell = words.front() == "/bin/sh";
   const auto names_a_file_here = [](const std::string& word) {

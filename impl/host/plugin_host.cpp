@@ -1,5 +1,5 @@
-// The host of a plugin: loads the shared library that its argument names, says what the library says of itself, and
-// asks it.
+// The host of a plugin: loads the shared library that its argument names, sends the library's description as the hello,
+// and calls its functions.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -29,13 +29,13 @@ static_assert(NEARMISS_STARTS_OUTSIDE == bit_of(Precondition::starts_outside));
 static_assert(NEARMISS_MOVES == bit_of(Precondition::moves));
 static_assert(NEARMISS_NO_ZERO_SIZES == bit_of(Precondition::no_zero_sizes));
 
-/// More than any catalogue will have.
+/// Bounds that no valid plugin reaches.
 constexpr std::size_t most_offers = 4096, most_text = 4096;
 
 using Entry = const nearmiss_plugin* (*)();
 
-/// A library's function, and the modes of floating-point arithmetic that its loading left: it is asked in them, for it
-/// would run in them in its user's program. Nothing else does.
+/// A function of the library, and the floating-point modes that loading the library left. The function runs in these
+/// modes, as it would in its user's program. No other code does.
 struct AskedFunction {
   nearmiss_offer offer;
   FloatingPointModes modes;
@@ -46,7 +46,7 @@ int given_by(const AskedFunction& asked, std::span<const double> inputs, nearmis
   return asked.offer.answer(inputs.data(), &given);
 }
 
-/// The case goes to the library's function, and its word comes back.
+/// Calls the library's function for one case and returns its answer.
 Answer ask(const void* asked, std::span<const double> inputs) {
   nearmiss_answer given{};
   given.given = ~std::uint64_t{0};
@@ -75,14 +75,14 @@ collide::Contract contract_of(const nearmiss_contract* c) {
   return {c->backward, c->forward, c->exact_decisions != 0, c->unit, c->lowest, c->highest};
 }
 
-/// What the library says of itself, taken over word by word: whoever hears the hello judges it.
+/// The library's description, copied unchecked: the judge's process checks the hello.
 Subject described_by(const nearmiss_plugin& plugin, const FloatingPointModes& modes,
                      std::vector<AskedFunction>& functions) {
   Subject s;
   s.name = text_or_none(plugin.name);
   s.version = text_or_none(plugin.library_version);
   s.scalar = plugin.scalar == NEARMISS_FLOAT ? Scalar::float32 : Scalar::float64;
-  functions.reserve(plugin.offer_count);  // the subject's functions are told where they lie
+  functions.reserve(plugin.offer_count);  // the subject's functions keep pointers to the elements
   for (std::size_t i = 0; i < plugin.offer_count; ++i) {
     const nearmiss_offer& offer = plugin.offers[i];
     Offering o;
@@ -98,7 +98,7 @@ Subject described_by(const nearmiss_plugin& plugin, const FloatingPointModes& mo
   return s;
 }
 
-/// Why it is no plugin; empty where it is one. Not dereferenced before its version is known.
+/// The error in a plugin's description; empty where it has none. Reads no other member before the version is known.
 std::string fault_of(const nearmiss_plugin* plugin) {
   if (plugin == nullptr) return "nearmiss_plugin_entry() returns no description";
   if (plugin->version != NEARMISS_PLUGIN_VERSION) {
@@ -129,7 +129,7 @@ std::string fault_of(const nearmiss_plugin* plugin) {
 }
 
 int host_plugin(const std::string& path) {
-  // What the library starts in place of this program does not get the pipes.
+  // A program that the library starts with exec does not inherit the pipes.
   for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
     fcntl(file, F_SETFD, FD_CLOEXEC);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -156,5 +156,5 @@ int main(int argc, char** argv) {
   nearmiss::FloatingPointModes::standard().set();
   if (argc != 2) return 2;
   const int code = nearmiss::host_plugin(argv[1]);
-  _exit(code);  // without the library's destructors: nothing that they do is wanted
+  _exit(code);  // skips the library's destructors
 }

@@ -22,7 +22,7 @@ void append(std::string& text, double x) {
 
 Taken error(std::string what) { return {0, {}, std::move(what)}; }
 
-/// Some writers of JSON have words for what it has no numbers for.
+/// Quotes Infinity, -Infinity and NaN, which some JSON writers print as bare words.
 std::string with_quoted_words(std::string_view line) {
   std::string quoted;
   bool in_string = false;

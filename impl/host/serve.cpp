@@ -37,7 +37,7 @@ bool woken(int file) {
   return got == 1;
 }
 
-/// null where it promises nothing; what is no bound stays visible to the judge.
+/// null for a bound that promises nothing; invalid bounds (NaN, -inf) stay visible, so that the judge refuses them.
 Json bound(double x) {
   if (std::isfinite(x)) return x;
   return std::isnan(x) ? Json("nan") : x > 0 ? Json(nullptr) : Json("-inf");
@@ -107,10 +107,10 @@ std::string refusal(const std::string& why) {
 int refuse(const std::string& why) { return say(wire::to_judge, refusal(why)) ? 0 : 1; }
 
 int host_of(Subject (*subject)()) {
-  // What a library starts in place of this program does not get the pipes.
+  // A program that a library starts with exec does not inherit the pipes.
   for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
     fcntl(file, F_SETFD, FD_CLOEXEC);
-  FloatingPointModes::standard().set();  // a library may have set others when it was loaded
+  FloatingPointModes::standard().set();  // a library may have changed them when it was loaded
   return host(subject());
 }
 

@@ -1,4 +1,4 @@
-/// A host's side of the wall: it answers batches until the judge hangs up.
+/// The server side of a host: answers batches until the judge closes the pipe.
 #pragma once
 
 #include <span>
@@ -8,21 +8,21 @@
 
 namespace nearmiss {
 
-/// Answers in shared memory, for as long as the judge is there. `offers` are those of the hello, or empty where the
-/// request has the function itself.
+/// Answers batches in shared memory until the judge closes the pipe. `offers` are the offers of the hello; empty: the
+/// request holds the function itself.
 void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
            std::span<const AnswerFunction> offers);
 
-/// What a host says of its subject, as one line of JSON.
+/// The hello of a subject, one line of JSON.
 std::string hello_of(const Subject& subject);
-/// In place of it: why there is no subject.
+/// The line in place of a hello that reports why there is no subject.
 std::string refusal(const std::string& why);
 
-/// The whole life of a host that this project started: says hello, then serves; returns its exit code.
+/// The main function of a host of this project: sends the hello, then serves. Returns the exit code.
 int host(const Subject& subject);
-/// The same for a subject of this build.
+/// The same for a subject of this build, which is created after the pipes are protected.
 int host_of(Subject (*subject)());
-/// Says why there is none.
+/// Sends a refusal(); returns the exit code.
 int refuse(const std::string& why);
 
 }  // namespace nearmiss

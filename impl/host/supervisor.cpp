@@ -38,7 +38,7 @@ constexpr bool shadow_memory = __has_feature(address_sanitizer) || __has_feature
 constexpr bool shadow_memory = false;
 #endif
 
-/// Closes at its end what was not taken.
+/// Owns a file descriptor.
 class File {
  public:
   explicit File(int number = -1) : number_(number) {}
@@ -54,7 +54,7 @@ class File {
   int number_;
 };
 
-/// What a keeper and its program tell, on a pipe.
+/// A message of a supervisor or its program, on the status pipe.
 struct Message {
   enum What : int { process, could_not_start, ended } what;
   int value;
@@ -71,7 +71,7 @@ void limit(int resource, std::size_t value) {
   setrlimit(decltype(RLIMIT_CORE)(resource), &r);
 }
 
-/// Writable memory of its own that this process has.
+/// The private writable memory of this process, in bytes.
 std::size_t own_memory() {
   std::size_t pages[6] = {};
   std::ifstream file("/proc/self/statm");
@@ -79,7 +79,7 @@ std::size_t own_memory() {
   return pages[5] * std::size_t(sysconf(_SC_PAGESIZE));
 }
 
-/// Every process in /proc whose parent is this one.
+/// Every process in /proc whose parent is this process.
 std::vector<pid_t> children() {
   std::vector<pid_t> all;
   DIR* folder = opendir("/proc");
@@ -107,7 +107,8 @@ std::vector<pid_t> children() {
   return all;
 }
 
-/// The superuser's processes are not limited in number; for others the limit counts all that their user has.
+/// The number of processes on the system, an upper bound for the user's: the limit for other users than the superuser
+/// counts all processes of the user.
 std::size_t processes_of_user() {
   std::size_t count = 0;
   DIR* folder = opendir("/proc");
@@ -117,7 +118,7 @@ std::size_t processes_of_user() {
   return count;
 }
 
-/// A host leaves some of its user's processes to the judge, which has to start others.
+/// The largest process limit of a host: it leaves a reserve for the judge, which must be able to start other hosts.
 std::size_t most_processes_of_a_host() {
   constexpr rlim_t reserve = 64;
   rlimit own{};
@@ -125,13 +126,13 @@ std::size_t most_processes_of_a_host() {
   return own.rlim_cur - std::min(reserve, own.rlim_cur / 4);
 }
 
-/// The number of this process as /proc counts: that of whoever mounted it, in whatever namespace this process is.
+/// The id of this process in /proc, that is in the namespace of the process that mounted /proc.
 int number_in_proc() {
   char text[32] = {};
   return readlink("/proc/self", text, sizeof text - 1) > 0 ? std::atoi(text) : 0;
 }
 
-/// What is needed after the fork, made before it.
+/// The data that the child needs after the fork, prepared before it.
 struct Plan {
   const Program& program;
   const Confinement& confinement;
@@ -145,14 +146,14 @@ struct Plan {
   _exit(127);
 }
 
-/// Returns the file on which is told that the program could not be started, which an exec closes. A program that would
-/// have a file of the judge in place of its own is not started.
+/// Gives the program its files and closes all others. Returns the descriptor for a message about a failed start, which
+/// exec closes. A program that would keep a file of the judge is not started.
 int give_files(const Plan& plan) {
   std::vector<Program::File> files = plan.program.files;
   files.push_back({plan.nowhere, STDIN_FILENO});
   files.push_back({plan.output, STDOUT_FILENO});
   files.push_back({plan.output, STDERR_FILENO});
-  int next = 0;  // above all that are given
+  int next = 0;  // above all descriptors of the program
   for (const Program::File& f : files) next = std::max(next, f.there + 1);
   for (Program::File& f : files) {
     f.here = fcntl(f.here, F_DUPFD_CLOEXEC, next);
@@ -169,14 +170,14 @@ int give_files(const Plan& plan) {
   return next;
 }
 
-/// In the program's process, which never comes back.
+/// Turns the child process into the program; never returns.
 [[noreturn]] void become(const Plan& plan) {
   for (int s = 1; s < NSIG; ++s) {
     if (s != SIGKILL && s != SIGSTOP) signal(s, SIG_DFL);
   }
-  for (const int s : {SIGXFSZ, SIGTTOU}) signal(s, SIG_IGN);  // a full file is an error with a reason
+  for (const int s : {SIGXFSZ, SIGTTOU}) signal(s, SIG_IGN);  // a write beyond a limit fails with an error code
   setsid();
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive its keeper, should it kill it
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive its supervisor, even if it kills it
   const Confinement& c = plan.confinement;
   limit(RLIMIT_CORE, 0);
   if (c.file_bytes != Confinement::unlimited) limit(RLIMIT_FSIZE, c.file_bytes);
@@ -199,7 +200,7 @@ int give_files(const Plan& plan) {
   cannot_start(status, errno);
 }
 
-/// Returns how `program` ended, if it was left.
+/// Ends every remaining process. Returns the wait status of `program` if it was among them.
 std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
   std::optional<int> how;
   for (int round = 0; round < 1000; ++round) {
@@ -218,7 +219,7 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
   return how;
 }
 
-/// The keeper's whole life.
+/// The main function of the supervisor.
 [[noreturn]] void supervise(const Plan& plan, bool namespaced) {
   sigset_t awaited;
   sigemptyset(&awaited);
@@ -226,14 +227,14 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
   sigaddset(&awaited, SIGTERM);
   sigprocmask(SIG_SETMASK, &awaited, nullptr);
   for (const int s : {SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU}) signal(s, SIG_IGN);
-  signal(SIGCHLD, SIG_DFL);  // an ignored one would end the wait for a child without a word
+  signal(SIGCHLD, SIG_DFL);  // if SIGCHLD were ignored, the end of a child would not be reported
   setsid();
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   prctl(PR_SET_PDEATHSIG, namespaced ? SIGKILL : SIGTERM);
-  prctl(PR_SET_NAME, "nearmiss-keeper");
-  close(plan.judge);  // that its end is seen
+  prctl(PR_SET_NAME, "nearmiss-super");
+  close(plan.judge);  // so that the end of the judge closes the pipe
   pollfd judge{plan.status, 0, 0};
-  if (poll(&judge, 1, 0) == 1 && (judge.revents & POLLERR) != 0) _exit(0);  // it ended before
+  if (poll(&judge, 1, 0) == 1 && (judge.revents & POLLERR) != 0) _exit(0);  // the judge ended before
   const pid_t program = fork();
   if (program < 0) cannot_start(plan.status, errno);
   if (program == 0) become(plan);
@@ -260,14 +261,14 @@ bool write_text(const char* name, const char* text) {
   return put;
 }
 
-/// A copy of this process; in a process namespace of its own if it can be had, for which others than the superuser need
-/// a user namespace as well. Returns 0 in the copy.
+/// Forks, into a new process namespace where `wanted` and allowed; other users than the superuser need a user namespace
+/// as well. Returns 0 in the child.
 pid_t fork_apart(bool wanted, bool& namespaced) {
   namespaced = false;
   if (wanted) {
     const uid_t user = geteuid();
     const gid_t group = getegid();
-    // What programs can share beyond files and processes (System V's memory, message queues) ends with them as well.
+    // System V memory and message queues end with the namespace as well.
     const unsigned long flags = CLONE_NEWPID | CLONE_NEWIPC | (user == 0 ? 0ul : CLONE_NEWUSER) | SIGCHLD;
     const pid_t child = pid_t(syscall(SYS_clone, flags, nullptr, nullptr, nullptr, nullptr));
     if (child == 0 && user != 0) {
@@ -288,7 +289,7 @@ pid_t fork_apart(bool wanted, bool& namespaced) {
 
 SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& confinement) {
   int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) fail("a pipe to a host's keeper");
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) fail("a pipe to a supervisor");
   File hears(pipe_ends[0]), speaks(pipe_ends[1]);
   File output(program.log.empty() ? memfd_create("nearmiss-output", MFD_CLOEXEC)
                                   : open(program.log.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
@@ -310,12 +311,13 @@ SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& 
   for (const std::string& a : program.arguments) plan.arguments.push_back(const_cast<char*>(a.c_str()));
   plan.arguments.push_back(nullptr);
   for (const std::string& e : program.environment) plan.environment.push_back(const_cast<char*>(e.c_str()));
-  for (char** e = environ; *e != nullptr; ++e) plan.environment.push_back(*e);  // of two the first one counts
+  for (char** e = environ; *e != nullptr; ++e)
+    plan.environment.push_back(*e);  // the first entry of a name takes precedence
   plan.environment.push_back(nullptr);
-  std::fflush(nullptr);  // what is in buffers would be flushed twice by a body that calls exit
-  keeper_ = fork_apart(confinement.pid_namespace, namespaced_);
-  if (keeper_ < 0) fail("a process for a host");
-  if (keeper_ == 0) supervise(plan, namespaced_);
+  std::fflush(nullptr);  // otherwise a body that calls exit would flush the buffers twice
+  supervisor_ = fork_apart(confinement.pid_namespace, namespaced_);
+  if (supervisor_ < 0) fail("a process for a host");
+  if (supervisor_ == 0) supervise(plan, namespaced_);
   status_ = hears.take();
   output_ = output.take();
 }
@@ -327,9 +329,9 @@ SupervisedProcess::~SupervisedProcess() {
 }
 
 void SupervisedProcess::read_messages() {
-  constexpr int most = 16;  // words; a program that is the superuser's may find a way to say more
+  constexpr int most = 16;  // messages; a program of the superuser may manage to send more
   Message message{};
-  for (int i = 0; i < most && read(status_, &message, sizeof message) == ssize_t(sizeof word); ++i) {
+  for (int i = 0; i < most && read(status_, &message, sizeof message) == ssize_t(sizeof message); ++i) {
     if (message.what == Message::process) process_ = message.value;
     if (message.what == Message::could_not_start) failed_to_start_ = message.value;
     if (message.what == Message::ended) wait_status_ = message.value;
@@ -341,15 +343,15 @@ bool SupervisedProcess::has_ended(int milliseconds) {
   const Clock::time_point until = Clock::now() + std::chrono::milliseconds(milliseconds);
   while (!reaped_) {
     read_messages();
-    // A keeper that ended without a word was killed: by the program, or by who kills everything.
-    const pid_t ended = waitpid(keeper_, nullptr, WNOHANG);
-    if (ended == keeper_ || (ended < 0 && errno == ECHILD)) {
+    // A supervisor that ended without a message was killed, by its program or from outside.
+    const pid_t ended = waitpid(supervisor_, nullptr, WNOHANG);
+    if (ended == supervisor_ || (ended < 0 && errno == ECHILD)) {
       read_messages();
       reaped_ = true;
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
     if (reaped_ || left <= 0) break;
-    pollfd p{status_, POLLIN, 0};  // its first word is of the program's start
+    pollfd p{status_, POLLIN, 0};  // the first message reports the start of the program
     poll(&p, 1, int(left));
   }
   return reaped_;
@@ -361,16 +363,16 @@ void SupervisedProcess::send(int signal) {
 
 void SupervisedProcess::end() {
   if (reaped_) return;
-  // The system ends all of a namespace with its init; a keeper without one looks for what is left, which may be
-  // thousands.
+  // The system ends all processes of a namespace with its init. A supervisor without a namespace searches for the
+  // remaining processes, which may be thousands.
   constexpr int end_timeout = 5000;  // milliseconds
   if (!namespaced_) {
-    kill(keeper_, SIGCONT);
-    kill(keeper_, SIGTERM);
+    kill(supervisor_, SIGCONT);
+    kill(supervisor_, SIGTERM);
     if (has_ended(end_timeout)) return;
   }
-  kill(keeper_, SIGKILL);
-  has_ended(end_timeout);  // what the system cannot end even so (a disk that does not answer) is left to it
+  kill(supervisor_, SIGKILL);
+  has_ended(end_timeout);  // a process that cannot be killed now (a disk that does not respond) is left to the system
   reaped_ = true;
 }
 

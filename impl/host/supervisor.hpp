@@ -1,4 +1,4 @@
-/// A process that runs a program for this one, and ends it with all that it started.
+/// Runs a program under a supervisor process, which ends the program together with every process that it started.
 #pragma once
 
 #include <sys/types.h>
@@ -13,38 +13,38 @@
 
 namespace nearmiss {
 
-/// Each number may be `unlimited`.
+/// The resource limits of a program. Each number may be `unlimited`.
 struct Confinement {
   static constexpr std::size_t unlimited = 0;
-  std::size_t bytes = std::size_t{2} << 30;        ///< of memory of its own
-  std::size_t file_bytes = std::size_t{16} << 20;  ///< of any file that it writes, its output among them
-  std::size_t processes = 256;                     ///< beyond those that its user has; the superuser has no such limit
-  std::size_t files = 256;                         ///< that are open, of each process
-  bool pid_namespace = true;  ///< ask the system for one; where it refuses, the keeper looks for what is left
+  std::size_t bytes = std::size_t{2} << 30;        ///< of private memory
+  std::size_t file_bytes = std::size_t{16} << 20;  ///< of each file that it writes, including its captured output
+  std::size_t processes = 256;  ///< beyond the processes of its user; the superuser has no such limit
+  std::size_t files = 256;      ///< open files of each process
+  bool pid_namespace = true;    ///< request a namespace; without one the supervisor searches for leftover processes
 
-  /// For a program of our own, of which only the end is to be seen to.
+  /// No limits: for programs of this project.
   static Confinement none() { return {unlimited, unlimited, unlimited, unlimited}; }
 };
 
-/// What is run, and the files that it has. Its standard input is empty, its standard output and error are captured, and
-/// it has no other file.
+/// A program and its open files. Its standard input is empty, its standard output and error are captured, and it
+/// inherits no other file.
 struct Program {
-  std::vector<std::string> arguments;  ///< the program first: its file, or a name to be found in PATH
-  std::function<int()> body{};         ///< in place of a program: what a copy of this process does
+  std::vector<std::string> arguments;  ///< the program first: its file, or a name that is searched in PATH
+  std::function<int()> body{};         ///< runs in a fork of this process, in place of a program
   struct File {
     int here, there;
   };
   std::vector<File> files{};
   std::vector<std::string>
-      environment{};  ///< "NAME=value", beside this process's own; of two the one given here counts
-  std::string log{};  ///< the file that gets standard output and error; empty: it is kept in memory
+      environment{};  ///< "NAME=value" entries, added to those of this process; an entry here takes precedence
+  std::string log{};  ///< the file for standard output and error; empty: memory
 };
 
-/// A running program. Between it and this process stands its *keeper*, a process without any foreign code: it is the
-/// init of a process namespace of its own where the system allows that, and the reaper of orphans elsewhere. So nothing
-/// that the program starts outlives this object, whatever sessions and groups it joins, and neither outlives this
-/// process. Without a namespace this has two exceptions: what starts processes faster than a keeper finds them, and
-/// what ends its keeper.
+/// A running program. Its parent is a *supervisor*, a process that runs no foreign code. Where the system allows a
+/// process namespace, the supervisor is its init; elsewhere it is the reaper of orphans (a child subreaper). So no
+/// process that the program starts outlives this object, whatever sessions and groups it joins, and program and
+/// supervisor never outlive this process. Without a namespace there are two exceptions: a program that starts processes
+/// faster than the supervisor finds them, and a program that kills its supervisor.
 class SupervisedProcess {
  public:
   /// Throws std::system_error where the operating system refuses a process, a pipe or memory.
@@ -53,39 +53,39 @@ class SupervisedProcess {
   SupervisedProcess(const SupervisedProcess&) = delete;
   SupervisedProcess& operator=(const SupervisedProcess&) = delete;
 
-  /// Looks whether it has ended, for at most so long; all that it started has ended with it then.
+  /// Waits for the end at most so long. Returns true once the program and all processes that it started have ended.
   bool has_ended(int milliseconds = 0);
-  /// How, in one line for people: "left with exit code 3", "killed by signal 11 (Segmentation fault)".
+  /// The way it ended, in one line: "left with exit code 3", "killed by signal 11 (Segmentation fault)".
   std::string exit_text() const;
   BreakCause break_cause() const;
   std::optional<int> exit_code() const;
-  /// Where it could not be started: why, as errno.
+  /// The errno of a failed start; 0: it started.
   int failed_to_start() const { return failed_to_start_; }
-  /// Sends the program a signal; those that it started get none.
+  /// Sends a signal to the program, but not to the processes that it started.
   void send(int signal);
-  /// Ends it with all that it started.
+  /// Ends the program and all processes that it started.
   void end();
 
-  /// Seconds of processor time that the program itself has used, and seconds that it waited for a processor; 0 where
-  /// the system does not tell.
+  /// Seconds of processor time that the program itself has used; 0 where the system does not report it.
   double processor_seconds();
+  /// Seconds that the program itself was runnable and waited for a processor; 0 where the system does not report it.
   double run_queue_seconds();
-  /// The memory that it has now, in bytes.
+  /// The resident memory of the program, in bytes.
   std::size_t resident_bytes();
 
-  /// The end of what it wrote to standard output and error: at most so many bytes.
+  /// The last bytes of its standard output and error, at most `most`.
   std::string output(std::size_t most = 4096) const;
-  /// Becomes readable when it has ended.
+  /// A file descriptor that becomes readable when the program has ended.
   int status_file() const { return status_; }
 
  private:
   void read_messages();
   pid_t process();
 
-  pid_t keeper_ = -1;
+  pid_t supervisor_ = -1;
   bool namespaced_ = false;
   int status_ = -1, output_ = -1;
-  std::optional<pid_t> process_;  ///< as this process numbers it; 0 where that is not known
+  std::optional<pid_t> process_;  ///< its id in the namespace of this process; 0: unknown
   std::optional<int> wait_status_;
   int failed_to_start_ = 0;  ///< errno
   bool reaped_ = false;

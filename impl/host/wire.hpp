@@ -1,4 +1,4 @@
-/// What the judge's process and a host have in common: numbers of files, shared memory, frames.
+/// The wire format between the judge's process and a host: file descriptors, shared memory, message headers.
 #pragma once
 
 #include <algorithm>
@@ -12,33 +12,33 @@
 
 namespace nearmiss::wire {
 
-/// Of the protocol that docs/protocol.md describes; the hello names it.
+/// The version of the protocol in docs/protocol.md, as the hello states it.
 inline constexpr int version = 1;
 
-/// Open in a host, beside the standard three.
+/// The file descriptors of a host, beside the standard three.
 enum File : int {
   from_judge = 3,
   to_judge = 4,
-  shared_request = 5,  ///< shared memory, to be read; of hosts of this project alone
-  shared_answers = 6,  ///< shared memory, to be written; likewise
+  shared_request = 5,  ///< shared memory that the host reads; only for hosts of this project
+  shared_answers = 6,  ///< shared memory that the host writes; likewise
 };
 
-inline constexpr std::size_t capacity = 2048;             ///< cases of a batch
-inline constexpr std::size_t max_values = capacity * 64;  ///< numbers of a batch
+inline constexpr std::size_t capacity = 2048;             ///< most cases in a batch
+inline constexpr std::size_t max_values = capacity * 64;  ///< most numbers in a batch
 inline constexpr std::size_t max_hello = std::size_t{1} << 20;
 inline constexpr std::size_t max_reason = 65535;
 
-/// Written by the judge before it wakes the host, which can only read it.
+/// A batch of cases. The judge's process writes it before it wakes the host; the host has it mapped read-only.
 struct SharedRequest {
-  std::uint32_t offer;  ///< position among the hello's offers
+  std::uint32_t offer;  ///< index among the offers of the hello
   std::uint32_t inputs;
-  std::uint32_t first, count;  ///< the cases [first, count) are asked
-  AnswerFunction answer;       ///< of a host that is a copy of this process, in place of an offer
+  std::uint32_t first, count;  ///< the host answers the cases [first, count)
+  AnswerFunction answer;       ///< replaces `offer` for a host that is a fork of this process
   std::array<double, max_values> values;
 };
 
-/// Written by the host while it works. To move memory from one core to another is what isolation costs most, so an
-/// answer takes no more of it than it has numbers, one behind the other. The judge believes none of it.
+/// The answers to a batch, written by the host while it works. Moving memory between cores is the largest cost of
+/// isolation, so the numbers of all answers are packed without gaps. The judge's process checks every value.
 struct SharedAnswers {
   struct Head {
     Answer::Status status;
@@ -48,20 +48,20 @@ struct SharedAnswers {
     std::uint64_t given;
   };
 
-  std::atomic<std::uint32_t> done;  ///< those before it are answered
+  std::atomic<std::uint32_t> done;  ///< the cases before this one are answered
   std::array<Head, capacity> heads;
-  std::array<double, capacity * Answer::capacity> numbers;  ///< of the case `first` onward
-  std::array<decltype(Answer::why), capacity> reasons;      ///< of those without an answer; the others are not written
+  std::array<double, capacity * Answer::capacity> numbers;  ///< from the case `first` on
+  std::array<decltype(Answer::why), capacity> reasons;      ///< written only for cases without an answer
 };
 
-/// A batch in binary: the request is this, then count * inputs doubles. Every answer names its case, so that one too
-/// many, or too few, is never taken for the answer to another.
+/// The header of a binary batch; count * inputs doubles follow. Every reply names its case, so that a surplus or
+/// missing reply is never taken for the reply to another case.
 struct Request {
   std::uint32_t offer, count;
-  std::uint32_t first;  ///< number of the first case; they count up from 0 while the program runs
+  std::uint32_t first;  ///< number of the first case; cases count from 0 since the program's start
   std::uint32_t zero;
 };
-/// The reply to each case is this, then the outputs as doubles if it is answered, or else `reason` bytes of text.
+/// The header of the reply to one case; the outputs follow as doubles, or `reason` bytes of text without an answer.
 struct Reply {
   std::uint8_t status;  ///< 0: answered; 1: cannot answer
   std::uint8_t yes;     ///< 0 or 1
@@ -71,14 +71,15 @@ struct Reply {
 };
 static_assert(sizeof(Request) == 16 && sizeof(Reply) == 16);
 
-/// Takes the answers [begin, end) out of shared memory; `at` counts the numbers before `begin`. False where one of them
-/// is none: nothing behind it is taken, and `begin` is its position. `outputs` is how many numbers an answer must have,
-/// or 0.
+/// Reads the answers [begin, end) from shared memory and advances `begin`; `at` counts the numbers before `begin`.
+/// Returns false at the first malformed answer: `begin` is then its index, and no later answer is read. `outputs` is
+/// the required count of numbers, or 0.
 inline bool take(const SharedAnswers& from, std::size_t& begin, std::size_t end, std::size_t& at, std::size_t outputs,
                  Answer* into) {
   for (; begin < end; ++begin) {
     const SharedAnswers::Head head = from.heads[begin];
-    std::atomic_signal_fence(std::memory_order_seq_cst);  // what has been looked at is never read again: it may change
+    std::atomic_signal_fence(
+        std::memory_order_seq_cst);  // checked values are never read again: the host may change them
     const auto status = static_cast<std::uint8_t>(head.status);
     if (status > static_cast<std::uint8_t>(Answer::Status::broke) || head.count > Answer::capacity) return false;
     if (head.status == Answer::Status::answered && outputs > 0 && head.count != outputs) return false;

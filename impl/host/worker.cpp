@@ -30,8 +30,8 @@ constexpr std::size_t max_output = 4096;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// While it lives, files may be as large as this process may ever make them: memory is a file here, and what limits
-/// files, or stands for a full disk, is not meant for it.
+/// Raises the limit of file sizes to its maximum for its lifetime. Shared memory is a file here, and a limit that is
+/// meant for files on disk must not apply to it.
 class UnlimitedFileSize {
  public:
   UnlimitedFileSize() {
@@ -47,7 +47,7 @@ class UnlimitedFileSize {
   rlimit before_{};
 };
 
-/// Shared memory that neither side can make smaller, which would kill who reads it.
+/// Shared memory that neither side can shrink: reading beyond its end would kill the reader.
 template <class T>
 T* new_shared(const char* name, int& file) {
   const UnlimitedFileSize any;
@@ -56,10 +56,10 @@ T* new_shared(const char* name, int& file) {
   void* memory = mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   if (memory == MAP_FAILED) fail("shared memory for a host");
   if (fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) != 0) fail("shared memory for a host");
-  return static_cast<T*>(memory);  // zeros are a T
+  return static_cast<T*>(memory);  // a T of zero bytes is valid
 }
 
-/// Errors of the operating system that are of the moment, and nobody's fault.
+/// True for a temporary shortage of processes, memory or files.
 bool is_resource_shortage(int error) {
   return error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE;
 }
@@ -69,7 +69,7 @@ std::string last_line_of(std::string text) {
   return text.substr(text.find_last_of('\n') + 1);
 }
 
-/// What a subject says goes to terminals and into reports.
+/// Reasons of a subject go to terminals and into reports.
 void make_printable(Answer& a) {
   if (a.status != Answer::Status::answered) a.explain(printable(a.reason()));
 }
@@ -100,12 +100,12 @@ struct Pipe {
 struct Worker::Child {
   int to_host = -1, from_host = -1;
   std::unique_ptr<SupervisedProcess> process;
-  std::string out;          ///< not yet written
-  std::size_t written = 0;  ///< of it
-  std::string in;           ///< not yet understood
+  std::string out;          ///< bytes to write
+  std::size_t written = 0;  ///< written bytes of `out`
+  std::string in;           ///< bytes read
   std::size_t understood = 0;
-  std::uint32_t asked = 0;     ///< cases, by pipe
-  std::uint32_t answered = 0;  ///< of them
+  std::uint32_t asked = 0;     ///< cases sent over the pipe
+  std::uint32_t answered = 0;  ///< answered cases of `asked`
 
   Child() = default;
   ~Child() {
@@ -117,9 +117,9 @@ struct Worker::Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  bool has_more_to_say() const { return written < out.size(); }
+  bool has_more_to_write() const { return written < out.size(); }
   std::string_view unread() const { return std::string_view(in).substr(understood); }
-  /// Takes what is there. False at the end: the host hung up.
+  /// Reads the available bytes. False where the host closed the pipe.
   bool read_some() {
     if (understood > 0) in.erase(0, std::exchange(understood, 0));
     std::array<char, 1 << 16> some;
@@ -130,13 +130,14 @@ struct Worker::Child {
   }
 };
 
-/// How long a host takes for a case: of processor time, and of time that passes without that for which a busy machine
-/// lets it wait. A host that keeps the machine busy itself gets that grace as well, so it is bounded.
+/// Measures a host against the time limits of a case: processor time, and wall time without the time that the host
+/// waits for a processor on a busy machine. A host that keeps the machine busy itself profits from this grace too, so
+/// the grace is bounded.
 class Worker::CaseTimeout {
  public:
-  static constexpr double most_in_run_queue = 5;  ///< times WorkerLimits::wall
+  static constexpr double most_in_run_queue = 5;  ///< bound of the grace, in multiples of WorkerLimits::wall
   void restart() { since_ = Clock::now(), before_.reset(); }
-  /// To be asked often: what it did before it was first asked does not count. Empty while there is patience left.
+  /// The reason once a limit is exceeded; empty before. Call it often: time before the first call does not count.
   std::optional<std::string> expired(SupervisedProcess& host, const WorkerLimits& limits) {
     const Used now{host.processor_seconds(), host.run_queue_seconds()};
     if (!before_) before_ = now;
@@ -171,7 +172,7 @@ Worker::Worker(WorkerLimits limits, std::shared_ptr<const HostProgram> program, 
       asked_(new_shared<wire::SharedRequest>("nearmiss-asked", asked_file_)),
       answered_(new_shared<wire::SharedAnswers>("nearmiss-answered", answered_file_)),
       timeout_(std::make_unique<CaseTimeout>()) {
-  // From now on nobody gets a mapping that can be written, and this one stays.
+  // From now on no new writable mapping is possible; this one stays.
   if (fcntl(asked_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) fail("shared memory for a host");
 }
 
@@ -197,12 +198,12 @@ void Worker::spawn() {
   }
 }
 
-/// To be called each time that the system refuses a process or memory; throws std::system_error after some seconds.
+/// Call it each time the system refuses a process or memory. Waits; throws std::system_error after some seconds.
 void Worker::wait_for_resources(int error) {
   using namespace std::chrono_literals;
   const Clock::time_point now = Clock::now();
   if (!refused_since_) refused_since_ = now;
-  const bool may_pass = error != EMFILE;  // which is of this process alone
+  const bool may_pass = error != EMFILE;  // that limit concerns only this process
   if (!may_pass || now - *refused_since_ > 3s || !keeps_waiting()) {
     throw std::system_error(error, std::generic_category(), "a process for a host");
   }
@@ -236,7 +237,7 @@ void Worker::spawn_once() {
   child_ = std::move(child);
 }
 
-/// Starts a host and hears its hello. Throws HostFailed.
+/// Starts a host and checks its hello. Throws HostFailed.
 void Worker::start() {
   spawn();
   if (program_ == nullptr) return;
@@ -250,7 +251,7 @@ void Worker::start() {
   }
 }
 
-/// What the host says first, with its end of line.
+/// The first line of the host, with its end of line.
 std::string Worker::first_line() {
   CaseTimeout timeout;
   while (keeps_waiting()) {
@@ -312,7 +313,7 @@ void Worker::send(const Offering& offering, std::span<const double> values, std:
   request(0, count_);
 }
 
-/// Asks the cases [first, end), of a new host where there is none.
+/// Sends the cases [first, end) to the host; starts a host where none runs.
 void Worker::request(std::size_t first, std::size_t end_of_request) {
   cannot_start_.reset();
   if (!is_shared()) end_of_request = std::min(end_of_request, first + piped_at_once_);
@@ -320,7 +321,7 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
   requested_since_ = Clock::now();
   numbers_got_ = 0;
   if (child_ && child_->unread().size() > 0) {
-    this->end();  // it said something that it was not asked
+    this->end();  // the host wrote without a request
   }
   if (!child_) {
     try {
@@ -335,7 +336,7 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
     asked_->first = std::uint32_t(first);
     asked_->count = std::uint32_t(end_of_request);
     answered_->done.store(std::uint32_t(first), std::memory_order_relaxed);
-    [[maybe_unused]] const ssize_t woken = write(child_->to_host, "g", 1);  // a dead host is seen in receive
+    [[maybe_unused]] const ssize_t woken = write(child_->to_host, "g", 1);  // receive notices a dead host
     return;
   }
   const std::span<const double> values{asked_->values.data() + first * asked_->inputs,
@@ -349,9 +350,9 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
   flush();
 }
 
-/// Writes what the pipe has room for. False where nobody reads it.
+/// Writes as many bytes as the pipe takes. False where the reader is gone.
 bool Worker::flush() {
-  while (child_->has_more_to_say()) {
+  while (child_->has_more_to_write()) {
     const ssize_t put =
         write(child_->to_host, child_->out.data() + child_->written, child_->out.size() - child_->written);
     if (put < 0 && errno == EINTR) continue;
@@ -367,9 +368,9 @@ Worker::Event Worker::end_as(Event::What what, std::string reason, bool is_of_on
   return {what, std::move(reason), is_of_one_case, what == Event::late ? BreakCause::time_limit : BreakCause::other};
 }
 
-/// Says in one line what became of a host that has ended or hung up.
+/// The event for a host that has ended or closed its pipe.
 Worker::Event Worker::event_of_end() {
-  constexpr int moment = 200;  // milliseconds that a process may take from its last word to its end
+  constexpr int moment = 200;  // milliseconds from the last output of a process to its end
   if (!child_->process->has_ended(moment)) return end_as(Event::broke, "hung up without ending");
   const std::string last = last_line_of(child_->process->output(max_output));
   const BreakCause cause = child_->process->break_cause();
@@ -378,7 +379,7 @@ Worker::Event Worker::event_of_end() {
   return event;
 }
 
-/// What the host has done since it was last looked at.
+/// Reads the new answers in shared memory.
 std::optional<Worker::Event> Worker::read_shared_answers() {
   const std::size_t done = answered_->done.load(std::memory_order_acquire);
   if (done > requested_) return end_as(Event::broke, "counts more answers than it was asked for", true);
@@ -414,14 +415,14 @@ std::optional<Worker::Event> Worker::read_piped_answers() {
   return Event{Event::all_answered};
 }
 
-/// Waits until all that was requested is answered, or something else comes of it.
+/// Waits until every requested case is answered, or until another event ends the waiting.
 Worker::Event Worker::await() {
   while (true) {
     if (!keeps_waiting()) return end_as(Event::gave_up, "");
     pollfd files[3] = {{child_->from_host, POLLIN, 0},
                        {child_->process->status_file(), POLLIN, 0},
-                       {child_->to_host, short(child_->has_more_to_say() ? POLLOUT : 0), 0}};
-    const int ready = poll(files, child_->has_more_to_say() ? 3 : 2, poll_interval);
+                       {child_->to_host, short(child_->has_more_to_write() ? POLLOUT : 0), 0}};
+    const int ready = poll(files, child_->has_more_to_write() ? 3 : 2, poll_interval);
     bool open = true;
     if (ready > 0 && files[0].revents != 0) {
       open = child_->read_some();
@@ -436,7 +437,7 @@ Worker::Event Worker::await() {
         return {Event::all_answered};
       }
     } else {
-      if (ready > 0 && files[2].revents != 0 && child_->has_more_to_say()) open = flush() && open;
+      if (ready > 0 && files[2].revents != 0 && child_->has_more_to_write()) open = flush() && open;
       if (auto event = read_piped_answers()) return *event;
     }
     const bool is_gone = !open || child_->process->has_ended();
@@ -446,7 +447,7 @@ Worker::Event Worker::await() {
     const bool is_too_large =
         limits_.bytes > 0 && child_->process->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
     if (!is_gone && !late && !is_too_large) continue;
-    if (got_ == requested_) {  // what it does after its last answer is no case's fault
+    if (got_ == requested_) {  // an event after the last answer concerns no case
       end();
       return {Event::all_answered};
     }
@@ -471,7 +472,8 @@ void Worker::mark_broken(std::size_t i, std::string_view reason, std::string out
   if (!output.empty()) broken_.push_back({i, std::move(output)});
 }
 
-/// A host that keeps its answers until the end of a request is to be heard of often, and a fast one seldom waited for.
+/// Adapts the size of requests: small for a host that sends its answers only at the end of a request, large for a fast
+/// one.
 void Worker::adapt(Clock::duration took) {
   using namespace std::chrono_literals;
   if (took < 50ms) piped_at_once_ = std::min(2 * piped_at_once_, capacity);
@@ -499,7 +501,7 @@ std::span<const Answer> Worker::receive() {
       if (got_ < count_) request(got_, one_by_one_ ? got_ + 1 : count_);
       continue;
     }
-    // Of a host that answers over a pipe nobody knows how many answers it kept to itself.
+    // A host behind a pipe may hold back answers to earlier cases, so the next case need not be the one that broke.
     const bool is_surely_next = is_shared() || event.is_of_one_case || requested_ - got_ == 1;
     if (is_surely_next) {
       mark_broken(got_++, event.reason, std::move(suspected_output_), event.cause);
@@ -515,7 +517,7 @@ std::span<const Answer> Worker::receive() {
     }
     if (got_ < count_) request(got_, one_by_one_ ? got_ + 1 : count_);
   }
-  // It ended in a batch, and not when it was asked one by one; to be late in a batch is nothing.
+  // The host broke in the batch but not case by case. A mere time limit in a batch does not count.
   if (got_ == count_ && suspected_ && suspected_->what == Event::broke) {
     mark_broken(suspected_at_, suspected_->reason + "; not again when the cases of its batch were asked one by one",
                 std::move(suspected_with_), suspected_->cause);

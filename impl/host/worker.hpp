@@ -1,4 +1,4 @@
-/// Asks a subject in a process of its own, so that whatever it does is an answer and nothing more.
+/// Asks a subject in a process of its own, so that a crash or an endless loop costs one case and not the run.
 #pragma once
 
 #include <chrono>
@@ -19,34 +19,34 @@
 namespace nearmiss {
 
 struct WorkerLimits {
-  double case_timeout = 2.0;                 ///< seconds of processor time for a case
-  std::size_t bytes = std::size_t{2} << 30;  ///< of memory, beyond what the process starts with
+  double case_timeout = 2.0;                 ///< seconds of processor time for one case
+  std::size_t bytes = std::size_t{2} << 30;  ///< of memory, beyond the memory at the start of the process
   bool pid_namespace = true;                 ///< see Confinement
-  /// Seconds that may pass for a case, but for those in which others had the processor; and until a host says hello.
+  /// Seconds of wall time for one case, and for the hello, without the time in which other processes had the processor.
   double wall() const { return 5 * case_timeout; }
 };
 
-/// For all that have none of their own: those of the command line. For the rest of the process.
+/// The default limits, from the command line.
 const WorkerLimits& worker_limits();
 void set_worker_limits(const WorkerLimits& limits);
 
-/// Why a host did not come to its hello, or not to the one that it said first.
+/// Reports why a host sent no hello, or another hello than at its first start.
 struct HostFailed : std::runtime_error {
   explicit HostFailed(const std::string& why, bool is_late = false) : std::runtime_error(why), late(is_late) {}
   bool late;  ///< a time limit was reached
 };
 
-/// A process, called a host, that answers batches of cases: a program that says of itself what it offers, or a copy of
-/// this process for a subject of this program. It has nothing of this process but the cases (see keeper.hpp). One that
-/// throws, aborts, crashes, hangs, eats memory or answers with what is no answer gives that case the answer `broke`
-/// with the reason (where it wrote something, its last line); a new host goes on with the next case. One batch at a
-/// time; not for use from several threads.
+/// Sends batches of cases to a host process and receives its answers. The host is a program that sends a hello, or a
+/// fork of this process for a subject of this program. The host can read the cases, but no other data of this process
+/// (see supervisor.hpp). Where the host throws, aborts, crashes, hangs, exceeds a memory limit or sends a malformed
+/// answer, the case gets an answer with the status `broke` and the reason (with the last line of the host's output, if
+/// any), and a new host continues with the next case. One batch at a time; not thread-safe.
 ///
-/// Throws std::system_error when the operating system refuses a process or memory, for some seconds: no subject is
-/// blamed for that.
+/// Throws std::system_error when the operating system refuses a process or memory for some seconds. No answer records
+/// this as a fault of the subject.
 class Worker {
  public:
-  /// Called some twenty times a second while a host is awaited; false gives it up.
+  /// Called about twenty times a second while a host is awaited; false stops the waiting.
   using WaitCallback = std::function<bool()>;
 
   explicit Worker(WorkerLimits limits = {}, std::shared_ptr<const HostProgram> program = nullptr,
@@ -55,25 +55,25 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Starts the program, without awaiting its hello.
+  /// Starts the program without waiting for its hello.
   void begin();
-  /// What the program says of itself, a line of at most wire::max_hello bytes. Throws HostFailed.
+  /// The hello of the program, a line of at most wire::max_hello bytes. Throws HostFailed.
   std::string hello();
 
-  /// Answers to values.size() / inputs_per_case cases, in order. Until `receive` the caller is free to
-  /// do other work: the host runs beside it. At most `capacity` cases and max_values numbers. What is received stays
-  /// valid until the next send. It is less than what was asked where the on_wait gave up, and where `most_late` cases
-  /// of the batch were late.
+  /// Sends values.size() / inputs_per_case cases, at most `capacity` cases and max_values numbers. The host works while
+  /// the caller does other work; `receive` waits for the answers, in the order of the cases. Answers stay valid until
+  /// the next send. `receive` returns fewer answers than cases where the callback stopped the waiting, and where
+  /// `most_late` cases of the batch were late.
   void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
   std::span<const Answer> receive();
-  /// The end of what the host had written when the case broke: standard output and error, some thousand bytes at most;
-  /// empty for any other case. Valid as long as what was received.
+  /// The last bytes, a few thousand at most, of the host's standard output and error when the case broke; empty for any
+  /// other case. Valid as long as the received answers.
   std::string_view output(std::size_t case_of_batch) const;
 
-  /// Of processor time, that the host which runs now has used; 0 without one.
+  /// The processor time of the running host; 0 without one.
   double processor_seconds() const;
 
-  /// send and receive, for any number of cases.
+  /// Sends and receives any number of cases.
   std::vector<Answer> ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
 
   static constexpr std::size_t most_late = 8;
@@ -84,11 +84,11 @@ class Worker {
   using Clock = std::chrono::steady_clock;
   struct Child;
   class CaseTimeout;
-  /// What came of waiting.
+  /// The result of waiting for a host.
   struct Event {
     enum What { all_answered, broke, late, not_asked, gave_up } what;
     std::string reason{};
-    bool is_of_one_case = false;  ///< it is the next case that broke, surely
+    bool is_of_one_case = false;  ///< the next case certainly broke, not a later one
     BreakCause cause = BreakCause::other;
   };
   struct Output {
@@ -117,29 +117,29 @@ class Worker {
   WorkerLimits limits_;
   std::shared_ptr<const HostProgram> program_;
   WaitCallback on_wait_;
-  int asked_file_ = -1, answered_file_ = -1;  // before what is mapped of them
+  int asked_file_ = -1, answered_file_ = -1;  // declared before the mappings of these files
   wire::SharedRequest* asked_;
   wire::SharedAnswers* answered_;
   std::unique_ptr<Child> child_;
   std::unique_ptr<CaseTimeout> timeout_;
   std::optional<HostFailed> cannot_start_;
-  bool decides_ = true;          ///< an answer's yes says something
-  bool heard_ = false;           ///< something came by the pipe since the request
-  std::size_t outputs_ = 0;      ///< numbers of the answers, where the host must give them
-  std::size_t count_ = 0;        ///< cases of the batch
-  std::size_t got_ = 0;          ///< answered, or broke
-  std::size_t numbers_got_ = 0;  ///< of the request, in shared memory
-  std::size_t requested_ = 0;    ///< up to this case
+  bool decides_ = true;          ///< the query has a decision
+  bool heard_ = false;           ///< some bytes arrived through the pipe since the request
+  std::size_t outputs_ = 0;      ///< required count of numbers in an answer; 0: any
+  std::size_t count_ = 0;        ///< cases in the batch
+  std::size_t got_ = 0;          ///< cases that are answered or broke
+  std::size_t numbers_got_ = 0;  ///< numbers read from shared memory since the request
+  std::size_t requested_ = 0;    ///< end of the requested cases
   Clock::time_point requested_since_{};
-  std::optional<Clock::time_point> refused_since_;  ///< the system has no process or memory
-  Clock::time_point looked_{};                      ///< at how long it takes, and how much memory
-  std::size_t piped_at_once_ = 64;                  ///< cases of a request over a pipe, at most
-  bool one_by_one_ = false;  ///< which of them broke a host that answers late is found out by asking one by one
+  std::optional<Clock::time_point> refused_since_;  ///< since when the system has refused processes or memory
+  Clock::time_point looked_{};                      ///< the last check of time and memory limits
+  std::size_t piped_at_once_ = 64;                  ///< most cases in a request over a pipe
+  bool one_by_one_ = false;                         ///< cases are sent one by one to find the case that broke the host
   std::optional<Event> suspected_;
   std::size_t suspected_at_ = 0;
   std::string suspected_output_, suspected_with_;
   std::string query_;
-  std::vector<Answer> answers_;  ///< of the batch that was received last
+  std::vector<Answer> answers_;  ///< of the last batch
   std::vector<Output> broken_;
 };
 

@@ -1,6 +1,6 @@
 /* A collision library as a plugin of Nearmiss: a shared library that is loaded at run time, written in any language
  * that can speak C's calling convention. `nearmiss list --members QUERY` shows a query's numbers, in their order;
- * docs/semantics.md says what they mean, docs/bring-your-own.md how to go on.
+ * docs/semantics.md defines their meaning, docs/bring-your-own.md describes the steps.
  *
  *   cc -shared -fPIC -o libmine.so mine.c   &&   nearmiss run --plugin ./libmine.so --subject mine
  */
@@ -14,13 +14,13 @@
 extern "C" {
 #endif
 
-/* Of this header. It changes with every change of the structs below; a plugin of another version is refused. */
+/* The version of this header. It changes with every change of the structs below. A plugin of another version is refused. */
 #define NEARMISS_PLUGIN_VERSION 2
 
-/* The number in which the library computes. It is asked nothing that is not exactly such a number. */
+/* The scalar in which the library computes. Every input is exactly such a number. */
 enum { NEARMISS_FLOAT = 1, NEARMISS_DOUBLE = 2 };
 
-/* What nearmiss_answer_function returns. Anything else breaks that case. */
+/* The results of nearmiss_answer_function. Any other result makes the case count as broken. */
 enum { NEARMISS_ANSWERED = 0, NEARMISS_CANNOT_ANSWER = 1 };
 
 #define NEARMISS_MAX_VALUES 40
@@ -31,14 +31,14 @@ typedef struct nearmiss_answer {
   uint64_t given; /* bit i: values[i] is part of the answer; all bits are set at the call */
   double
       values[NEARMISS_MAX_VALUES]; /* in the order of the query's outputs; zero at the call. A miss: time is INFINITY */
-  char why[200];                   /* of NEARMISS_CANNOT_ANSWER: the reason, for people */
+  char why[200];                   /* for NEARMISS_CANNOT_ANSWER: the reason, shown in reports */
 } nearmiss_answer;
 
-/* Answers one case. `inputs` has the query's inputs in their order; flags are 0 or 1, indices small integers. It may
- * do what it likes: it runs in a process of its own, and a crash or an endless loop costs this one case. */
+/* Answers one case. `inputs` has the query's inputs in their order; flags are 0 or 1, indices small integers. The function
+ * runs in a process of its own: a crash or an endless loop costs only this case. */
 typedef int (*nearmiss_answer_function)(const double* inputs, nearmiss_answer* answer);
 
-/* What the library promises for a query, as collide/contract.hpp has it; INFINITY promises nothing. */
+/* The library's promise for a query, with the meaning of collide/contract.hpp; INFINITY promises nothing. */
 typedef struct nearmiss_contract {
   double backward;     /* in units of the number's epsilon, 2^-24 or 2^-53 */
   double forward;      /* in units in the last place */
@@ -47,7 +47,7 @@ typedef struct nearmiss_contract {
   int lowest, highest; /* the largest number of each group lies in [2^lowest, 2^highest] */
 } nearmiss_contract;
 
-/* What the library requires of its callers. A case that is not surely inside is not asked. */
+/* The preconditions of the library. A case that is not proved to meet them is not asked. */
 enum {
   NEARMISS_TRUE_RECTANGLE = 1 << 0,  /* corners within 4 epsilon of those of a rectangle with sides that are not zero */
   NEARMISS_UNIT_NORMAL = 1 << 1,     /* given normals of length 1 within 4 epsilon */
@@ -60,23 +60,23 @@ enum {
 
 typedef struct nearmiss_offer {
   const char* query;                 /* its name in the catalogue */
-  int inputs, outputs;               /* how many numbers it has: checked, so that an older plugin is told so */
-  const char* equivalence;           /* by which other operation it is answered; NULL: by this very one */
+  int inputs, outputs;               /* the numbers of its inputs and outputs, checked against the catalogue */
+  const char* equivalence;           /* the other operation that answers the query; NULL: this very operation */
   const nearmiss_contract* contract; /* NULL: no promise */
   nearmiss_answer_function answer;
-  uint32_t needs; /* what it requires: some of the bits above; 0: nothing */
+  uint32_t needs; /* its preconditions: some of the bits above; 0: none */
 } nearmiss_offer;
 
 typedef struct nearmiss_plugin {
   int version;                 /* NEARMISS_PLUGIN_VERSION */
-  const char* name;            /* as the command line knows it */
-  const char* library_version; /* for reports */
+  const char* name;            /* its name on the command line */
+  const char* library_version; /* shown in reports */
   int scalar;                  /* NEARMISS_FLOAT or NEARMISS_DOUBLE */
   size_t offer_count;
-  const nearmiss_offer* offers; /* queries that are not among them are not offered */
+  const nearmiss_offer* offers; /* other queries are not offered */
 } nearmiss_plugin;
 
-/* The one symbol that a plugin must export. What it returns lives as long as the process. */
+/* The one symbol that a plugin must export. Its result must stay valid until the process ends. */
 const nearmiss_plugin* nearmiss_plugin_entry(void);
 
 #ifdef __cplusplus

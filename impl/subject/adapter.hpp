@@ -1,4 +1,4 @@
-/// What an adapter may use to make a library answer queries.
+/// The helpers of an adapter, which makes a library answer queries.
 ///
 /// An adapter is a struct with a `static auto answer(const inputs::QUERY<Number>&)` for each
 /// query that its library can answer. It returns the query's answer type, or one of the wrappers below.
@@ -15,12 +15,12 @@
 
 namespace nearmiss {
 
-/// This one case has no answer; the reason is shown to people. Never a miss.
+/// The library has no answer to this case. The reason appears in reports. This is never counted as a miss.
 struct CannotAnswer {
   std::string reason;
 };
 
-/// An answer of which only some members mean anything: the yes or no and the named ones.
+/// An answer of which only the decision and the named members are given.
 template <class A>
 struct Partly {
   A answer;

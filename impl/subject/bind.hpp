@@ -6,10 +6,10 @@
 ///   static constexpr bool referee = true;           // optional
 ///   static auto answer(const inputs::QUERY<Number>&);   // one for each query that it answers
 ///   template <class Q> static collide::Contract contract();      // optional: its promise for inputs Q
-///   template <class Q> static std::string equivalence();         // optional: "" or by which equivalence
-///   template <class Q> static std::string left_out();            // optional: "" or what of an answer it does not
-///   give, and why template <class Q> static std::string why_not();             // optional: why a query is not offered
-///   template <class Q> static nearmiss::Preconditions needs();   // optional: what it requires of inputs Q
+///   template <class Q> static std::string equivalence();         // optional: "" or the equivalent operation it uses
+///   template <class Q> static std::string left_out();            // optional: "" or the members it does not give, and
+///   why template <class Q> static std::string why_not();             // optional: why a query is not offered template
+///   <class Q> static nearmiss::Preconditions needs();   // optional: what it requires of inputs Q
 #pragma once
 
 #include <concepts>

@@ -1,4 +1,4 @@
-/// Answers instead of exceptions.
+/// Turns exceptions of a subject into answers.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// The answer that `ask` returns; what it throws is the reason of a broken one.
+/// The answer that `ask` returns, or an answer with the status `broke` and the exception as its reason.
 template <class Ask>
 Answer answer_or_broke(const Ask& ask) {
   try {
@@ -24,7 +24,7 @@ Answer answer_or_broke(const Ask& ask) {
   }
 }
 
-/// An adapter of which no exception comes: for one that runs where nobody else could catch it.
+/// An adapter that never throws: for adapters that run where no caller catches exceptions.
 template <class Adapter>
 struct Contained : Adapter {
   template <class Q>

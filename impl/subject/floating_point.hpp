@@ -1,6 +1,5 @@
-/// The modes of floating-point arithmetic: rounding, what becomes of subnormal numbers, which exceptions trap. Any code
-/// of the process may set them for its thread, and a library does so by being loaded where it is linked with
-/// -ffast-math.
+/// The modes of floating-point arithmetic: rounding, treatment of subnormal numbers, trapping exceptions. Any code of
+/// the process may set them for its thread. A library that is linked with -ffast-math sets them when it is loaded.
 #pragma once
 
 #include <cfenv>
@@ -14,15 +13,15 @@ namespace nearmiss {
 
 #if defined(__SSE2__)
 
-/// A thread's modes, without the flags of exceptions that were raised.
+/// The modes of a thread, without the flags of raised exceptions.
 class FloatingPointModes {
  public:
-  /// Rounding to nearest, subnormals kept, no traps: what IEEE 754 has by default, and a process begins with.
+  /// Rounding to nearest, subnormals kept, no traps: the default of IEEE 754, and of a new process.
   static constexpr FloatingPointModes standard() { return {0x1f80, 0x037f}; }
   static FloatingPointModes current() { return {_mm_getcsr() & ~flags, control_word()}; }
-  /// For the rest of the thread.
+  /// Sets the modes for the rest of the thread.
   void set() const {
-    asm volatile("fnclex" ::: "memory");  // a flag of an exception that is to trap would trap at once
+    asm volatile("fnclex" ::: "memory");  // the flag of an unmasked exception would trap at once
     asm volatile("fldcw %0" : : "m"(x87_));
     _mm_setcsr(mxcsr_);
   }
@@ -42,14 +41,14 @@ class FloatingPointModes {
   unsigned short x87_;  ///< long double: rounding, masks, precision
 };
 
-/// These modes for its lifetime; the thread's own come back afterwards, with their flags, except an exception of the
-/// x87 unit that was about to trap: a compiler may place a wait wherever it likes, which would trap here. Some sixteen
-/// cycles where the modes are the same, some sixty where they are not.
+/// Sets modes for its lifetime and then restores the thread's own modes and flags. One flag is not restored: that of an
+/// x87 exception that was about to trap, because the compiler may place a wait anywhere and the wait would trap here.
+/// Costs some 16 cycles where the modes are equal, and some 60 where they differ.
 class FloatingPointScope {
  public:
   explicit FloatingPointScope(const FloatingPointModes& modes = FloatingPointModes::standard()) : mxcsr_(_mm_getcsr()) {
     unsigned short word;
-    // One statement: between two, a compiler may place a wait.
+    // One statement, because the compiler may place a wait between two.
     asm volatile(
         "fnstcw %[word]\n\t"
         "movw %[wanted], %%ax\n\t"
@@ -79,12 +78,12 @@ class FloatingPointScope {
   FloatingPointScope& operator=(const FloatingPointScope&) = delete;
 
  private:
-  static constexpr unsigned about_to_trap = 0x80bf;  ///< of the status: busy, summary, the six exceptions
+  static constexpr unsigned about_to_trap = 0x80bf;  ///< bits of the status: busy, summary, the six exceptions
   unsigned mxcsr_;
   bool other_x87_, other_mxcsr_;
   struct {
     unsigned control, status, rest[5];
-  } x87_;  ///< as fnstenv has it
+  } x87_;  ///< in the layout of fnstenv
 };
 
 #else

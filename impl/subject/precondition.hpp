@@ -1,4 +1,4 @@
-/// What a library requires of its callers: cases outside of it are not asked.
+/// The preconditions of a library. A case that does not meet them is not sent to it.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// The closed list. Its order is that of the bits in nearmiss_plugin.h.
+/// The closed list of preconditions, in the order of the bits in nearmiss_plugin.h.
 enum class Precondition : std::uint8_t {
   true_rectangle,
   unit_normal,
@@ -21,11 +21,11 @@ enum class Precondition : std::uint8_t {
 };
 inline constexpr std::size_t precondition_count = 7;
 
-/// How a precondition is spoken of.
+/// The texts of a precondition.
 struct PreconditionText {
-  std::string_view name;      ///< in JSON and on the command line
-  std::string_view required;  ///< "it requires ..."
-  std::string_view meaning;   ///< one sentence
+  std::string_view name;      ///< its name in JSON and on the command line
+  std::string_view required;  ///< completes "it requires ..."
+  std::string_view meaning;   ///< its definition, one sentence
 };
 
 inline constexpr std::array<PreconditionText, precondition_count> precondition_texts = {{
@@ -53,7 +53,7 @@ class Preconditions {
   constexpr Preconditions(std::initializer_list<Precondition> list) {
     for (const Precondition p : list) add(p);
   }
-  /// From the bits of a plugin, of which all are known.
+  /// The set with these bits of a plugin; every bit must be one of known_bits.
   static constexpr Preconditions of_bits(std::uint32_t bits) {
     Preconditions set;
     set.bits_ = bits;

@@ -10,10 +10,10 @@ namespace {
 
 struct Character {
   char32_t code;
-  std::size_t bytes;  ///< 0: these are no UTF-8
+  std::size_t bytes;  ///< 0: the bytes are not UTF-8
 };
 
-/// The character at the beginning.
+/// The first character of a text that is not empty.
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -30,7 +30,7 @@ Character first_character(std::string_view text) {
   return code < least[bytes] || code > 0x10FFFF || surrogate ? Character{0, 0} : Character{code, bytes};
 }
 
-/// Marks and overrides of direction, line and paragraph separators, and the mark of byte order.
+/// True for direction marks and overrides, line and paragraph separators, and the byte order mark.
 bool changes_the_line(char32_t c) {
   return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) ||
          c == 0xFEFF;

@@ -1,4 +1,4 @@
-/// Text that comes from elsewhere, for people and for JSON.
+/// Makes text from other programs safe to print.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// For a terminal: what it would act on, and bytes that are no UTF-8, as \xHH; characters that change the direction of
-/// writing or break lines as \u{HHHH}.
+/// `text` without effect on a terminal: control characters and bytes that are not UTF-8 become \xHH; characters that
+/// change the writing direction or break lines become \u{HHHH}.
 std::string printable(std::string_view text);
 
 }  // namespace nearmiss

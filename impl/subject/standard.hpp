@@ -1,4 +1,4 @@
-/// What an answer is held to: a subject's own promise, or a measure that somebody applies to it.
+/// The bound by which the judge accepts an answer: the subject's contract, or the measure where it promises nothing.
 #pragma once
 
 #include <collide/contract.hpp>
@@ -9,14 +9,14 @@ namespace nearmiss {
 
 struct Standard {
   collide::Contract contract;
-  bool promised = true;      ///< false: the subject has not promised this
-  Preconditions required{};  ///< a case that does not surely meet them is not asked, and never judged
+  bool promised = true;      ///< false: the bound is the measure, not a promise of the subject
+  Preconditions required{};  ///< a case that is not proved to meet them is neither asked nor judged
 
   Standard(const collide::Contract& c = {}, bool is_promised = true, Preconditions r = {})
       : contract(c), promised(is_promised), required(r) {}
 };
 
-/// True for a contract that no answer can break.
+/// True for a contract that no answer can violate.
 inline bool promises_nothing(const collide::Contract& c) {
   constexpr double none = collide::Contract::none;
   return c.backward == none && c.forward == none && c.unit == none && !c.exact_decisions;

@@ -1,4 +1,4 @@
-/// A subject: something that answers cases.
+/// A subject: a library, or one configuration of it, that answers cases.
 #pragma once
 
 #include <concepts>
@@ -20,7 +20,7 @@ namespace nearmiss {
 
 enum class Offer {
   answers,         ///< the library has this operation
-  by_equivalence,  ///< the library has another one that the query can be brought to
+  by_equivalence,  ///< the library has another operation to which the query can be reduced
   not_offered,
 };
 
@@ -28,8 +28,8 @@ inline std::string_view name_of(Offer o) {
   return o == Offer::answers ? "answers" : o == Offer::by_equivalence ? "by equivalence" : "not offered";
 }
 
-/// How a subject is asked: a function, and what it works on where it is not the adapter of this build. Plain bytes,
-/// so that a worker process can be told.
+/// The function that answers a query, with a context where it needs one. Trivially copyable, so that it can be passed
+/// to a host process in shared memory.
 class AnswerFunction {
  public:
   using Plain = Answer (*)(std::span<const double> inputs);
@@ -39,7 +39,7 @@ class AnswerFunction {
   template <class F>
     requires std::convertible_to<F, Plain>
   AnswerFunction(F plain) : plain_(plain) {}
-  /// `context` lives as long as the subject (Subject::context).
+  /// `context` must live as long as the subject (see Subject::context).
   AnswerFunction(WithContext function, const void* context) : with_context_(function), context_(context) {}
 
   Answer operator()(std::span<const double> inputs) const {
@@ -53,45 +53,44 @@ class AnswerFunction {
   const void* context_ = nullptr;
 };
 
-/// What a subject has for one query.
+/// What a subject offers for one query.
 struct Offering {
   std::string query;
   Offer offer = Offer::not_offered;
-  std::string how;  ///< by which equivalence, or why not
+  std::string how;  ///< the equivalent operation, or why the query is not offered
   collide::Contract contract{};
-  AnswerFunction answer{};     ///< nullptr where it is not offered
-  Preconditions required{};    ///< it is asked no case outside of them
-  std::uint32_t position = 0;  ///< among the offers of a host's hello
-  bool decides = true;         ///< false for a query without a yes or no: what a host says there means nothing
-  std::uint32_t outputs = 0;   ///< numbers of an answer, where a host must give them; 0: unknown
+  AnswerFunction answer{};     ///< nullptr where the query is not offered
+  Preconditions required{};    ///< a case that does not meet them is not asked
+  std::uint32_t position = 0;  ///< index among the offers in the host's hello
+  bool decides = true;         ///< false for a query without a decision: the decision that a host sends is then ignored
+  std::uint32_t outputs = 0;   ///< numbers in an answer of a host; 0: unknown
   struct Counts {
     int inputs, outputs;
   };
-  std::optional<Counts> counts{};  ///< of numbers, as whoever offers it believes
+  std::optional<Counts> counts{};  ///< the numbers of inputs and outputs that the host states
 };
 
-/// A program that is asked in place of a function of this one (docs/protocol.md).
+/// A program that answers in place of a function of this process (docs/protocol.md).
 struct HostProgram {
-  /// How cases and answers travel: in shared memory, or through pipes.
+  /// How batches are transferred: in shared memory, or through pipes.
   enum class Batches { shared, binary, json };
 
-  std::vector<std::string> arguments;  ///< the program's file first
+  std::vector<std::string> arguments;  ///< the file of the program first
   Batches batches = Batches::shared;
-  std::string hello{};  ///< the line that it said of itself when it was first started; empty: not yet known
+  std::string hello{};  ///< its hello from the first start; empty: not yet known
 };
 
 struct Subject {
   std::string name;
   std::string version;
   Scalar scalar = Scalar::float64;
-  bool own = false;      ///< belongs to this project (impl/subject/provenance.hpp)
+  bool own = false;      ///< belongs to this project (impl/subject/provenance.hpp); false for plugins and commands
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
-  std::string plugin{};   ///< the file that it was loaded from; empty for a subject of this build
-  std::string command{};  ///< the command line that is asked, as it runs from any folder; empty for any other
-  std::shared_ptr<const HostProgram>
-      host{};                             ///< the program that is it, or loads it; nullptr: functions of this program
-  std::shared_ptr<const void> context{};  ///< what its functions work on, where that has to live as long
+  std::string plugin{};   ///< the plugin's file; empty for any other subject
+  std::string command{};  ///< the command line, which runs from any folder; empty for any other subject
+  std::shared_ptr<const HostProgram> host{};  ///< the program that answers; nullptr: functions of this process answer
+  std::shared_ptr<const void> context{};      ///< keeps the context of its functions alive
 
   const Offering& offering(std::string_view query) const {
     static const Offering none{"", Offer::not_offered, "unknown query", {}, {}};
@@ -100,28 +99,28 @@ struct Subject {
     }
     return none;
   }
-  /// What its answers to the query are held to: its contract or, where it promises nothing, the measure; and what it
-  /// requires.
+  /// The bound for its answers to the query, its contract or, where it promises nothing, the measure; and its
+  /// preconditions.
   Standard standard_for(std::string_view query) const;
 };
 
-/// Every subject of this build, in the order in which CMake was told of them, then those that were added.
+/// Every subject of this build, in the order of the calls of nearmiss_add_subject, then the subjects of add_subject().
 const std::vector<Subject>& subjects();
-/// For the rest of the process. Pointers into subjects() that were taken before do not stay valid.
+/// Adds a subject for the rest of the process. Invalidates pointers into subjects().
 void add_subject(Subject subject);
-/// The measure of what promises nothing: a backward error of at most so much, relative to the largest number of each
-/// group, and normals whose length is off by at most so much, for inputs of any size. One for all subjects.
+/// The bound for subjects that promise nothing, for inputs of any size: `error` bounds the backward error, relative to
+/// the largest number of each group, and the distance of a normal's length from 1. One measure holds for all subjects.
 struct Measure {
-  /// Ten thousand steps over the extent of a scene. It says which differences are told, not which are right.
+  /// Ten thousand steps over the extent of a scene. It decides which differences are reported, not which are right.
   static constexpr double usual = 1e-4;
 
   double error = usual;
-  bool for_all = false;  ///< in place of contracts too
+  bool for_all = false;  ///< also replaces contracts
 };
 const Measure& measure();
-/// For the rest of the process.
+/// Sets the measure for the rest of the process.
 void set_measure(const Measure& m);
-/// nullptr when there is none of that name.
+/// nullptr where no subject has that name.
 const Subject* find_subject(std::string_view name);
 
 }  // namespace nearmiss

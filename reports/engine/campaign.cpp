@@ -23,7 +23,7 @@ void adapt_batch(Stream& s, double seconds) {
   if (seconds > most_seconds_per_batch) s.batch = std::max(s.batch / 2, least_batch);
 }
 
-/// Cases of a stream, and what making them took.
+/// Cases of a stream, and the time to make them.
 struct Batch {
   Stream* of = nullptr;  ///< nullptr: the schedule is over
   std::vector<Case> cases;
@@ -44,13 +44,13 @@ void make(Batch& batch, Schedule& schedule, std::uint64_t seed) {
 Campaign::Campaign(Settings settings, std::vector<Sink*> sinks)
     : settings_(std::move(settings)),
       sinks_(std::move(sinks)),
-      dispatcher_([this] { return settings_.tick(), goes_on(); }, settings_.give_up),
+      dispatcher_([this] { return settings_.tick(), keeps_waiting(); }, settings_.give_up),
       internal_errors_(settings_.folder) {}
 
 bool Campaign::should_stop() const { return interrupted() || (until_ && Clock::now() >= *until_); }
 
-/// Reports are written when the time is over, too: who is asked for them gets a moment.
-bool Campaign::goes_on() const {
+/// Reports are also written after the time is over, so the referees get a moment more.
+bool Campaign::keeps_waiting() const {
   constexpr auto moment = 300ms;
   return !interrupted() && !(until_ && Clock::now() >= *until_ + moment);
 }

@@ -1,5 +1,5 @@
-/// The engine: schedules cases, asks subjects, has every answer judged, and hands what comes of it to its sinks. Runs,
-/// stored cases, maps of extremes and imports differ in where their cases come from and in what listens.
+/// The engine: schedules cases, asks subjects, judges every answer, and passes the findings to sinks. Runs, stored
+/// cases, maps of extremes and imports differ in the source of their cases and in their sinks.
 #pragma once
 
 #include <chrono>
@@ -16,26 +16,26 @@
 
 namespace nearmiss {
 
-/// An answer to a case of a batch, and the judge's word on it.
+/// An answer to a case of a batch, and its finding.
 struct Examined {
   const Case& question;
   const Subject& subject;
   const Answer& answer;
   const Finding& finding;
-  std::string_view output;   ///< what the subject's host wrote, where it broke
-  std::size_t of_batch = 0;  ///< which case of the batch it is
+  std::string_view output;   ///< output of the subject's host, where it broke
+  std::size_t of_batch = 0;  ///< index of the case in the batch
 };
 
-/// What listens to a campaign.
+/// Receives the findings of a campaign.
 class Sink {
  public:
   virtual ~Sink() = default;
-  /// Of a case that is examined alone the batch is empty.
+  /// The batch is empty for a case that is examined alone.
   virtual void begin_batch(std::span<const Case>) {}
   virtual void take(const Examined& e) = 0;
-  /// Cases that are not asked, since the subject was late too often.
+  /// A number of cases that were not asked because the subject was late too often.
   virtual void take_given_up(const Query&, const Subject&, std::uint64_t) {}
-  /// No answer of a batch is awaited any more: other cases may be asked.
+  /// Called when no answer of the batch is pending: the sink may ask other cases.
   virtual void end_batch() {}
 };
 
@@ -44,26 +44,26 @@ class Campaign {
   using Clock = std::chrono::steady_clock;
 
   struct Settings {
-    std::filesystem::path folder;  ///< where internal errors are kept
-    std::function<void()> tick;    ///< called often, also while subjects are awaited
-    /// What answers are held to; without one, what the subject promises, or else the measure.
+    std::filesystem::path folder;  ///< the folder for internal errors
+    std::function<void()> tick;    ///< called often, also while the campaign waits for subjects
+    /// The bound for answers; without a function, Subject::standard_for.
     std::function<Standard(const Subject&, const Query&)> standard{};
     Dispatcher::GiveUp give_up = Dispatcher::GiveUp::when_often_late;
   };
 
   Campaign(Settings settings, std::vector<Sink*> sinks);
 
-  /// All cases are of one query and exact in the subjects' scalar. Stops early when it should. `meanwhile` is done
-  /// while the subjects answer. A case outside of what a subject requires counts as not asked.
+  /// All cases are of one query and exact in the subjects' scalar. Stops early on should_stop(). Runs `meanwhile` while
+  /// the subjects work. A case that does not meet a subject's preconditions counts as not asked.
   void examine(std::span<const Subject* const> subjects, std::span<const Case> cases,
                const std::function<void()>& meanwhile = {});
-  /// One case, whatever the scalar of the subjects: one that cannot hold it exactly has it out of its domain.
+  /// Examines one case with subjects of any scalar. For a scalar that cannot hold the case exactly it is out of domain.
   void examine_in_any_scalar(std::span<const Subject* const> subjects, const Case& question);
-  /// Cases of the generator, until the schedule or the time is over. The next batch is made while the subjects answer
-  /// the one before; batches are as large as lets a person stop the campaign.
+  /// Examines generated cases until the schedule or the time ends. Makes the next batch while the subjects work. Limits
+  /// the duration of a batch, so that an interrupt takes effect soon.
   void generate(Schedule& schedule, std::uint64_t seed);
 
-  /// True when it was interrupted or its time is over.
+  /// True when the campaign was interrupted or its time is over.
   bool should_stop() const;
   void set_until(std::optional<Clock::time_point> until) { until_ = until; }
   std::optional<Clock::time_point> until() const { return until_; }
@@ -72,7 +72,7 @@ class Campaign {
   Dispatcher& dispatcher() { return dispatcher_; }
 
  private:
-  bool goes_on() const;
+  bool keeps_waiting() const;
   Standard standard_for(const Subject& subject, const Query& query) const;
   void ask_and_judge(std::span<const Subject* const> subjects, std::span<const Case> cases,
                      const std::function<void()>& meanwhile);
@@ -84,7 +84,7 @@ class Campaign {
   std::optional<Clock::time_point> until_;
   Dispatcher dispatcher_;
   InternalErrors internal_errors_;
-  std::map<std::pair<const Subject*, const Query*>, std::uint64_t> given_up_;  ///< as the sinks know
+  std::map<std::pair<const Subject*, const Query*>, std::uint64_t> given_up_;  ///< as reported to the sinks
 };
 
 }  // namespace nearmiss

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One of them, for the summary.
+/// The singular noun for a disagreement in the summary.
 std::string_view noun_of(Disagreement d) {
   switch (d) {
     case Disagreement::none: return "other violation";
@@ -46,7 +46,7 @@ std::string percent_text(std::uint64_t part, std::uint64_t whole) {
   return percent >= 10 ? fmt::format("{:.0f} %", percent) : fmt::format("{:.2g} %", percent);
 }
 
-/// Violations by kind of disagreement: a false hit is never added to a false miss.
+/// The cells of one row. A false hit is never added to a false miss.
 std::vector<std::string> table_row(const Tally& t) {
   const std::uint64_t hits = t.violations_by(Disagreement::false_hit),
                       misses = t.violations_by(Disagreement::false_miss);
@@ -89,7 +89,7 @@ void Counts::take(const Examined& e) {
   ++cases_;
   bad_ += is_bad(e.finding);
   if (has_classes_) count_by_class(e);
-  if (e.of_batch < touching_.size()) {  // not of a case alone: stored cases touch on purpose
+  if (e.of_batch < touching_.size()) {  // only for batches: stored cases touch on purpose
     touch_counts_.count(e.question, e.subject, e.answer, e.finding, touching_[e.of_batch]);
   }
 }
@@ -195,7 +195,7 @@ std::string Counts::table() const {
   return table_text(rows, "", 1) + breakages_text() + given_up_text() + stages_text();
 }
 
-/// Who was not asked any more; empty where all were asked to the end.
+/// The subjects that were given up; empty where all were asked to the end.
 std::string Counts::given_up_text() const {
   std::string text;
   for (const auto& [key, t] : tallies_) {
@@ -205,7 +205,7 @@ std::string Counts::given_up_text() const {
   return text.empty() ? text : text + "\n";
 }
 
-/// Why subjects broke, most often first; empty where none did.
+/// The reasons of breakages, most frequent first; empty without breakages.
 std::string Counts::breakages_text() const {
   struct Row {
     std::uint64_t count;

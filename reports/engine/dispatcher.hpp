@@ -1,4 +1,4 @@
-/// Batches of cases to many subjects at once, each in its own host, and who is not asked any more.
+/// Sends batches of cases to many subjects at once, each in its own host, and gives up subjects that are often late.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace nearmiss {
 
-/// How late a subject was with the cases of a query.
+/// How often a subject was late with the cases of a query.
 struct Lateness {
   std::uint64_t asked = 0, late = 0;
-  std::uint64_t gave_up = 0;  ///< cases that were not asked any more, since too many were late
+  std::uint64_t gave_up = 0;  ///< cases that were not asked because too many were late
 
-  /// True where asking on would be waiting: some of what was asked was late, and that is a good part of all.
+  /// True where at least 8 cases, and at least a twentieth of all, were late.
   bool gives_up() const { return late >= 8 && 20 * late >= asked; }
 };
 
@@ -28,16 +28,16 @@ class Dispatcher {
   explicit Dispatcher(Worker::WaitCallback on_wait, GiveUp rule = GiveUp::when_often_late)
       : workers_(std::move(on_wait)), rule_(rule) {}
 
-  /// Sends the cases, which are of one query and exact in the subjects' scalars, to all subjects, does `meanwhile`, and
-  /// hands on what each answers: fewer answers than cases where the waiting was ended. A subject that is given up is
-  /// passed over.
+  /// Sends the cases to all subjects, runs `meanwhile`, and passes the answers of each subject to `take`: fewer answers
+  /// than cases where the waiting was stopped. The cases are of one query and exact in the subjects' scalars. A subject
+  /// that is given up gets none.
   void ask(std::span<const Subject* const> subjects, std::span<const Case> cases,
            const std::function<void()>& meanwhile,
            const std::function<void(const Subject&, std::span<const Answer>)>& take);
 
   const Lateness& lateness(const Subject& subject, const Query& query) { return lateness_[{&subject, &query}]; }
   const std::map<std::pair<const Subject*, const Query*>, Lateness>& all_lateness() const { return lateness_; }
-  /// Counts cases that are not asked of a subject.
+  /// Counts cases that a subject was not asked.
   void pass_over(const Subject& subject, const Query& query, std::uint64_t cases) {
     lateness_[{&subject, &query}].gave_up += cases;
   }

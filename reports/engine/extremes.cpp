@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Promises nothing, everywhere: every answer is measured.
+/// Promises nothing, so that every answer is measured.
 constexpr collide::Contract no_promise{};
 
 void count(ExtremesCell& cell, const Finding& f) {
@@ -83,17 +83,17 @@ bool begun(const ExtremesMap& m) {
   });
 }
 
-/// Puts `text` where the template has `mark`, once.
+/// Replaces the first `mark` in the template by `text`.
 [[maybe_unused]] void put(std::string& page, std::string_view mark, std::string_view text) {
   const std::size_t at = page.find(mark);
   if (at == std::string::npos) throw std::logic_error(fmt::format("extremes.html has no {}", mark));
   page.replace(at, mark.size(), text);
 }
 
-/// No "</script>" can end the element that the data stand in.
-/// Bytes that are no UTF-8, as an argument may have them, become U+FFFD.
+/// The report as JSON text. Bytes that are not UTF-8, for example in an argument, become U+FFFD.
 std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+/// Escapes "</", so that the text cannot end the script element around it.
 [[maybe_unused]] std::string for_a_script(std::string text) {
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
   return text;
@@ -101,7 +101,7 @@ std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Jso
 
 }  // namespace
 
-/// Counts what is found at one place of a plane, for each subject in its map.
+/// Counts the findings of one cell in the map of each subject.
 class Extremes::Place : public Sink {
  public:
   void at(const std::vector<ExtremesMap*>& maps, std::size_t cell) { maps_ = maps, cell_ = cell; }
@@ -135,7 +135,7 @@ Extremes::Extremes(ExtremesSettings settings)
                  Dispatcher::GiveUp::never},
                 {place_.get()}) {
   make_folder(settings_.folder);
-  if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // told now, not when all has been asked
+  if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // fails now rather than after all cases
     throw IoError(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
   }
   for (const Query* q : settings_.queries) {
@@ -179,7 +179,7 @@ void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) 
       auto c = sweep_case(query, scalar, settings_.seed, i, plane, xs[cell % xs.size()], ys[cell / xs.size()]);
       if (c) cases.push_back(std::move(*c));
     }
-    // Few at once, for one who times out does so in most of them.
+    // Small batches: a subject that times out does so in most cases of a cell.
     constexpr std::size_t most = ExtremesMap::most_in_row;
     for (std::size_t at = 0; at < cases.size() && !interrupted(); at += most) {
       ask(asked, cell, std::span(cases).subspan(at, std::min(most, cases.size() - at)));

@@ -1,4 +1,4 @@
-/// Where a subject breaks down: its worst errors over distance, size, speed, ratio and angle.
+/// Maps the worst errors of a subject over distance, size, speed, ratio of sizes and angle.
 #pragma once
 
 #include <cstdint>
@@ -23,21 +23,21 @@ struct ExtremesSettings {
   std::vector<const Query*> queries;
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 50;  ///< of each cell
+  std::uint64_t cases = 50;  ///< in each cell
 };
 
-/// What was proved against the answers to the cases at one place of a plane. Contracts play no part: a place where
-/// nothing is promised is measured all the same.
+/// What is proved against the answers to the cases of one cell of a map. Contracts play no part: cells where nothing is
+/// promised are measured too.
 struct ExtremesCell {
-  std::uint64_t cases = 0;       ///< answered; fewer where numbers do not fit the scalar
+  std::uint64_t cases = 0;       ///< answered; fewer where some cases do not fit the scalar
   std::uint64_t false_hits = 0;  ///< never added to the false misses
   std::uint64_t false_misses = 0;
-  std::uint64_t not_finite = 0;  ///< NaN or infinity in a number of the answer
+  std::uint64_t not_finite = 0;  ///< answers with NaN or infinity
   std::uint64_t broke = 0;       ///< exception, abort, crash, limit
-  std::uint64_t no_answer = 0;   ///< the subject says so
-  std::uint64_t not_asked = 0;   ///< the case is outside of what the subject requires
-  std::uint64_t gave_up = 0;     ///< not asked any more, after time-outs in this row or all over this map
-  double forward_ulps = 0;       ///< of the worst number of an answer with the right decision: at least
+  std::uint64_t no_answer = 0;   ///< the subject reported that it has no answer
+  std::uint64_t not_asked = 0;   ///< the case does not meet the subject's preconditions
+  std::uint64_t gave_up = 0;     ///< not asked after too many time-outs in the row or in the map
+  double forward_ulps = 0;       ///< lower bound for the worst number of an answer with the right decision
   double backward_epsilon = -1;  ///< largest proved bound; negative where nothing is proved
 };
 
@@ -45,10 +45,10 @@ struct ExtremesMap {
   const Query* query;
   const Subject* subject;
   SweepPlane plane;
-  std::vector<ExtremesCell> cells;  ///< rows of y, in each the values of x
+  std::vector<ExtremesCell> cells;  ///< row by row: y selects the row, x the column
   std::uint64_t time_outs = 0, time_outs_in_row = 0;
 
-  /// After so many time-outs the subject is not asked again: in that row, and in the whole map.
+  /// After this many time-outs the subject is given up: in the row, and in the whole map.
   static constexpr std::uint64_t most_in_row = 3, most = 12;
   bool given_up() const { return time_outs_in_row >= most_in_row || time_outs >= most; }
 };
@@ -59,19 +59,19 @@ class Extremes {
   explicit Extremes(ExtremesSettings settings);
   ~Extremes();
 
-  /// Fills every map, or as many as there is time for before an interrupt.
+  /// Fills the maps; an interrupt stops it early.
   void sweep();
-  /// Writes extremes.json, which reports/extremes.schema.json describes, and the page extremes.html, where this
-  /// build knows the library that draws it.
+  /// Writes extremes.json (reports/extremes.schema.json) and, where this build has the drawing library, the page
+  /// extremes.html.
   void write() const;
 
-  /// Rows of query and subject: the worst of all their cells.
+  /// A table with the worst cell of each query and subject.
   std::string table() const;
   std::string summary() const;
-  /// 0, 2 where it was interrupted; InternalError's where there was one.
+  /// 0; 2 after an interrupt; InternalError::exit_code after an internal error.
   int exit_code() const;
   nlohmann::ordered_json to_json() const;
-  /// The page with everything in it; empty where the library that draws it was not there at build.
+  /// The page with its data and library; empty where the build did not find the drawing library.
   static std::optional<std::string> page(const nlohmann::ordered_json& report);
 
  private:

@@ -1,12 +1,12 @@
-/// One run at a time in a run folder.
+/// Locks a run folder for one run at a time.
 #pragma once
 
 #include <filesystem>
 
 namespace nearmiss {
 
-/// Holds a folder as long as it lives; the system lets go of it when the process ends, however it ends. It leaves no
-/// file. A file system that knows no locks is taken without one.
+/// Holds the lock of a folder for its lifetime. The system releases the lock when the process ends in any way. Leaves
+/// no file. Does nothing on a file system without locks.
 class FolderLock {
  public:
   /// Throws BadInput where another process holds the folder.

@@ -25,19 +25,20 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// How long a target may take beyond its time to start, and to end when it is told to.
+/// How long a target may take beyond its time: to start, and to end after SIGINT.
 constexpr auto grace = 3s;
-/// And to end where the whole run is to end.
+/// The same where the whole run is cancelled.
 constexpr auto short_grace = 300ms;
-/// After which libFuzzer keeps the case and ends the target.
+/// libFuzzer's limit for one case: beyond it, it stores the case and ends the target.
 constexpr int seconds_for_one_case = 10;
 
-/// A target of a plain build has a main of its own and cannot fuzz; libFuzzer's options are in the file.
+/// True where the file contains an option name of libFuzzer. A target of a plain build has its own main and cannot
+/// fuzz.
 bool has_libfuzzer(const fs::path& file) {
   constexpr std::string_view mark("\0max_total_time\0", 16);
   std::ifstream in(file, std::ios::binary);
   std::string block(std::size_t{1} << 20, '\0');
-  std::size_t kept = 0;  // the end of the last block, in which the mark may begin
+  std::size_t kept = 0;  // the end of the previous block, where the mark may begin
   while (in.read(block.data() + kept, std::streamsize(block.size() - kept)) || in.gcount() > 0) {
     const std::size_t filled = kept + std::size_t(in.gcount());
     if (memmem(block.data(), filled, mark.data(), mark.size()) != nullptr) return true;

@@ -1,4 +1,4 @@
-/// Fuzz targets as processes: found beside the command line, run for a time, never linked.
+/// Runs fuzz targets as processes for a given time. The command line never links them.
 #pragma once
 
 #include <filesystem>
@@ -17,48 +17,46 @@ struct FuzzTarget {
   std::filesystem::path file;
 };
 
-/// The targets that are built with libFuzzer.
+/// The targets that were built with libFuzzer.
 struct FuzzTargets {
   std::vector<FuzzTarget> targets;
   std::vector<std::string> missing;  ///< queries without one
-  std::string where;                 ///< the folder, or the folders that were searched in vain
+  std::string where;                 ///< the folder, or the searched folders where none has a target
 };
 
-/// Looks into `folder` or, without one, where the build puts them: the folder fuzz/ of this build, then
-/// that of the preset "fuzz".
+/// Searches `folder` or, without one, the folder fuzz/ of this build and then that of the preset "fuzz".
 FuzzTargets find_fuzz_targets(const std::optional<std::filesystem::path>& folder,
                               std::span<const Query* const> queries);
 
-/// What became of one target's run.
+/// The result of one target's run.
 struct FuzzOutcome {
   std::string query;
   double seconds = 0;
-  std::uint64_t executions = 0;    ///< 0 where the target did not say
+  std::uint64_t executions = 0;    ///< 0 where the target did not report it
   std::string ended;               ///< "left with exit code 0"
-  bool failed = false;             ///< ended by itself with another code than 0
-  std::vector<std::string> asked;  ///< subjects; empty where the target did not say
+  bool failed = false;             ///< ended by itself with a code other than 0
+  std::vector<std::string> asked;  ///< the subjects it asked; empty where it did not report them
 };
 
-/// Subjects that were loaded for this process: the files of plugins, and commands.
+/// The subjects from outside this build: files of plugins, and commands.
 struct ForeignSubjects {
   std::vector<std::string> plugins, commands;
 };
 
-/// What tells a fuzz target, or the properties, to ask them and the subjects of NEARMISS_ADD as well: for its
-/// environment.
+/// The environment entries that make a fuzz target, or the property tests, also ask foreign subjects and the subjects
+/// of NEARMISS_ADD.
 std::vector<std::string> environment_for_added(const ForeignSubjects& foreign);
 
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
-  ForeignSubjects foreign;           ///< they are asked as well
+  ForeignSubjects foreign;           ///< also asked
   unsigned seconds = 1;
-  std::function<void()> tick;  ///< called about twenty times a second while the target runs
+  std::function<void()> tick;  ///< called about 20 times a second while the target runs
   std::function<bool()> cancelled;
 };
 
-/// Runs the target for so long. It finds NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz in its environment, and there also that
-/// it is to ask foreign subjects and those of NEARMISS_ADD; its own messages go to fuzz/QUERY.log. Stored seeds are
-/// put into the corpus first.
+/// Copies the stored seeds into the corpus, then runs the target. Its environment has
+/// NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz and environment_for_added(); its messages go to fuzz/QUERY.log.
 FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget);
 
 }  // namespace nearmiss

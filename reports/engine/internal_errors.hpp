@@ -1,4 +1,4 @@
-/// Where the judge contradicts itself during a run: told, kept and counted, never a finding.
+/// Reports, stores and counts internal errors, where the judge contradicts itself. They are never findings.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace nearmiss {
 
 class InternalErrors {
  public:
-  /// The first few cases go to internal-errors/QUERY-SUBJECT-ID.json in this folder, which is made for the first.
+  /// Stores the first few cases as internal-errors/QUERY-SUBJECT-ID.json in this folder.
   explicit InternalErrors(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// confirmed(). Empty where the judge contradicts itself: that is added.
+  /// confirmed(); empty, after add(), where the judge contradicts itself.
   std::optional<Finding> judged(const Case& question, const Subject& subject, const Answer& answer,
                                 const Standard& standard, Detail detail);
-  /// Counts it. Of the first few one line on standard error has both words, and the case is a file that 'nearmiss
-  /// replay' takes. Throws IoError where it cannot be written.
+  /// Counts the error. For the first few it prints one line with both findings to standard error, and stores the case
+  /// as a file for 'nearmiss replay'. Throws IoError where the file cannot be written.
   void add(const Subject& subject, const InternalError& error);
 
   std::uint64_t count() const { return count_; }
   /// "; 2 internal errors, see FOLDER"; empty where there is none.
   std::string text() const;
-  /// How many, and those that were kept.
+  /// The count and the stored errors.
   nlohmann::ordered_json to_json() const;
 
  private:

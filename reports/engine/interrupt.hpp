@@ -1,10 +1,10 @@
-/// SIGINT, SIGTERM and SIGHUP as a request to stop at the next good moment.
+/// Turns SIGINT, SIGTERM and SIGHUP into a request to stop.
 #pragma once
 
 namespace nearmiss {
 
-/// The first of them from now on only makes interrupted() true; a second one ends the process. Under nohup SIGHUP
-/// stays ignored.
+/// From now on the first of these signals makes interrupted() true, and a second one ends the process. An ignored
+/// SIGHUP (nohup) stays ignored.
 void catch_interrupts();
 bool interrupted();
 

@@ -1,4 +1,4 @@
-/// The findings of a campaign that are worth a report, written as soon as their batch is over.
+/// Writes the findings that FindingRetention keeps as reports, at the end of each batch.
 #pragma once
 
 #include <filesystem>
@@ -17,29 +17,31 @@ class KeptReports : public Sink {
   /// Writes a file below the run folder.
   using Write = std::function<void(const std::filesystem::path& below, const std::string& text)>;
 
-  /// `counts` is told of every finding before this sink is. Reports that are in the folder already are listed first.
+  /// `counts` must be an earlier sink of the campaign than this one.
   KeptReports(std::filesystem::path folder, const Counts& counts, Write write);
-  /// Who is asked for second opinions. To be called before the first batch.
+  /// Sets the workers for second opinions. Call it before the first batch.
   void ask_with(Workers& workers) { workers_ = &workers; }
+  /// Lists the reports of earlier runs in the folder.
   void list_those_on_disk();
 
   void take(const Examined& e) override;
   void end_batch() override;
 
-  /// Those of earlier runs in the folder first.
+  /// All reports; those of earlier runs in the folder come first.
   const std::vector<WrittenReport>& written() const { return written_; }
-  /// How many are of this run.
+  /// The number of reports of this run.
   std::size_t count() const;
-  /// Headline and file of the worst, one for each query, subject and fault; empty without any.
+  /// Headline and file of the worst finding of each query, subject and fault; empty without findings.
   std::string worst_text() const;
 
  private:
-  /// A report asks other subjects, whose answers to the batch may still be wanted: so it waits.
+  /// A finding whose report is due. Its report asks other subjects, so it waits until the answers to the batch are
+  /// read.
   struct Pending {
     Case question;
     const Subject* subject;
     Answer answer;
-    std::string output;  ///< of a subject that broke
+    std::string output;  ///< output of a subject that broke
   };
   void write_report(const Pending& p);
 

@@ -1,5 +1,4 @@
-/// Tells on standard error how far long work is: one line that is rewritten on a terminal, elsewhere a
-/// line every ten seconds.
+/// Shows progress on standard error: on a terminal one line that is rewritten, elsewhere a line every ten seconds.
 #pragma once
 
 #include <chrono>
@@ -16,9 +15,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What is being done now: "stored cases", "fuzzing moving_sphere_box".
+  /// Names the current work: "stored cases", "fuzzing moving_sphere_box".
   void set_activity(std::string what);
-  /// Where the total is known, or else the seconds until the end, the time left is shown as well.
+  /// Also shows the time left where the total, or the seconds until the end, are known.
   void show(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
             std::uint64_t findings);
 
@@ -34,7 +33,7 @@ class Progress {
   bool shown_ = false;
 };
 
-/// Text for people on standard error. Whether it can be written is no matter: work goes on, and the exit code stays.
+/// Prints to standard error and ignores errors: they change neither the work nor the exit code.
 void say_on_stderr(const std::string& text) noexcept;
 
 /// "1 h 02 min", "3 min 05 s", "12 s", "0.4 s".

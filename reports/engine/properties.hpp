@@ -1,4 +1,4 @@
-/// The properties that are tested for each query, by name.
+/// The names of the property tests that run for each query.
 #pragma once
 
 #include <string>

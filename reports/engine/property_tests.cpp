@@ -16,15 +16,15 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// Those that ask about other cases with another seed.
+/// The tests whose cases depend on the seed.
 constexpr std::string_view with_seeds =
     "*EveryTier.AnswersKeepTheirContract*:*EveryTierRelated*:*CertifiedPostconditions*:*CertifiedTier*:*Watch*";
 
-/// Where there is time for it, in seconds, the watch of the judge asks about ten times as many answers to each query.
+/// With at least this many seconds, the tests that watch the judge use ten times as many answers for each query.
 constexpr double time_for_long_watch = 3 * 3600;
 constexpr std::string_view long_watch = "NEARMISS_WATCH_ANSWERS=1000000";
 
-/// "[       OK ] NAME (12 ms)", or FAILED in place of OK, as GoogleTest prints it while it runs.
+/// Counts the lines of GoogleTest: "[       OK ] NAME (12 ms)", or FAILED in place of OK.
 void count(const fs::path& log, PropertyOutcome& o) {
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);) {
@@ -58,7 +58,7 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
     environment.push_back(fmt::format("NEARMISS_RUNS={}", budget.run_folder.string()));
     if (budget.seconds >= time_for_long_watch) environment.emplace_back(long_watch);
     environment.push_back(fmt::format("RC_PARAMS=seed={} max_success=200 noshrink=1", seed));
-    // GoogleTest takes seeds of its order up to 99999.
+    // GoogleTest accepts seeds for its order up to 99999.
     Program tests;
     tests.arguments = {program.string(), fmt::format("--gtest_filter={}", with_seeds), "--gtest_shuffle",
                        "--gtest_color=no", fmt::format("--gtest_random_seed={}", 1 + seed % 99999)};
@@ -69,13 +69,13 @@ PropertyOutcome run_property_tests(const fs::path& program, const PropertyBudget
     while (!child.has_ended(50)) {
       budget.tick();
       if (Clock::now() < end && !budget.cancelled()) continue;
-      child.end();  // a test that is not at its end has no result
+      child.end();  // an unfinished test has no result
       stopped = true;
     }
     o.seeds.push_back(seed);
     count(log, o);
     if (stopped) break;
-    // GoogleTest's own program leaves with 0 or 1.
+    // A test program of GoogleTest exits with 0 or 1.
     if (child.exit_code().value_or(2) > 1) o.ended = fmt::format("{}, see {}", child.exit_text(), log.string());
     if (child.exit_code() == 0 && o.passed == 0) o.ended = fmt::format("no test ran, see {}", log.string());
   }

@@ -1,4 +1,4 @@
-/// The property tests as processes: found beside the command line, run for a time, never linked.
+/// Runs the property tests as processes for a given time. The command line never links them.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,30 @@
 
 namespace nearmiss {
 
-/// The program, where this build has it.
+/// The test program; empty where this build has none.
 std::optional<std::filesystem::path> find_property_tests();
 
 struct PropertyBudget {
   std::filesystem::path run_folder;  ///< receives properties/ with reports and logs
-  ForeignSubjects foreign;           ///< they are held to the properties as well
-  std::uint64_t seed = 0;            ///< of the first pass; each further one has the next
+  ForeignSubjects foreign;           ///< also tested
+  std::uint64_t seed = 0;            ///< the seed of the first pass; each pass adds 1
   double seconds = 1;
   std::function<void()> tick;  ///< called about twenty times a second
   std::function<bool()> cancelled;
 };
 
-/// What became of all passes together.
+/// The result of all passes.
 struct PropertyOutcome {
   std::uint64_t passed = 0;
   std::vector<std::string> failed;  ///< names of tests
   std::vector<std::uint64_t> seeds;
   double seconds = 0;
-  std::string ended;  ///< how it ended where that was no result; empty otherwise
+  std::string ended;  ///< how the program ended where it gave no result; empty otherwise
 };
 
-/// Holds the tiers of collide, the subjects of NEARMISS_ADD and foreign ones to the properties of generated cases, and
-/// the judge to its watch, with fresh seeds, in an order that the seed says, until the time is over. What a test says
-/// goes to properties/SEED.log, the report of a failing one to properties/QUERY/.
+/// Runs the property tests of the tiers of collide, of the subjects of NEARMISS_ADD and of foreign subjects, and the
+/// tests that watch the judge, in passes with fresh seeds until the time is over. The seed also shuffles the order of
+/// the tests. Messages go to properties/SEED.log, the report of a failed test to properties/QUERY/.
 PropertyOutcome run_property_tests(const std::filesystem::path& program, const PropertyBudget& budget);
 
 }  // namespace nearmiss

@@ -187,7 +187,7 @@ RelationReplay replay(const RelationCase& related, const std::string& file, std:
     RelationChoice choice = related.choice;
     choice.bit_for_bit = claims_same_bits(*s) || (choice.bit_for_bit && s->name == related.subject);
     if (s->scalar != related.question.scalar) {
-      // FollowUps are chosen in a scalar: in another one they would be other cases.
+      // Follow-ups depend on the scalar: in another scalar they would be other cases.
       r.unasked.push_back({s->name, fmt::format("the cases are related in {}", name_of(related.question.scalar))});
     } else if (auto report = examine_relation(choice, related.question, *s, workers)) {
       report->replay = replay_command(*s, file);

@@ -1,4 +1,4 @@
-/// Reports of broken relations: a case, those that it is related to, and answers that do not go together.
+/// Reports of broken relations: a case, its follow-ups, and answers that contradict each other.
 #pragma once
 
 #include <filesystem>
@@ -14,53 +14,54 @@
 
 namespace nearmiss {
 
-/// Which of its relations a case is about.
+/// The relation by which a case is examined.
 struct RelationChoice {
   const Relation* relation = nullptr;
-  std::uint64_t seed = 0;    ///< of the follow-ups, where there is a choice
-  bool bit_for_bit = false;  ///< the subject is held to the same bits
+  std::uint64_t seed = 0;    ///< selects the follow-ups, where the relation has a choice
+  bool bit_for_bit = false;  ///< the subject must give the same bits
 };
 
 struct RelationReport {
   RelationChoice choice;
   Agreement agreement = Agreement::same;
   Breach breach = Breach::none;
-  std::string broken;           ///< which promise is broken, and by what
-  std::string oracle;           ///< not empty: Nearmiss contradicts itself
-  std::vector<Report> answers;  ///< one for each case, the case itself first
-  std::string replay;           ///< the command that replays it; set by whoever writes it to a file
+  std::string broken;           ///< the broken promise and the finding that breaks it
+  std::string oracle;           ///< not empty: an error of Nearmiss itself
+  std::vector<Report> answers;  ///< one for each case, the original case first
+  std::string replay;           ///< the command that replays it; the writer of the file sets it
 };
 
-/// Asks about the case and its follow-ups, with second opinions on each. Empty: no follow-ups, or not offered.
+/// Examines the case and its follow-ups, with second opinions on each. Empty where there are no follow-ups, or the
+/// subject does not offer their query.
 std::optional<RelationReport> examine_relation(const RelationChoice& choice, const Case& question,
                                                const Subject& subject, Workers& workers);
-/// The same for answers that the subject has given already.
+/// The same for answers that the subject has already given.
 RelationReport report_of(const RelationChoice& choice, const RelationFinding& found, const Subject& subject,
                          Workers& workers);
 
-/// A broken promise: what makes a command exit with 1. A contradiction alone is none.
+/// True for a broken promise, which makes a command exit with 1. A contradiction alone breaks no promise.
 bool is_bad(Breach b);
 /// One of "none", "contradiction", "bits", "contract", "broke", "oracle".
 std::string_view breach_of(const RelationReport& r);
 std::string id_of(const RelationReport& r);
 std::string headline(const RelationReport& r);
-/// What does not go together, which answer is wrong, and whether either of them breaks its contract.
+/// The contradiction, the wrong answers, and whether any of them breaks its contract.
 std::string explanation(const RelationReport& r);
-/// A report as reports/report.schema.json has it, of the case itself, with the member "relation".
+/// The report of the original case in the form of reports/report.schema.json, with the member "relation".
 nlohmann::ordered_json report_to_json(const RelationReport& r);
 
-/// A report of a relation, read back. Empty where the file is none. Throws BadInput: malformed, or made by a version
-/// whose table of relations leads to other follow-ups.
+/// A case and relation, read from a report. read_relation_case() returns empty for a file of another kind. It throws
+/// BadInput for a malformed file, and where the relation of this version leads to other follow-ups.
 struct RelationCase {
   Case question;
   RelationChoice choice;
   std::string subject;
 };
 std::optional<RelationCase> read_relation_case(const std::filesystem::path& file);
-/// The same for what was read from `file` already.
+/// The same for JSON that was already read from `file`.
 std::optional<RelationCase> read_relation_case(const nlohmann::json& j, const std::string& file);
 
-/// What every subject says to a case and its follow-ups.
+/// The reports of every subject on a case and its follow-ups.
 struct RelationReplay {
   std::string file;
   std::vector<RelationReport> reports;

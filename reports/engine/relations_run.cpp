@@ -21,9 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t batch_size = 128;  ///< cases; each has follow-ups by every relation
-/// Reports of one query, subject and relation: so many broken promises, one contradiction, and then what is at least
-/// twice as bad as any before.
+constexpr std::size_t batch_size = 128;  ///< cases; each has follow-ups for every relation
+/// The reports for one query, subject and relation: the first broken promises, the first contradiction, and then every
+/// finding at least twice as bad as any before.
 constexpr std::uint64_t first_broken = 3, first_contradictions = 1;
 
 double worst_backward(const RelationFinding& f) {
@@ -34,7 +34,7 @@ double worst_backward(const RelationFinding& f) {
   return worst;
 }
 
-/// Where the answer to a follow-up belongs.
+/// The position of the answer to a follow-up: the case, and the index among its answers.
 struct Slot {
   std::size_t of, at;
 };
@@ -126,8 +126,7 @@ void RelationsRun::batch(Stream& stream, std::size_t count) {
 void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>& cases,
                               const std::map<const Subject*, std::vector<Answer>>& own) {
   std::vector<std::optional<FollowUps>> follow_ups;
-  std::map<const Query*, std::pair<std::vector<Case>, std::vector<Slot>>>
-      asked;  // a worker is asked one query at a time
+  std::map<const Query*, std::pair<std::vector<Case>, std::vector<Slot>>> asked;  // a batch holds cases of one query
   for (std::size_t i = 0; i < cases.size(); ++i) {
     follow_ups.push_back(relation.of(cases[i], cases[i].index));
     if (!follow_ups[i]) continue;
@@ -151,10 +150,10 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
       for (std::size_t n = 0; n < theirs.size(); ++n)
         answers[questions.second[n].of][questions.second[n].at] = theirs[n];
     }
-    if (should_stop()) return;  // some of them may be missing
+    if (should_stop()) return;  // some answers may be missing
     const bool bits = settings_.bit_for_bit || claims_same_bits(*subject);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      // Without an answer to the case itself there is nothing to compare; 'nearmiss run' reports it.
+      // Without an answer to the original case there is nothing to compare; 'nearmiss run' reports that.
       if (!follow_ups[i] || first_answers[i].status != Answer::Status::answered) continue;
       if (!offers_all(*subject, *follow_ups[i])) continue;
       if (!may_be_asked_all(*subject, *follow_ups[i])) {

@@ -1,4 +1,4 @@
-/// Many cases and those related to them through many subjects, counted by relation, with what is broken as reports.
+/// Asks many subjects many cases and their follow-ups, counts by relation, and writes reports of broken relations.
 #pragma once
 
 #include <chrono>
@@ -27,15 +27,15 @@ struct RelationsSettings {
   std::vector<const Subject*> subjects;
   std::vector<const Relation*> relations;
   std::uint64_t seed = 1;
-  bool bit_for_bit = false;  ///< every subject claims equal bits, not only those that are known to
+  bool bit_for_bit = false;  ///< every subject claims equal bits, not only claims_same_bits()
 };
 
-/// What came of one relation for one query and subject.
+/// The counts of one relation for one query and subject.
 struct RelationTally {
-  std::uint64_t cases = 0;  ///< answered, and so were all follow-ups
+  std::uint64_t cases = 0;  ///< cases where the case and all follow-ups were answered
   std::uint64_t numbers_differ = 0;
   std::uint64_t contradictions = 0, bits = 0, contract = 0, broke = 0, oracle = 0;
-  double worst_backward = -1;  ///< of the wrong answers, where it is proved
+  double worst_backward = -1;  ///< the largest proved bound of a wrong answer; negative: none
 
   void count(const RelationFinding& f);
   void add(const RelationTally& other);
@@ -49,21 +49,21 @@ class RelationsRun {
   /// Throws IoError where the folder cannot be made.
   explicit RelationsRun(RelationsSettings settings);
 
-  /// `cases` of each query, subject and relation, or as many as there is time for. Queries take turns. Stops early
-  /// when interrupted.
+  /// Examines `cases` of each query, subject and relation, or as many as the time allows. Queries take turns. An
+  /// interrupt stops it early.
   void run(std::optional<std::uint64_t> cases, std::optional<Clock::time_point> until = std::nullopt);
-  /// Writes relations.json, which reports/relations.schema.json describes, where the findings are.
+  /// Writes relations.json (reports/relations.schema.json) beside the findings.
   void write() const;
 
-  /// Rows of subject and relation, and sums.
+  /// A table with a row for each subject and relation, and sums.
   std::string table() const;
-  /// Who was not asked any more, a line each; empty where all were asked to the end.
+  /// A line for each subject that was given up; empty where all were asked to the end.
   std::vector<std::string> given_up() const;
   std::string worst_findings() const;
   std::string summary() const;
   nlohmann::ordered_json to_json() const;
   std::uint64_t bad() const;
-  /// Where Nearmiss contradicted itself, about one case or about related ones.
+  /// The number of errors of Nearmiss itself, on one case or on related cases.
   std::uint64_t contradicted() const;
   std::uint64_t pairs() const { return sum().cases; }
   std::uint64_t contradictions() const { return sum().contradictions; }
@@ -80,7 +80,7 @@ class RelationsRun {
     Key key;
     std::string file;
     Breach breach;
-    bool is_of_the_oracle;  ///< the judge contradicts itself
+    bool is_of_the_oracle;  ///< an error of Nearmiss itself
     std::string headline;
     double above = -1;
     std::string_view breach_name() const { return is_of_the_oracle ? "oracle" : name_of(breach); }
@@ -90,7 +90,8 @@ class RelationsRun {
                   const std::map<const Subject*, std::vector<Answer>>& own);
   void take(const Key& key, const RelationChoice& choice, const RelationFinding& found);
   bool worth_a_report(const Key& key, const RelationFinding& found, double above);
-  /// What is not answered for want of patience or time is without an answer.
+  /// The answers to all cases. A case that was not asked, after time-outs or at the end of the time, has
+  /// answer_of_given_up().
   std::vector<Answer> ask(const Subject& subject, const std::vector<Case>& cases);
   RelationTally sum() const;
   bool should_stop() const;
@@ -106,7 +107,7 @@ class RelationsRun {
   std::vector<Written> written_;
   InternalErrors internal_errors_;
   std::uint64_t done_ = 0;
-  std::uint64_t not_asked_ = 0;  ///< pairs of which a follow-up is outside of what the subject requires
+  std::uint64_t not_asked_ = 0;  ///< pairs with a follow-up that does not meet the subject's preconditions
   std::optional<std::uint64_t> total_;
 };
 

@@ -15,7 +15,7 @@ namespace nearmiss {
 
 namespace {
 
-/// "box.center" and its numbers, one row for each vector.
+/// Rows of a name and its numbers, one row for each vector: "box.center" 0 1 2.
 std::vector<std::vector<std::string>> rows_of(const std::vector<Field>& fields,
                                               const std::function<std::string(std::size_t)>& number) {
   std::vector<std::vector<std::string>> rows;
@@ -98,8 +98,8 @@ std::string origin_text(const Case& c) {
   return text;
 }
 
-/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for a query that
-/// this build does not know: with the names that are near.
+/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for an unknown
+/// query, with similar names.
 void check_kind(const nlohmann::json& j, const std::string& where) {
   if (!j.is_object()) return;
   for (const auto& [member, what] :
@@ -108,7 +108,7 @@ void check_kind(const nlohmann::json& j, const std::string& where) {
       throw BadInput(fmt::format("{}: it is {}; what can be replayed is a case or a report", where, what));
     }
   }
-  const auto is_readable = [](const nlohmann::json& version) {  // the case is written alike in all of them
+  const auto is_readable = [](const nlohmann::json& version) {  // all versions write the case in the same form
     return version.is_number_integer() && version >= 1 && version <= report_schema_version;
   };
   if (j.contains("finding") && (!j.contains("schema") || !is_readable(j["schema"]))) {

@@ -1,4 +1,4 @@
-/// One case again: what every subject says to it, as a page for people.
+/// Asks every subject one case again, and prints the answers as a page.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace nearmiss {
 
 /// The case of a case file, of a stored case or of a report. Throws BadInput.
 Case read_case_or_report(const std::filesystem::path& file);
-/// The same for what was read from `file` already.
+/// The same for JSON that was already read from `file`.
 Case case_of(const nlohmann::json& j, const std::string& file);
-/// By what the report's subject was measured; the usual measure where the file says none. Throws BadInput.
+/// The measure of the report's subject; the usual measure where the file has none. Throws BadInput.
 Measure measure_of(const nlohmann::json& j, const std::string& file);
 
 /// One case and its reports, one for each subject that was asked.
@@ -27,15 +27,15 @@ struct Replay {
   struct Unasked {
     std::string subject, why;
   };
-  std::vector<Unasked> unasked;  ///< not offered, or the numbers are not exact in the subject's scalar
+  std::vector<Unasked> unasked;  ///< the subject does not offer the query, or cannot be asked the case
 };
 
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
               Workers& workers);
-/// The command line that asks the subject again, from any folder, with its plugin or command where it is one.
+/// The command line that replays the file with this subject from any folder; it loads the subject's plugin or command.
 std::string replay_command(const Subject& subject, const std::string& file);
 std::string replay_text(const Replay& r);
-/// A case and what is true of it, for people.
+/// The inputs of a case and its exact answer, as text.
 std::string case_page(const Case& question, const Truth& truth);
 
 }  // namespace nearmiss

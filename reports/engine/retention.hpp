@@ -1,5 +1,5 @@
-/// Which of many findings are kept as reports: of each kind the first few, and then those that are at least twice as
-/// bad as any that was kept before.
+/// The retention rule for reports: of each kind the first few findings, and then findings at least twice as bad as any
+/// kept before.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace nearmiss {
 
 class Retention {
  public:
-  /// `above`: the proved bound by which two findings of a kind are compared; not above 0 where there is none.
+  /// True where a finding of this kind is kept. `above` is its proved bound, which orders the findings of a kind; 0 or
+  /// negative: no bound.
   bool keep(const std::string& kind, double above, std::uint64_t first_few);
 
  private:

@@ -29,7 +29,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace std::chrono_literals;
 
-/// An index is not written more often, and not for more than a share of the time.
+/// The least time between two writes of the index, and the bound on their share of the time: 1 / index_share.
 constexpr auto between_indexes = 500ms;
 constexpr int index_share = 30;
 constexpr int run_schema_version = 2;
@@ -38,7 +38,7 @@ std::string utc_text(const char* format) { return fmt::format(fmt::runtime(forma
 
 double seconds_since(Run::Clock::time_point t) { return std::chrono::duration<double>(Run::Clock::now() - t).count(); }
 
-/// Turns the state of the index that is there from running to failed, byte for byte: this needs no room on the disk.
+/// Overwrites the state "running" in the existing index with "failed", in place: this needs no space on the disk.
 void mark_as_failed(const std::filesystem::path& index) noexcept {
   constexpr std::string_view running = "\"state\": \"running\",", failed = "\"state\": \"failed\" ,";
   static_assert(running.size() == failed.size());
@@ -47,7 +47,7 @@ void mark_as_failed(const std::filesystem::path& index) noexcept {
   if (file < 0) return;
   const ssize_t got = pread(file, head.data(), head.size(), 0);
   const std::size_t at = std::string_view(head.data(), std::size_t(std::max<ssize_t>(0, got))).find(running);
-  // Whether it succeeds is no matter: nothing else can be done, and the error that led here is told by others.
+  // A failure is ignored: nothing else can be done, and the caller reports the original error.
   if (at != std::string_view::npos) [[maybe_unused]]
     const auto put = pwrite(file, failed.data(), failed.size(), off_t(at));
   close(file);
@@ -99,7 +99,7 @@ Run::~Run() {
   if (finished_) return;
   try {
     write_index(RunState::failed);
-  } catch (const std::exception&) {  // what made it fail is on its way already
+  } catch (const std::exception&) {  // the original error is already being thrown
     mark_as_failed(settings_.folder / "index.json");
   }
 }

@@ -1,8 +1,7 @@
-/// A run: many cases through many subjects, counted, with the worst findings kept as reports.
+/// A run: asks many subjects many cases, counts the findings, and keeps the worst as reports.
 ///
-/// The run folder holds index.json, which reports/run.schema.json describes (written when the run
-/// begins, about every second, and at its end), and findings/QUERY/SUBJECT-FAULT-ID.json, each written
-/// as soon as it is found.
+/// The run folder holds index.json (reports/run.schema.json), which is written at the start, about every second and at
+/// the end, and findings/QUERY/SUBJECT-FAULT-ID.json, each written at the end of its batch.
 #pragma once
 
 #include <chrono>
@@ -25,12 +24,12 @@
 
 namespace nearmiss {
 
-/// reports/runs/ of the source tree, or what the environment variable NEARMISS_RUNS says.
+/// The folder in the environment variable NEARMISS_RUNS, or reports/runs/ of the source tree.
 std::filesystem::path runs_folder();
-/// "20260131T235959Z-42" within runs_folder().
+/// A folder like "20260131T235959Z-42" in runs_folder().
 std::filesystem::path new_run_folder(std::uint64_t seed);
 
-/// Where a run was when it was last written down.
+/// The state of a run at the time of its index.
 enum class RunState { running, finished, interrupted, failed };
 std::string_view name_of(RunState s);
 
@@ -40,8 +39,8 @@ struct RunSettings {
   std::vector<const Query*> queries;
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 0;
-  std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop, if not by number of cases
-  bool by_class = false;  ///< count by the generator's moves as well, for table_by_class() and the index
+  std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop; empty: by number of cases
+  bool by_class = false;  ///< also count by mutator, for table_by_class() and the index
 };
 
 class Run {
@@ -52,46 +51,46 @@ class Run {
   /// BadInput where another run has locked the folder.
   /// The same goes for whatever is written later: the line says how far the run came.
   explicit Run(RunSettings settings);
-  /// Without finish() the run has failed, and its index says so, even where no other byte can be written.
+  /// Without a previous finish() it marks the run as failed in the index, even on a full disk.
   ~Run();
 
-  /// Asks every subject of the run that offers the query and computes in the cases' scalar. All cases
-  /// are of one query and one scalar. Stops early when it should.
+  /// Asks every subject of the run that offers the query and computes in the scalar of the cases. All cases are of one
+  /// query and one scalar. Stops early on should_stop().
   void examine(std::span<const Case> cases);
-  /// Asks every subject that offers the query, whatever its scalar; a case that it cannot hold exactly
-  /// is out of its domain. `listener`, where there is one, takes every finding too.
+  /// Asks every subject that offers the query, in any scalar; a case that the scalar cannot hold exactly is out of
+  /// domain. `listener` is an additional sink, or nullptr.
   void examine_by_all(const Case& question, Sink* listener = nullptr);
-  /// Cases of the generator: `cases` for each query and subject, or without a number until the time is
-  /// over. Queries take turns, so that each gets the same time as long as it has cases left. Subjects that require the
-  /// same get the same cases, fitted to that.
+  /// Examines generated cases: `cases` for each query and subject, or without a number until the time is over. Queries
+  /// take turns, so that each gets the same time while it has cases left. Subjects with the same preconditions get the
+  /// same cases, which meet these preconditions.
   void generate(std::optional<std::uint64_t> cases);
 
-  /// True when it was interrupted or its time is over.
+  /// True when the run was interrupted or its time is over.
   bool should_stop() const { return campaign_.should_stop(); }
   void set_until(Clock::time_point until) { campaign_.set_until(until); }
-  /// A part of the run beyond its counts, such as "stored" or "fuzz", for the index.
+  /// Adds a part beyond the counts, such as "stored" or "fuzz", to the index.
   void note(const std::string& part, nlohmann::ordered_json value);
   void set_activity(std::string what);
-  /// For work outside of this class: shows progress, and brings the index up to date from time to time.
+  /// Call it during work outside this class: shows progress, and updates the index from time to time.
   void tick();
 
-  /// Writes the last index. The run is interrupted or finished.
+  /// Writes the last index, with the state interrupted or finished.
   void finish();
-  /// One line: what was asked and what came of it.
+  /// One line with the number of answers, the time, the violations and the reports.
   std::string summary() const;
-  /// One line, where fewer cases were asked than were wanted: interrupted, or no time for a single one.
+  /// One line where the run was interrupted or had no time for a single case; empty otherwise.
   std::optional<std::string> shortfall() const;
-  /// Answers about which the judge contradicts itself: told and kept, never counted among the findings.
+  /// Errors of the judge itself, which are never counted as findings.
   const InternalErrors& internal_errors() const { return campaign_.internal_errors(); }
   const Counts& counts() const { return counts_; }
   const KeptReports& kept() const { return kept_; }
   const RunSettings& settings() const { return settings_; }
-  /// 0, 1 for violations, 2 without any where there is a shortfall(); InternalError's where there was one.
+  /// 0; 1 for violations; 2 for a shortfall() without violations; InternalError::exit_code after an internal error.
   int exit_code() const;
 
  private:
   struct Notes;
-  /// Hands on to whoever listens at the moment.
+  /// Forwards to the current additional sink.
   struct Listener : Sink {
     Sink* to = nullptr;
     void take(const Examined& e) override {
@@ -106,7 +105,7 @@ class Run {
   std::optional<FolderLock> lock_;
   std::string started_;
   Clock::time_point begin_, indexed_;
-  Clock::duration indexing_{};  ///< what it took to write the index last
+  Clock::duration indexing_{};  ///< time of the last write of the index
   std::unique_ptr<Notes> notes_;
   Progress progress_;
   std::optional<std::uint64_t> total_;

@@ -38,8 +38,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Looks at the beginning of an index, in which its state stands, for there may be many that are large. Those of
-/// somebody else are none of ours to change.
+/// True where the beginning of an index has the state "running". Reads only the beginning, because indexes may be many
+/// and large. False for a file of another user.
 bool may_be_running(const fs::path& index) {
   struct stat file {};
   if (::stat(index.c_str(), &file) != 0 || !S_ISREG(file.st_mode) || file.st_uid != ::geteuid()) return false;
@@ -69,7 +69,7 @@ std::optional<WrittenReport> report_in(const fs::path& folder, const fs::path& f
   return w;
 }
 
-/// The index of a run that is neither finished nor running.
+/// Turns the index of a killed run into that of an interrupted run.
 void complete(Json& index, const fs::path& folder) {
   index["state"] = name_of(RunState::interrupted);
   std::set<std::string> listed;
@@ -103,8 +103,8 @@ std::vector<WrittenReport> reports_on_disk(const fs::path& folder) {
     if (file.extension() != ".json") continue;
     try {
       if (auto w = report_in(folder, file)) all.push_back(std::move(*w));
-    } catch (const BadInput&) {         // it cannot be read
-    } catch (const Json::exception&) {  // it is no report
+    } catch (const BadInput&) {         // the file cannot be read
+    } catch (const Json::exception&) {  // the file is not a report
     }
   }
   return all;
@@ -113,20 +113,20 @@ std::vector<WrittenReport> reports_on_disk(const fs::path& folder) {
 bool settle_run(const fs::path& folder) try {
   if (!may_be_running(folder / index_name)) return false;
   const FolderLock lock(folder);
-  const std::string text = read_file(folder / index_name);  // it may have ended since
-  (void)parse_json(text, index_name);                       // refuses what is nested too deep to be printed
+  const std::string text = read_file(folder / index_name);  // the run may have ended since
+  (void)parse_json(text, index_name);                       // refuses JSON that is nested too deep to print
   Json index = Json::parse(text);
   if (index.at("state") != name_of(RunState::running) || !index.at("reports").is_array()) return false;
   std::error_code error;
   for (const fs::path& file : files_below(folder)) {
-    if (file.extension() == ".part") fs::remove(file, error);  // half of a file that was being written
+    if (file.extension() == ".part") fs::remove(file, error);  // a partial file
   }
   complete(index, folder);
   write_file(folder / index_name, pretty_json(index));
   return true;
 } catch (const ReportedError&) {  // locked, unreadable or not writable: the next command that needs it reports why
   return false;
-} catch (const Json::exception&) {  // an index of another version, or none
+} catch (const Json::exception&) {  // not an index of this version
   return false;
 }
 

@@ -1,4 +1,4 @@
-/// Whose turn it is: streams of cases of the generator share the time of a campaign equally.
+/// Schedules streams of generated cases, so that they share the time of a campaign equally.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,27 @@
 
 namespace nearmiss {
 
-/// The cases of one query in one scalar for the subjects that require the same of them.
+/// The cases of one query in one scalar, for subjects with the same preconditions.
 struct Stream {
   const Query* query;
   Scalar scalar;
   Preconditions required;
   std::vector<const Subject*> subjects;
   std::uint64_t next = 0;  ///< the index of its next case
-  double seconds = 0;      ///< that it has taken so far
-  std::size_t batch;       ///< cases to ask at once
+  double seconds = 0;      ///< time that it has taken so far
+  std::size_t batch;       ///< cases in its next batch
 };
 
 class Schedule {
  public:
-  /// A stream for every query, scalar and set of preconditions of a subject that offers the query. `cases` of each, or
-  /// without end.
+  /// Makes a stream for every query, scalar and set of preconditions of a subject that offers the query. Each has
+  /// `cases` cases, or no end.
   Schedule(const std::vector<const Query*>& queries, const std::vector<const Subject*>& subjects,
            std::optional<std::uint64_t> cases, std::size_t first_batch = 32);
 
-  /// Of the streams with cases left, the one that has taken least time; nullptr where none has.
+  /// The stream that has taken the least time, of those with cases left; nullptr where no stream has cases left.
   Stream* next();
-  /// At most `most` cases: a batch of the stream, or what is left of it.
+  /// The size of the stream's next batch: at most `most`, and at most the cases left.
   std::size_t batch_of(const Stream& s, std::size_t most) const;
   const std::vector<Stream>& streams() const { return streams_; }
 
@@ -41,7 +41,7 @@ class Schedule {
   std::vector<Stream> streams_;
 };
 
-/// Makes the next `count` cases of the stream, fitted to what its subjects require.
+/// Makes the next `count` cases of the stream, which meet the preconditions of its subjects.
 void generate_next(Stream& s, std::uint64_t seed, std::size_t count, std::vector<Case>& into);
 
 }  // namespace nearmiss

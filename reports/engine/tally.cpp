@@ -16,7 +16,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The ways in which members of the answer differ, each once.
+/// The disagreements of the members of the answer, each once.
 std::set<Disagreement> ways(const Finding& f, bool breaking) {
   std::set<Disagreement> ways;
   for (const MemberFinding& m : f.members) {
@@ -49,7 +49,8 @@ void Tally::count(const Finding& f) {
   }
   if (f.verdict == Verdict::broke) ++breakages[breakage_of(f)];
   if (f.backward) worst_backward = std::max(worst_backward, f.backward->above);
-  if (!violates && f.verdict != Verdict::agrees && f.verdict != Verdict::not_proved) return;  // no truth was asked for
+  if (!violates && f.verdict != Verdict::agrees && f.verdict != Verdict::not_proved)
+    return;  // the judge did not compute the exact answer
   ++(f.decided_by == Stage::interval ? decided_by_interval : decided_by_exact);
   if (f.truth_yes) ++truth_yes;
   if (std::isfinite(f.forward_ulps)) worst_forward = std::max(worst_forward, f.forward_ulps);

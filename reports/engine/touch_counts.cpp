@@ -18,7 +18,7 @@ TouchCount sum(const std::map<std::string, TouchCount>& features) {
   return all;
 }
 
-/// Parallel axes and distances of centers are decisions, but nothing touches there.
+/// False for decisions without contact, such as parallel axes or distances of centers.
 bool is_about_contact(const Query& query) { return decides(query.kind) && query.traits.touching_is_yes; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The worst findings of a campaign as people are told of them.
+/// Prints the worst findings of a campaign.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 namespace nearmiss {
 
 struct WorstFinding {
-  std::string group;  ///< of each group the worst is told
+  std::string group;  ///< only the worst of each group is printed
   double above;       ///< negative where nothing is proved
   std::string headline, file;
-  bool last = false;  ///< told after all others
+  bool last = false;  ///< printed after all others
 };
 
-/// Headline and file of the worst, a dozen at most; `index` says where the others are. Empty without any.
+/// Headline and file of the worst findings, at most twelve; `index` is the file that lists all. Empty without findings.
 std::string worst_text(const std::vector<WorstFinding>& findings, const std::filesystem::path& folder,
                        const char* index);
 

@@ -9,14 +9,14 @@ namespace nearmiss {
 
 namespace {
 
-/// Reasons are cut where memory for them ends (Answer::why), so that their last words may be half ones.
+/// Longest kind in bytes. Reasons are cut (Answer::why), so their last word may be incomplete.
 constexpr std::size_t most_bytes = 80;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_of_word(char c) { return is_digit(c) || is_letter(c) || c == '_'; }
 
-/// A name with an ending of letters, as source files have it.
+/// True for a name with an extension of one to four letters, as source files have.
 bool is_source_file(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string_view::npos || dot == 0 || name.size() - dot > 5 || dot + 1 == name.size()) return false;
@@ -40,7 +40,7 @@ std::string place_in(std::string_view text) {
   return {};
 }
 
-/// How many characters from `at` are a number or a word for one; 0: none begins there.
+/// The length of the number, or of nan or inf, that begins at `at`; 0 where none begins there.
 std::size_t number_at(std::string_view text, std::size_t at) {
   if (at > 0 && is_of_word(text[at - 1])) return 0;
   std::size_t end = at;

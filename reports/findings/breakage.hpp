@@ -1,4 +1,4 @@
-/// Why subjects broke, told apart by cause.
+/// Groups breakages of subjects by cause.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Short names of findings: the same in every run.
+/// Short identifiers of findings, the same in every run.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,14 +12,14 @@
 
 namespace nearmiss {
 
-/// FNV-1a, with a mark after each part.
+/// The FNV-1a hash, with a separator after each part.
 class Fnv1a {
  public:
   void add(std::string_view bytes) {
     for (const unsigned char c : bytes) hash_ = (hash_ ^ c) * 0x100000001b3u;
     hash_ = (hash_ ^ 0xffu) * 0x100000001b3u;
   }
-  /// Bit for bit.
+  /// Adds the bits of a number.
   void add(double x) { add(std::string_view(fmt::format("{:016x}", std::bit_cast<std::uint64_t>(x)))); }
   void add(const Case& c) {
     add(c.query->name);

@@ -14,7 +14,7 @@ bool fits_on_a_line(const Json& j) {
   return !j.is_array() || std::all_of(j.begin(), j.end(), fits_on_a_line);
 }
 
-/// Bytes that are no UTF-8, as a folder's name may have them, become U+FFFD.
+/// Bytes that are not UTF-8, for example in the name of a folder, become U+FFFD.
 std::string dumped(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 void put_line(const Json& j, std::string& text) {

@@ -1,4 +1,4 @@
-/// JSON laid out for people.
+/// Formats JSON for readers.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-/// Two spaces a level; an array without objects stays on one line: [x, y, z]. Ends with a new line.
+/// Two spaces per level; an array without objects stays on one line: [x, y, z]. The text ends with a newline.
 std::string pretty_json(const nlohmann::ordered_json& j);
 
 }  // namespace nearmiss

@@ -12,8 +12,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The factor, a power of two, that brings the largest position or size of the case to [1, 2); empty where that is not
-/// exact or changes nothing. Lengths, speeds and plane offsets are scaled, so times stay as they are.
+/// The power of two that brings the largest position or size of the case to [1, 2); empty where all are zero or the
+/// factor is 1. Lengths, speeds and plane offsets are scaled, so times do not change.
 std::optional<double> to_unit_scale(const Case& c) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
@@ -36,7 +36,7 @@ std::optional<Case> scaled(const Case& question, double factor) {
   return c;
 }
 
-/// The answer to a scaled case as one to the case itself.
+/// Converts the answer to a scaled case to an answer to the original case.
 Answer scaled_back(const Query& query, Answer a, double factor) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     const Role role = query.outputs[i].role;
@@ -45,8 +45,8 @@ Answer scaled_back(const Query& query, Answer a, double factor) {
   return a;
 }
 
-/// Every referee that offers the query and can hold the case's numbers, but for the subject itself: asked
-/// as a user would, and once more at unit scale, since their tolerances are lengths.
+/// The opinions of every referee, other than the subject, that offers the query and can hold the case's numbers. Each
+/// gets the case itself and, because its tolerances are lengths, once more at unit scale.
 std::vector<Opinion> second_opinions(const Case& question, const Subject& subject, Workers& workers) {
   std::vector<Opinion> opinions;
   for (const Subject& referee : subjects()) {

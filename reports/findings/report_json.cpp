@@ -16,14 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no word for numbers that are not finite.
+/// JSON has no numbers that are not finite, so these become strings.
 Json number(double x) {
   if (std::isnan(x)) return "NaN";
   if (std::isinf(x)) return x > 0 ? "Infinity" : "-Infinity";
   return x;
 }
 
-/// A promise of infinity promises nothing.
+/// A bound of infinity promises nothing, and becomes null.
 Json promise(double x) { return std::isinf(x) ? Json(nullptr) : Json(x); }
 
 Json enclosure(const Bounds& b) { return Json::array({number(b.low), number(b.high)}); }
@@ -39,7 +39,7 @@ Json with_vectors(const Json& j) {
   return out;
 }
 
-/// The first `count` fields nested by name, each leaf an enclosure; those of `skipped` roles left out.
+/// The first `count` fields nested by name, each leaf an enclosure; normals are left out where `skip_normals` is set.
 Json enclosures(const std::vector<Field>& fields, std::size_t count, std::span<const Bounds> values,
                 bool skip_normals) {
   Json nested = Json::object();
@@ -71,7 +71,7 @@ Json epsilons(const char* name, double k, Scalar scalar) {
   return {{name, k}, {"relative", k * unit_roundoff(scalar)}, {"epsilon", unit_roundoff(scalar)}};
 }
 
-/// The backward bound in absolute terms: how far numbers of each group may move.
+/// The backward bound in absolute terms: how far the numbers of each group may move.
 Json moved(const Case& question, double k) {
   const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
   Json groups = Json::object();
@@ -100,7 +100,7 @@ Json member_finding(const Case& question, const MemberFinding& m) {
          {"disagreement", name_of(m.disagreement)},
          {"breaks", m.breaks() ? Json(m.clause) : Json(nullptr)}};
   j["backward"] = backward(question, m.backward);
-  // Without a right decision, or a distance, there is nothing to be off from.
+  // With a wrong decision there is no exact number to compare with.
   j["forward"] = m.forward_ulps > 0 ? forward(query, m.worst, m.forward_ulps, m.forward_absolute) : Json(nullptr);
   return j;
 }
@@ -191,7 +191,7 @@ Json environment_to_json() {
   return {{"nearmiss", version()}, {"compiler", compiler()}, {"build", build_type()}, {"platform", platform()}};
 }
 
-/// Of what a foreign program wrote.
+/// The output of a program, line by line.
 Json lines_to_json(std::string_view text) {
   Json lines = Json::array();
   while (!text.empty()) {

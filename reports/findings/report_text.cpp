@@ -22,15 +22,15 @@ int index_of(const std::vector<Field>& fields, Role role) {
   return at == fields.end() ? -1 : int(at - fields.begin());
 }
 
-/// Yes and no in the words of the query.
+/// The decisions in the words of the query.
 struct Phrases {
   std::string yes, no;              ///< "the sphere hits the box"
   std::string it_yes, it_no;        ///< "it is a hit"
   std::string still_yes, still_no;  ///< "it would still be a hit"
 };
 
-/// A miss is the answer of the query's meaning, whatever touches: a contact that leaves is a miss, and so is a point
-/// that starts inside.
+/// The phrases say "hit" and "miss" in the sense of the query: by its definition, for example, a separating contact is
+/// a miss although the bodies touch.
 Phrases phrases(const Query& query) {
   const auto& [yes, no] = query.traits.decision;
   if (!yes.empty()) {
@@ -63,7 +63,7 @@ Phrases phrases(const Query& query) {
           "they would still touch or overlap", "they would still be apart"};
 }
 
-/// " at time 0.5", " by 0.25": what makes a yes or no precise. Empty where the kind has no such number.
+/// The number that completes a decision: " at time 0.5", ", depth 0.25". Empty where the kind has no such number.
 std::string measure_text(const Query& query, bool yes, const std::function<std::string(std::size_t)>& number) {
   const int time = index_of(query.outputs, Role::time), depth = index_of(query.outputs, Role::depth);
   if (query.kind == Kind::impact && yes && time >= 0) return " at time " + number(std::size_t(time));
@@ -79,7 +79,7 @@ std::string member_text(const Query& query, std::size_t member, const std::funct
   return parts.size() == 1 ? parts[0] : fmt::format("({})", fmt::join(parts, ", "));
 }
 
-/// How far that alternative's member is from the given one: its number that is furthest off.
+/// The largest distance of a given number of a member from the alternative, and the index of that number.
 struct Off {
   double by = 0;
   std::size_t number = 0;
@@ -96,7 +96,7 @@ Off off_by(const Layout::Part& part, const Alternative& right, const Answer& giv
 
 std::string group_name(Role role) { return role == Role::velocity ? "velocities" : fmt::format("{}s", name_of(role)); }
 
-/// "positions by 1.5e-08 and sizes by 2e-09": what so many epsilon are in the case's own units.
+/// `k` epsilon in the units of the case: "positions by 1.5e-08 and sizes by 2e-09".
 std::string absolute_text(const Case& question, double k) {
   const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
   std::vector<std::string> groups;
@@ -123,7 +123,7 @@ class Explanation {
       : r_(r), query_(*r.question.query), scalar_(r.question.scalar), phrases_(phrases(query_)) {}
 
   std::string text() const {
-    std::vector<std::string> sentences = says();
+    std::vector<std::string> sentences = statement();
     if (const std::string s = excuse(); !s.empty()) sentences.push_back(s);
     if (const std::string s = others(); !s.empty()) sentences.push_back(s);
     if (const std::string s = promise(); !s.empty()) sentences.push_back(s);
@@ -139,7 +139,7 @@ class Explanation {
       default: return fault_of(r_.finding.disagreement, member());
     }
   }
-  /// Of the member that the headline names, or of the whole answer.
+  /// The proved backward bound of the member in the headline, or of the whole answer.
   std::optional<double> above() const {
     const MemberFinding* head = r_.finding.headline_member();
     if (head != nullptr) return head->backward ? std::optional(head->backward->above) : std::nullopt;
@@ -148,7 +148,7 @@ class Explanation {
 
  private:
   std::string given(std::size_t i) const { return value_text(r_.answer.values[i], scalar_); }
-  /// Index in the layout of the member that the headline names.
+  /// The index in the layout of the member in the headline.
   std::size_t member() const {
     const MemberFinding* head = r_.finding.headline_member();
     return head == nullptr || head->member < 0 ? 0 : std::size_t(head->member);
@@ -178,8 +178,8 @@ class Explanation {
     }
   }
 
-  /// What it said, and what is true.
-  std::vector<std::string> says() const {
+  /// The given and the exact answer.
+  std::vector<std::string> statement() const {
     const std::string exactly = "Exactly, " + truth_text(query_, r_.truth);
     const Finding& f = r_.finding;
     if (f.verdict == Verdict::broke) return {fmt::format("{} gave no answer: {}", r_.subject, f.clause), exactly};
@@ -249,7 +249,7 @@ class Explanation {
     return {said, fmt::format("{}{}: {} is off by {:.3g}{}, {:.3g} units in the last place", one_of, exact,
                               query_.outputs[off.number].name, off.by, travelled(part, off.by), head.forward_ulps)};
   }
-  /// " (1.5e-08 of the way)": a time means little without the speed and the size of the scene.
+  /// The length of the motion in the time `by`, and its share of the scene: puts an error of a time into proportion.
   std::string travelled(const Layout::Part& part, double by) const {
     const double speed = length(r_.question, Role::velocity);
     if (part.role != Role::time || !(speed > 0)) return "";
@@ -263,7 +263,7 @@ class Explanation {
     return fmt::format(" (in which the motion covers {:.2g}{})", by * speed, share);
   }
 
-  /// How far the inputs may move without making the answer right.
+  /// How far the inputs may move without making the answer right; empty where nothing is proved.
   std::string excuse() const {
     const Finding& f = r_.finding;
     const std::optional<double> proved = above();
@@ -282,7 +282,7 @@ class Explanation {
     const MemberFinding* head = r_.finding.headline_member();
     return head == nullptr || head->member < 0 ? "answer" : name_of_member(member());
   }
-  /// For a wrong decision: the truth is proved to stay as it is for inputs this near, in epsilon.
+  /// For a wrong decision: the exact decision is proved to be the same for all inputs within this many epsilon.
   double same_decision_within() const {
     const Finding& f = r_.finding;
     if (f.disagreement == Disagreement::false_miss && query_.kind != Kind::depth) {
@@ -292,7 +292,7 @@ class Explanation {
                ? r_.truth.margin_at_least
                : -1;
   }
-  /// What else is wrong, member by member.
+  /// The other wrong members.
   std::string others() const {
     std::vector<std::string> faults;
     for (std::size_t i = 0; i < r_.finding.members.size(); ++i) {
@@ -317,8 +317,9 @@ class Explanation {
                                   : "It promises nothing, and is not proved to differ by more than the measure";
     }
     const MemberFinding* head = f.headline_member();
-    const bool says_it_itself = head != nullptr && !head->backward && head->disagreement != Disagreement::not_unit;
-    if (!is_bad(f) || f.verdict == Verdict::broke || says_it_itself) return "";
+    const bool clause_is_in_the_text =
+        head != nullptr && !head->backward && head->disagreement != Disagreement::not_unit;
+    if (!is_bad(f) || f.verdict == Verdict::broke || clause_is_in_the_text) return "";
     if (f.broken == Clause::backward && !r_.standard.promised) {
       return fmt::format("{} a backward error of at most {:g} times the largest number in each group", it,
                          measure().error);

@@ -1,4 +1,4 @@
-/// A report in sentences that a stranger can believe.
+/// A report in sentences.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace nearmiss {
 
-/// One line: who, what, in which query, and how far rounding falls short of explaining it.
+/// One line: the subject, its fault, the query, and the proved bound of the backward error.
 std::string headline(const Report& r);
-/// Two to four sentences: what the subject said, what is exactly true, how far the inputs would have to
-/// move to excuse it, and which promise it breaks.
+/// Two to four sentences: the subject's answer, the exact answer, how far the inputs would have to move to make the
+/// answer right, and the promise that the answer breaks.
 std::string explanation(const Report& r);
 
-/// "hit at time 0.48", "miss", "depth -1.5", "(1, 2, 3)": an answer in one cell of a table.
+/// An answer in one cell of a table: "hit at time 0.48", "miss", "(1, 2, 3)".
 std::string answer_text(const Query& query, const Answer& answer, Scalar scalar);
-/// What is exactly true, in one sentence without its full stop: "they touch at time 0.48".
+/// The exact answer, a sentence without its full stop: "it is a hit at time 0.48".
 std::string truth_text(const Query& query, const Truth& truth);
 
 }  // namespace nearmiss

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The scene at that time, in double, as a case of the static query.
+/// The scene at time `time`, in double, as a case of the static query.
 Case placed_at(const Case& question, const Link& link, double time) {
   Case there = question;
   there.scalar = Scalar::float64;
@@ -24,12 +24,13 @@ Case placed_at(const Case& question, const Link& link, double time) {
                        fields.begin());
   };
   const std::size_t place = first(Role::position),
-                    velocity = first(Role::velocity);  // of what moves: it is named first
+                    velocity = first(Role::velocity);  // of the moving body, which is the first operand
   for (std::size_t k = 0; k < 3; ++k) there.values[place + k] += question.values[velocity + k] * time;
   return metamorphic::recast(there, link);
 }
 
-/// The time in which the body moves by 2^-10 of the largest size, or else position; 0 where nothing moves.
+/// The time in which the body moves by 2^-10 of the largest size, or of the largest position where all sizes are zero;
+/// 0 without motion.
 double step_of(const Case& c) {
   double size = 0, position = 0, speed = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
@@ -42,7 +43,7 @@ double step_of(const Case& c) {
   return speed > 0 ? (size > 0 ? size : position) / 1024 / speed : 0;
 }
 
-/// Of an answer that says yes and gives it; empty where there is none.
+/// The time in a hit that gives a finite one; empty otherwise.
 std::optional<double> time_in(const Query& query, const Answer& a) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     if (query.outputs[i].name != "time") continue;
@@ -78,7 +79,7 @@ std::vector<StaticCheck> static_checks(const Case& question, const Answer& answe
     for (std::size_t i = 0; i < 3; ++i) scenes[i] = placed_at(question, *by, check.times[i]);
     const bool valid =
         std::none_of(scenes.begin(), scenes.end(), [](const Case& c) { return c.query->broken(c.values).has_value(); });
-    if (!valid) continue;  // the place is beyond the largest number
+    if (!valid) continue;  // the position overflows
     for (const Subject& referee : subjects()) {
       if (!referee.referee || referee.offering(query_of(by->to).name).answer == nullptr) continue;
       const bool holds = std::all_of(scenes.begin(), scenes.end(),

@@ -35,16 +35,16 @@ std::string lower_case(std::string_view s) {
   return lower;
 }
 
-/// Characters that people see: bytes that do not continue a UTF-8 sequence.
+/// The number of characters: bytes that do not continue a UTF-8 sequence.
 std::size_t width_of(std::string_view s) {
   return std::size_t(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Bytes of an unknown word that an error repeats.
+/// Most bytes of an unknown word that an error message quotes.
 constexpr std::size_t most_of_a_word = 100;
 /// Bounds at most this many double ulps apart are shown as one decimal.
 constexpr double shown_as_one = 8;
-/// Enough for a decimal that lies between any two neighbours.
+/// Enough digits for a decimal between any two neighbouring doubles.
 constexpr int most_digits = 18;
 
 }  // namespace
@@ -128,7 +128,7 @@ std::string shell_quoted(const std::string& word) {
 
 std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
-  if (word.size() > most_of_a_word) return {};  // and no time is spent on it
+  if (word.size() > most_of_a_word) return {};
   const std::string lower = lower_case(word);
   for (const std::string& w : words) {
     const std::string other = lower_case(w);
@@ -149,8 +149,6 @@ std::string unknown_text(std::string_view what, std::string_view word, std::span
                      close.empty() ? fmt::format("'{}' lists all", lists_them)
                                    : fmt::format("did you mean {}?", fmt::join(close, " or ")));
 }
-
-namespace {}  // namespace
 
 std::string one_line(std::string_view text, std::size_t most) {
   const std::size_t kept_at_end = most / 3;

@@ -1,4 +1,4 @@
-/// Numbers and lists as people read them.
+/// Formats numbers, lists and tables for readers.
 #pragma once
 
 #include <span>
@@ -12,12 +12,11 @@ namespace nearmiss {
 
 /// The shortest decimal that reads back as the same number of `scalar`; NaN, Infinity, -Infinity.
 std::string number_text(double x, Scalar scalar = Scalar::float64);
-/// The same of a number of an answer, where zero has no sign.
+/// The same for a number of an answer, where zero has no sign.
 inline std::string value_text(double x, Scalar scalar = Scalar::float64) { return number_text(x + 0.0, scalar); }
-/// The shortest decimal within the bounds where they are neighbours or nearly so, otherwise "between LOW
-/// and HIGH".
+/// The shortest decimal within the bounds where they are at most a few ulps apart, otherwise "between LOW and HIGH".
 std::string bounds_text(const Bounds& b);
-/// "0", "1", "2", "4", "8", then "2^4 …": a rung of the judge's ladder, or any other number.
+/// "0", "1", "2", "4", "8", "2^4", ... for a rung of the judge's ladder; any other number as a decimal.
 std::string epsilons_text(double k);
 /// "0.78 % of the largest number in its group (2^46 epsilon)"; `k` in units of the scalar's epsilon.
 std::string amount_text(double k, Scalar scalar);
@@ -28,26 +27,27 @@ std::string plural_text(std::uint64_t n, std::string_view noun);
 /// "a", "a and b", "a, b and c".
 std::string list_text(std::span<const std::string> items);
 
-/// For a shell's command line: in single quotes where it holds more than plain characters.
+/// A word of a shell's command line, in single quotes where it holds other than plain characters.
 std::string shell_quoted(const std::string& word);
 
-/// The words nearest to `word` in spelling, whatever the case, best first; at most three, none where all are far.
+/// At most three of `words` that are near `word` by edit distance, without regard to case, nearest first.
 std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words);
 
-/// The error for a word that is none of `words`: "unknown query 'x'; did you mean …?", or who lists them where no word
-/// is near.
+/// The error for a word that is not among `words`: "unknown query 'x'; did you mean …?", or, where no word is near, the
+/// command that lists them.
 std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
                          std::string_view lists_them = "nearmiss list");
 
-/// For one line: printable (impl/subject/printable.hpp), and without its middle what is longer than `most` bytes.
+/// Text for one line: printable (impl/subject/printable.hpp), and shortened in its middle where it exceeds `most`
+/// bytes.
 std::string one_line(std::string_view text, std::size_t most = 1000);
 
-/// Columns padded to their widest cell, two spaces between them; the first row is the heading. Columns
+/// A table with columns padded to their widest cell and two spaces between them; the first row is the heading. Columns
 /// from `right_from` on are aligned to the right.
 std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent = "",
                        std::size_t right_from = std::size_t(-1));
 
-/// Text broken at spaces so that no line is longer than `width`; each line begins with `indent`.
+/// Text broken at spaces into lines of at most `width`; each line begins with `indent`.
 std::string wrapped_text(std::string_view text, std::string_view indent, std::size_t width = 100);
 
 }  // namespace nearmiss

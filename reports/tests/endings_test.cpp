@@ -44,7 +44,7 @@ TEST_P(EveryCommand, EndsWhenItIsToldTo) {
       arguments.emplace_back(more);
     Started command(NEARMISS_PROGRAM, arguments, {mark, "NEARMISS_ZOO=always-sleeps"});
     const auto awaits_its_subject =
-        [&] {  // the command, a keeper, the subject; a host that only says hello is soon gone
+        [&] {  // the command, a supervisor, the subject; a host that only sends its hello ends soon
           for (int i = 0; i < 1000 && processes_with(mark).size() < 3; ++i) usleep(20'000);
           return processes_with(mark).size() >= 3;
         };

@@ -57,7 +57,7 @@ TEST(Tally, CountsByMember) {
   EXPECT_EQ(t.bad(), 1u);
 }
 
-TEST(Keeper, KeepsAFaultThatACommonerOneHides) {
+TEST(FindingRetention, KeepsAFaultThatACommonerOneHides) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   const Tally t = tally_of(s);
   FindingRetention retention;
@@ -88,7 +88,7 @@ TEST(Tally, CountsTruthOnlyWhereItWasAskedFor) {
   EXPECT_EQ(t.bad(), 1u);
 }
 
-TEST(Keeper, KeepsTheFirstFewThenOnlyTheMuchWorse) {
+TEST(FindingRetention, KeepsTheFirstFewThenOnlyTheMuchWorse) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   const Tally t = tally_of(s);
   FindingRetention retention;
@@ -115,7 +115,7 @@ std::string assertion(int line) {
          ": int f(): Assertion `";
 }
 
-TEST(Keeper, KeepsTheFirstFewOfEachReasonToBreak) {
+TEST(FindingRetention, KeepsTheFirstFewOfEachReasonToBreak) {
   const Subject s{"s", "", Scalar::float64, false, {}};
   Tally t = tally_of(s);
   FindingRetention retention;
