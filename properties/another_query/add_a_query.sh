@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Adds another query to a copy of the sources, only in the places that the README names, and checks that the command
-# line, the oracle, the generator and the fuzz target know the query. Also adds the library of docs/bring-your-own.md by
-# the steps of that page.
+# line, the oracle, the generator and the fuzz target know the query and that the tests about queries pass. Also adds the
+# library of docs/bring-your-own.md by the steps of that page.
 # Usage: add_a_query.sh SOURCE_FOLDER
 set -euo pipefail
 
@@ -25,13 +25,20 @@ echo "NEARMISS_QUERY($query)" >>"$copy/impl/catalogue/catalogue.def"
 sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball holds a point |
 }" "$copy/docs/reference.md"
 grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no table for a query of one's own"
+sed -i "\$a #include <collide/$query.hpp>" "$copy/impl/collide/include/collide/collide.hpp"
+by_hand=$copy/properties/oracle_hand_test.cpp
+sed -i "/^const std::map<std::string, std::string> classes{\$/a {\"$query\", \"hit miss touch\"}," "$by_hand"
+sed -i "/^std::vector<Hand> hands_of_overlaps() {\$/{n;r $here/derived_by_hand
+}" "$by_hand"
+[ "$(grep -c "\"$query\"" "$by_hand")" = 5 ] || fail "properties/oracle_hand_test.cpp has no place for a new query"
 
 # The same depth as the presets' build folders: unchanged sources come from the compiler cache.
 build=$copy/build/release
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_CCD=OFF -DNEARMISS_BULLET=OFF -DNEARMISS_ODE=OFF -DNEARMISS_TESTS=OFF \
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_CCD=OFF -DNEARMISS_BULLET=OFF -DNEARMISS_ODE=OFF \
+  -DNEARMISS_BENCHMARKS=OFF \
   -DNEARMISS_ADD="$copy/docs/example-library/nearmiss.cmake" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "cmake refuses the new query"; }
-cmake --build "$build" --target nearmiss_cli "fuzz_$query" >"$copy/log" 2>&1 ||
+cmake --build "$build" --target nearmiss_cli nearmiss_properties "fuzz_$query" >"$copy/log" 2>&1 ||
   { tail -n 40 "$copy/log"; fail "the new query does not build"; }
 
 nearmiss=$build/reports/nearmiss
@@ -45,11 +52,17 @@ grep -q "\"fuzz_target\": *\"fuzz_$query\"" "$copy/list.json" || fail "list --js
 "$build/fuzz/fuzz_$query" "$copy/corpus/seeds/$query/touch.json" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "the fuzz target does not replay the seed"; }
 
+# The tests that run for the query, and those that compare the sources and pages with the catalogue.
+"$build/properties/nearmiss_properties" \
+  --gtest_filter="*$query*:Structure.*:ReferenceTable.*:HandDerivedCases.*:Streams.*:Catalogue.*" >"$copy/log" 2>&1 ||
+  { grep -A 12 -E "Failure|FAILED" "$copy/log" | tail -n 60; fail "a test fails"; }
+grep -q "$query" "$copy/log" || fail "no test ran for the query"
+
 # The added library, by the steps of docs/bring-your-own.md, in the same build.
 "$copy/docs/example-library/walkthrough.sh" "$nearmiss" || fail "docs/bring-your-own.md cannot be followed"
 
 # Mutation: a wrong comparison in the new query must be found.
-sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/$query.hpp"
+sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/detail/$query.hpp"
 cmake --build "$build" --target nearmiss_cli >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
 status=0
 "$nearmiss" run --query "$query" --cases 20000 --seed 1 --out "$copy/mutant" >"$copy/log" 2>&1 || status=$?
