@@ -11,16 +11,16 @@ class App;
 
 namespace nearmiss {
 
-/// What a command's manual says beside its options.
+/// The manual of a command, beside its options.
 struct Manual {
   std::string name;
-  std::string summary;                   ///< half a sentence, begins with a small letter, no full stop
+  std::string summary;                   ///< a phrase that begins with a small letter, without a full stop
   std::vector<std::string> description;  ///< paragraphs
   struct Line {
     std::string left, right;
   };
   std::vector<Line> exit_status;
-  std::vector<Line> examples;  ///< a command line; what it does
+  std::vector<Line> examples;  ///< a command line and its effect
 };
 
 class Command {
@@ -29,7 +29,7 @@ class Command {
   virtual Manual manual() const = 0;
   /// Declares the options; they are filled in before run().
   virtual void declare(CLI::App& app) = 0;
-  /// `root` knows all commands. Returns the exit code; throws BadInput for what cannot be done.
+  /// `root` is the parser of all commands. Returns the exit code. Throws BadInput for input that cannot be used.
   virtual int run(const CLI::App& root) = 0;
 };
 
@@ -44,7 +44,7 @@ std::unique_ptr<Command> completion_command();
 
 /// The exit status of every command that judges.
 std::vector<Manual::Line> judging_exit_status();
-/// Its line for a judge that contradicts itself.
+/// The line for an internal error.
 Manual::Line internal_error_status();
 
 /// The command line as typed, for the index of a run; set once by main.

@@ -60,13 +60,14 @@ void fill(std::string& text, std::string_view place, const std::string& with) {
 class CompletionCommand : public Command {
  public:
   Manual manual() const override {
-    return {"completion",
-            "print a script that completes commands, options and names in a shell",
-            {"SHELL is bash. The script asks this program for the names of queries and subjects, so it stays right "
-             "when some are added."},
-            {{"0", "Done."}, {"2", "Another shell was asked for."}},
-            {{"source <(nearmiss completion bash)", "For this shell."},
-             {"nearmiss completion bash > ~/.local/share/bash-completion/completions/nearmiss", "For all to come."}}};
+    return {
+        "completion",
+        "print a script that completes commands, options and names in a shell",
+        {"SHELL is bash. The script gets the names of queries and subjects from this program, so it includes "
+         "added ones."},
+        {{"0", "Done."}, {"2", "Another shell was asked for."}},
+        {{"source <(nearmiss completion bash)", "For this shell."},
+         {"nearmiss completion bash > ~/.local/share/bash-completion/completions/nearmiss", "For all future shells."}}};
   }
   void declare(CLI::App& app) override {
     app.add_option("SHELL", shell_, "The shell: bash")

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 /// The benchmark asks about the times from 0 to 1, both included.
 constexpr double end_of_time = 1;
 
-/// What the oracle says about the benchmark's question: exact, decision and time.
+/// The oracle's exact decision of the benchmark's question.
 bool exactly_collides(const Case& question) {
   Answer at_end;
   at_end.yes = true;
@@ -45,11 +45,11 @@ std::string word(bool collides) { return collides ? "collides" : "does not colli
 struct Score {
   const Subject* subject = nullptr;
   std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
-  std::uint64_t gave_up = 0;       ///< not asked any more
+  std::uint64_t gave_up = 0;       ///< cases not asked after too many time-outs
   std::vector<std::string> wrong;  ///< one line each
 };
 
-/// One import: cases come in, counts and lists go out.
+/// Counts and lists the results of an import.
 class NyuCcd : public Sink {
  public:
   NyuCcd(std::span<const Subject* const> subjects, fs::path out)
@@ -150,9 +150,9 @@ class NyuCcd : public Sink {
   std::uint64_t queries_ = 0, skipped_ = 0, fit_ = 0, parallel_ = 0;
   std::vector<std::string> oracle_wrong_, parallel_wrong_;
   std::span<const GroundTruth> batch_;
-  std::vector<bool> truth_;      ///< of each of the batch
-  Score* now_ = nullptr;         ///< of the subject that is asked
-  std::vector<std::size_t> at_;  ///< where in the batch each case that it is asked stands
+  std::vector<bool> truth_;      ///< for each case of the batch
+  Score* now_ = nullptr;         ///< the score of the subject that is asked
+  std::vector<std::size_t> at_;  ///< index in the batch of each case that the subject is asked
   Campaign campaign_;
 };
 
@@ -199,13 +199,14 @@ class ImportCommand : public Command {
   Manual manual() const override {
     return {"import",
             "read cases of a benchmark whose truth is known, and compare",
-            {"FORMAT is nyu-ccd: vertex-face queries of the NYU continuous-collision benchmark, 8 rows a query (the "
-             "vertex and three face corners at time 0, then at time 1) and 7 integer columns (x, y, z as numerator, "
-             "denominator pairs, then the truth). Queries whose corners all move alike become cases of "
-             "moving_point_triangle, with the triangle turned towards the point; the others are counted as skipped.",
-             "The exact oracle's decision (a hit at a time of at most 1) is compared with the truth column, and so is "
-             "the answer of every subject that offers the query. A motion exactly parallel to the face has no hit by "
-             "the query's definition; where the truth column says otherwise it is listed apart."},
+            {"FORMAT is nyu-ccd: vertex-face queries of the NYU continuous-collision benchmark. A query has 8 "
+             "rows (the vertex and three face corners at time 0, then at time 1) of 7 integer columns (x, y, z as "
+             "pairs of numerator and denominator, then the truth). Queries whose corners all move alike become "
+             "cases of moving_point_triangle, with the triangle turned towards the point; the others are counted "
+             "as skipped.",
+             "Compares the exact oracle's decision (a hit at a time of at most 1) with the truth column, and so "
+             "the answer of every subject that offers the query. A motion exactly parallel to the face has no hit "
+             "by the query's definition; where the truth column says otherwise, the case is listed separately."},
             {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
              {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
              {"2",

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What each subject, or each referee, has for the query.
+/// The offer of each subject, or of each referee, for the query.
 Json offers(const Query& query, bool referees_only) {
   Json j = Json::object();
   for (const Subject& s : subjects()) {
@@ -32,7 +32,7 @@ std::vector<std::string_view> names_of(Preconditions required) {
   return names;
 }
 
-/// {QUERY's subjects that require something: what}.
+/// The preconditions of each subject that has some: {NAME: [PRECONDITION]}.
 Json requirements(const Query& query) {
   Json j = Json::object();
   for (const Subject& s : subjects()) {
@@ -114,19 +114,20 @@ class ListCommand : public Command {
  public:
   Manual manual() const override {
     return {"list",
-            "show the queries and what each subject has for them",
-            {"For every query: its kind of answer, whether each subject answers it (+), answers it by an equivalent "
-             "question (~) or does not offer it (.), the number of seeds in its corpus, and the properties that are "
-             "tested. Subjects marked as referees also give second opinions in reports.",
-             "--why tells for each query and subject by which equivalence, or why not, and what the subject requires: "
-             "cases outside of that it is not asked. --json prints one object for "
-             "programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by equivalence\" | "
-             "\"not offered\"}, \"referees\": {the same}, \"requires\": {NAME: [what it requires]}, \"fuzz_target\", "
-             "\"seeds\", \"properties\"}]}."},
+            "show the queries and the offers of each subject",
+            {"For every query: its kind of answer, whether each subject answers it (+), answers it by an "
+             "equivalent operation (~) or does not offer it (.), the number of stored cases in its seed corpus, "
+             "and the number of properties that are tested. Subjects that are marked as referees also give second "
+             "opinions in reports.",
+             "--why shows for each query and subject the equivalent operation, or why the query is not offered, "
+             "and the preconditions of the subject: it is not asked cases that do not meet them. --json prints "
+             "one object for programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by "
+             "equivalence\" | \"not offered\"}, \"referees\": {the same}, \"requires\": {NAME: [PRECONDITION]}, "
+             "\"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
              {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},
-             {"nearmiss list --members moving_point_sphere", "What a plugin's function gets and gives."},
+             {"nearmiss list --members moving_point_sphere", "The inputs and outputs of a plugin's function."},
              {"nearmiss list --json", "For programs."}}};
   }
   void declare(CLI::App& app) override {

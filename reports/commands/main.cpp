@@ -29,28 +29,26 @@ std::string& typed_command_line() {
 }
 
 std::vector<Manual::Line> judging_exit_status() {
-  return {
-      {"0", "Nothing violated its contract, and nothing broke."},
-      {"1", "Violations, or a subject that broke."},
-      {"2",
-       "It could not run, or not to its end: wrong arguments, malformed input, an output that cannot be written; "
-       "or, without a violation, it was interrupted or had no time to ask anything. One line on standard error says "
-       "what and why."},
-      internal_error_status()};
+  return {{"0", "Nothing violated its contract, and nothing broke."},
+          {"1", "Violations, or a subject that broke."},
+          {"2",
+           "It could not run, or not to its end: wrong arguments, malformed input, or an output that cannot be "
+           "written. Or there is no violation, and it was interrupted or had no time to ask anything. One line "
+           "on standard error states the reason."},
+          internal_error_status()};
 }
 
 Manual::Line internal_error_status() {
   return {std::to_string(InternalError::exit_code),
-          "An internal error: the judge contradicts itself. Every answer that it accuses is judged twice, and the two "
-          "words "
-          "differ, or those on related cases do. It is a fault of Nearmiss and counted nowhere; what was found beside "
-          "it is "
-          "kept. One line on standard error has both words, and internal-errors/ of the folder the case."};
+          "An internal error: the judge contradicts itself. Every answer with a finding against it is judged "
+          "twice; the two findings, or the findings on related cases, differ. This is a fault of Nearmiss and "
+          "is not counted; all other findings are kept. One line on standard error has both findings, and "
+          "internal-errors/ in the folder holds the case."};
 }
 
 namespace {
 
-/// All commands and the parser that knows them.
+/// All commands and their parser.
 class CommandLine {
  public:
   CommandLine()
@@ -103,7 +101,7 @@ class CommandLine {
   }
 
  private:
-  // What CLI11 says, in plain words.
+  // Translates the messages of CLI11.
 
   /// "--cases" and ": N" of "--cases: 1 required N missing".
   static std::pair<std::string, std::string> named_in(const std::string& what) {
@@ -154,7 +152,7 @@ class CommandLine {
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
     throw BadInput(unknown_text("command", name, names, "nearmiss help"));
   }
-  /// What to say of the first argument that the chosen command does not know.
+  /// The message for the first argument that the chosen command does not know.
   std::string unexpected_text() const {
     const auto chosen = root_.get_subcommands();
     const CLI::App& app = chosen.empty() ? root_ : *chosen[0];
@@ -178,7 +176,7 @@ class CommandLine {
   std::string help_for_;
 };
 
-/// "--cases -5" as "--cases=-5": a negative number is a value, never an option of its own.
+/// Turns "--cases -5" into "--cases=-5": a negative number is a value, never an option.
 std::vector<std::string> with_negative_values(const std::vector<std::string>& arguments) {
   std::vector<std::string> joined;
   for (const std::string& a : arguments) {
@@ -201,7 +199,7 @@ int complain(std::string what) {
   return 2;
 }
 
-/// Whatever reads our standard output, "head" say, has seen enough: that ends a program as it always does.
+/// The reader of standard output, for example "head", has closed the pipe: ends by SIGPIPE, as programs usually do.
 int reader_left() {
   signal(SIGPIPE, SIG_DFL);
   raise(SIGPIPE);
@@ -226,17 +224,18 @@ int run_or_complain(const std::vector<std::string>& arguments) {
   } catch (const std::bad_alloc&) {
     return complain("out of memory");
   } catch (const std::exception& e) {
-    if (std::ferror(stdout) != 0) return complain_of_output();  // a long text, half written
+    if (std::ferror(stdout) != 0) return complain_of_output();  // a long text was written in part
     return complain(e.what());
   }
 }
 
-/// A standard file that was closed would be whatever is opened next, a pipe to a worker say, and what is printed would
-/// go there. /dev/null takes its place, and of standard output one that cannot be written.
+/// Opens /dev/null for each closed standard file; otherwise the next opened file, such as a pipe to a worker, would
+/// take its number and receive printed text. For standard output /dev/null is opened read-only, so that printing fails.
 void hold_standard_files() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(file, F_GETFD) != -1) continue;
-    open("/dev/null", file == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number, which is this one
+    open("/dev/null",
+         file == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // open takes the lowest free number, which is this one
   }
 }
 
@@ -244,10 +243,10 @@ void hold_standard_files() {
 }  // namespace nearmiss
 
 int main(int argc, char** argv) {
-  nearmiss::FloatingPointModes::standard().set();  // a library may have set others when it was loaded
+  nearmiss::FloatingPointModes::standard().set();  // a library may have changed them when it was loaded
   nearmiss::hold_standard_files();
-  signal(SIGCHLD, SIG_DFL);  // whoever started this may have it ignored, and then the end of a host is not told
-  for (const int s : {SIGPIPE, SIGXFSZ}) signal(s, SIG_IGN);  // what cannot be written is an error with a reason
+  signal(SIGCHLD, SIG_DFL);  // the parent may have it ignored, and then the end of a host would not be reported
+  for (const int s : {SIGPIPE, SIGXFSZ}) signal(s, SIG_IGN);  // a failed write returns an error code instead
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   nearmiss::typed_command_line() = "nearmiss";
   for (const std::string& a : arguments) nearmiss::typed_command_line() += " " + nearmiss::shell_quoted(a);

@@ -14,7 +14,7 @@ constexpr std::string_view indent = "    ", deep = "        ";
 
 std::string heading(std::string_view text) { return fmt::format("\n{}\n", text); }
 
-/// Each left part on a line of its own, what it means below.
+/// Each left part on a line of its own, its meaning below.
 std::string definitions(const std::vector<Manual::Line>& lines) {
   std::string text;
   for (const Manual::Line& l : lines) text += fmt::format("{}{}\n", indent, l.left) + wrapped_text(l.right, deep);
@@ -83,12 +83,12 @@ std::string overview_page(const CLI::App& root) {
   }
   std::string text = fmt::format("NAME\n{}nearmiss - {}\n", indent, root.get_description());
   text += heading("SYNOPSIS") + std::string(indent) + "nearmiss COMMAND [OPTION]...\n";
-  text +=
-      heading("DESCRIPTION") +
-      paragraphs({"Nearmiss asks a collision-detection library many questions, knows the exact answers, and reports "
-                  "where the library is wrong, by how much, and with what proof. A query is one operation with a "
-                  "fixed meaning, a subject is something that answers, a contract is what it promises, and a "
-                  "violation is a proved breach of it."});
+  text += heading("DESCRIPTION") +
+          paragraphs(
+              {"Nearmiss asks a collision-detection library many questions, knows the exact answers, and reports "
+               "where the library is wrong, by how much, and with what proof. A query is one operation with a "
+               "fixed meaning. A subject is a library that answers queries. A contract is the subject's promise, and "
+               "a violation is a proved breach of it."});
   text += heading("COMMANDS") + table_text(commands, indent);
   text += heading("OPTIONS") + options_text(root);
   text += heading("EXIT STATUS") + definitions(judging_exit_status());
@@ -97,7 +97,7 @@ std::string overview_page(const CLI::App& root) {
       definitions({{"NEARMISS_RUNS", "The folder for runs without --out, instead of reports/runs of the source tree."},
                    {"NEARMISS_CORPUS", "The folder of stored cases, instead of corpus of the source tree."}});
   text += heading("EXAMPLES") +
-          definitions({{"nearmiss list", "What can be asked, and who answers."},
+          definitions({{"nearmiss list", "The queries, and the subjects that answer them."},
                        {"nearmiss run --subject fcl --query moving_sphere_box", "Is FCL right about moving spheres?"},
                        {"nearmiss help run", "The manual of a command."}});
   return text;

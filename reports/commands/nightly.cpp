@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
-/// The shares of the time for properties, half of it for relations, and for fuzzing; within that for judging what was
-/// found.
+/// The shares of the total time for properties, of which half is for relations, and for fuzzing; and the share of the
+/// fuzzing time for judging the cases that it found.
 constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1;
 
 Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
@@ -37,7 +37,7 @@ Clock::time_point between(Clock::time_point a, Clock::time_point b, double share
 
 double seconds_until(Clock::time_point t) { return std::chrono::duration<double>(t - Clock::now()).count(); }
 
-/// Compares what is found about a stored case with what is stored about it.
+/// Compares the findings of a stored case with its expectations.
 class Expectations : public Sink {
  public:
   void about(const StoredCase& stored) { stored_ = &stored; }
@@ -85,10 +85,10 @@ Json outcome_json(const FuzzOutcome& o) {
           {"ended", o.ended}, {"failed", o.failed},   {"asked", o.asked}};
 }
 
-/// What came of the fuzz targets.
+/// The results of the fuzz targets.
 struct Fuzzing {
   std::vector<FuzzOutcome> ran;
-  std::vector<std::string> no_time;  ///< queries whose target's turn did not come
+  std::vector<std::string> no_time;  ///< queries whose target had no time left
 
   std::size_t failed() const {
     return std::size_t(std::count_if(ran.begin(), ran.end(), [](const FuzzOutcome& o) { return o.failed; }));
@@ -97,7 +97,7 @@ struct Fuzzing {
     return std::accumulate(ran.begin(), ran.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const FuzzOutcome& o) { return sum + o.executions; });
   }
-  /// Subjects of NEARMISS_ADD that a target was to ask and does not know: it was built without them.
+  /// Subjects of NEARMISS_ADD that a target should ask but does not know, because it was built without them.
   std::vector<std::string> unknown() const {
     std::set<std::string> names;
     for (const FuzzOutcome& o : ran) {
@@ -111,7 +111,7 @@ struct Fuzzing {
   }
 };
 
-/// The plugins and commands that are loaded, for the targets. Throws BadInput for one that cannot be named to them.
+/// The loaded plugins and commands, for the targets. Throws BadInput for a name that cannot be passed to them.
 ForeignSubjects foreign_subjects() {
   ForeignSubjects foreign;
   for (const Subject& s : subjects()) {
@@ -127,8 +127,8 @@ ForeignSubjects foreign_subjects() {
   return foreign;
 }
 
-/// Each target for the same time; at least a second, so the last ones may have none left. The seed says
-/// which is the first, so that it is not always the same ones that have none.
+/// Runs each target for the same time, at least a second; so the last targets may have no time left. The seed selects
+/// the first target, so that the others take turns to have none.
 Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point until) {
   std::rotate(targets.begin(), targets.begin() + std::ptrdiff_t(run.settings().seed % targets.size()), targets.end());
   Fuzzing all;
@@ -200,7 +200,7 @@ int relate(Run& run, Clock::time_point until) {
   return related.contradicted() > 0 ? InternalError::exit_code : related.bad() > 0 ? 1 : 0;
 }
 
-/// The properties with fresh seeds. True where one failed.
+/// Runs the property tests with fresh seeds. True where one failed.
 bool ask_properties(Run& run, Clock::time_point until) {
   Json note{{"state", "not built"}, {"seeds", Json::array()}, {"passed", 0}, {"failed", Json::array()}, {"ended", ""}};
   const std::optional<fs::path> program = find_property_tests();
@@ -228,31 +228,29 @@ class NightlyCommand : public Command {
     return {
         "nightly",
         "examine every subject for a given time: stored and generated cases, relations, properties, fuzzing",
-        {"First every stored case (seeds and regressions) is asked of every subject and compared with what is "
-         "stored about it. Then new cases are generated for all queries and subjects. A sixth of the time goes to "
-         "properties: half of it to relations between answers, as 'nearmiss relations' asks for them, and half to the "
-         "property tests of this build, which ask the tiers of collide about new cases of fresh seeds. In the last "
-         "third of the "
-         "time the fuzz targets run as processes of their own, and what they find is judged and reported like "
-         "everything else. They ask the tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that "
-         "they were "
-         "built with. Where the fuzz targets are not built, the summary and the index say so, and the "
-         "generated cases get their time. A target that ends with an error (a sanitizer's, say) makes the exit code 1, "
-         "and "
-         "so does a property that fails.",
-         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss relations', "
-         "properties/ "
-         "with the messages and reports of properties, corpus/QUERY/ for what the fuzz targets learned and "
-         "fuzz/ for the files and messages that they left. Give the same folder every night to keep the corpus."},
+        {"First every subject answers every stored case (seeds and regressions), and the findings are "
+         "compared with the stored expectations. Then new cases are generated for all queries and subjects. A "
+         "sixth of the time goes to properties: half of it to relations between answers, as in 'nearmiss "
+         "relations', and half to the property tests of this build, which ask the tiers of collide new cases "
+         "with fresh seeds. In the last third of the time the fuzz targets run as separate processes, and "
+         "their cases are judged and reported like all others. They ask the tiers of collide, plugins, "
+         "commands, and the subjects of NEARMISS_ADD that they were built with. Where the fuzz targets are "
+         "not built, the summary and the index say so, and the generated cases get their time. A target that "
+         "ends with an error (for example of a sanitizer) makes the exit code 1, and so does a failed "
+         "property.",
+         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss "
+         "relations', properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of "
+         "the fuzz targets, and fuzz/ for their files and messages. Give the same folder every night to keep "
+         "the corpus."},
         judging_exit_status(),
         {{"nearmiss nightly --minutes 60", "One hour."},
          {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
   }
   void declare(CLI::App& app) override {
     declare_foreign_subjects(app);
-    add_positive_number(app, "-m,--minutes", minutes_, fmt::format("How long, in all. Default: {}", default_minutes),
-                        "M", most_minutes);
-    add_whole_number(app, "--seed", seed_, "Of the generator. Default: a random one, which is printed", 0,
+    add_positive_number(app, "-m,--minutes", minutes_, fmt::format("The total time. Default: {}", default_minutes), "M",
+                        most_minutes);
+    add_whole_number(app, "--seed", seed_, "The seed of the generator. Default: a random one, which is printed", 0,
                      std::numeric_limits<std::uint64_t>::max());
     add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
     app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
@@ -270,7 +268,7 @@ class NightlyCommand : public Command {
     const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
-    foreign_subjects();  // a name that will not do is told now, not in the last third
+    foreign_subjects();  // refuses a bad name now rather than in the last third
     catch_interrupts();
     const FuzzTargets found =
         find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());

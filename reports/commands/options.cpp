@@ -24,7 +24,7 @@ std::optional<T> parsed(const std::string& text) {
   return value;
 }
 
-/// A whole number as people write it: 100000, 100,000 or 1e5.
+/// A whole number in one of the forms 100000, 100,000 and 1e5.
 std::optional<std::uint64_t> parsed_count(const std::string& text) {
   if (const auto plain = parsed<std::uint64_t>(text)) return plain;
   if (text.find(',') != std::string::npos) {
@@ -92,7 +92,7 @@ void Selection::declare_queries(CLI::App& app) {
 
 namespace {
 
-/// An option of which each value is loaded as it is met.
+/// An option whose values are loaded while the arguments are parsed.
 void add_loading(CLI::App& app, const std::string& name, void (*load)(const std::string&),
                  const std::string& description, const std::string& type) {
   app.add_option_function<std::vector<std::string>>(
@@ -119,16 +119,17 @@ void declare_foreign_subjects(CLI::App& app) {
            limits.case_timeout = *parsed<double>(text);
            set_worker_limits(limits);
          },
-         fmt::format("How long a subject may take for one case: S seconds of processor time, and {:g} times as many in "
-                     "all. Default: {:g}",
-                     usual.wall() / usual.case_timeout, usual.case_timeout))
+         fmt::format(
+             "The time limit of a subject for one case: S seconds of processor time, and {:g} times as many seconds "
+             "of wall time. Default: {:g}",
+             usual.wall() / usual.case_timeout, usual.case_timeout))
       ->type_name("S")
       ->check(number_from(least, most));
   add_loading(app, "--plugin", load_plugin,
-              "Ask this shared library, which is a subject (see docs/bring-your-own.md); may be given several times",
+              "Add the subject of this shared library (see docs/bring-your-own.md); may be given several times",
               "FILE");
   add_loading(app, "--command", load_command,
-              "Ask this program, which is a subject (see docs/protocol.md); may be given several times", "COMMAND");
+              "Add the subject that this program is (see docs/protocol.md); may be given several times", "COMMAND");
 }
 
 void Selection::declare_subjects(CLI::App& app) {
@@ -222,9 +223,9 @@ void Amount::declare(CLI::App& app, const std::string& what, const std::string& 
   constexpr std::uint64_t most_cases = 1'000'000'000'000;
   constexpr double most_seconds = 1e8;
   add_whole_number(app, "-n,--cases", cases, fmt::format("{}. Default: {}", what, default_cases), 1, most_cases);
-  add_positive_number(app, "-t,--seconds", seconds, "For so long, instead of a number of cases", "S", most_seconds);
+  add_positive_number(app, "-t,--seconds", seconds, "The time to run, instead of a number of cases", "S", most_seconds);
   app.get_option("--seconds")->excludes("--cases");
-  add_whole_number(app, "--seed", seed, "Of the generator. Default: a random one, which is printed", 0,
+  add_whole_number(app, "--seed", seed, "The seed of the generator. Default: a random one, which is printed", 0,
                    std::numeric_limits<std::uint64_t>::max());
   add_measure(app, measure);
   add_output_folder(app, out, folder + ". Default: reports/runs/TIME-SEED of the source tree");

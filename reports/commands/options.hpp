@@ -1,4 +1,4 @@
-/// Options that several commands have, with checks that say what would be right.
+/// Options of several commands. The message of a failed check states the valid values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,19 +17,19 @@ namespace nearmiss {
 std::vector<std::string> query_names();
 std::vector<std::string> subject_names();
 
-/// --patience, --plugin and --command, the latter repeatable; what they name is loaded before later options are
-/// checked.
+/// --patience, --plugin and --command; the last two are repeatable. Plugins and commands are loaded while the arguments
+/// are parsed, before later options are checked.
 void declare_foreign_subjects(CLI::App& app);
 
-/// Takes only the name of a query.
+/// Accepts the name of a query.
 CLI::Validator known_query();
 
-/// --query and --subject, repeatable and checked; none means all.
+/// --query and --subject, repeatable and checked. Without any, all are selected.
 struct Selection {
   std::vector<std::string> query, subject;
 
   void declare_queries(CLI::App& app);
-  /// With --plugin and --command: their subjects may be chosen too.
+  /// Also declares --plugin and --command, whose subjects may be selected too.
   void declare_subjects(CLI::App& app);
   std::vector<const Query*> queries() const;
   std::vector<const Subject*> subjects() const;
@@ -37,9 +37,9 @@ struct Selection {
   void check_offered() const;
 };
 
-/// Takes only whole numbers from `low` to `high`: 100000, 100,000 or 1e5.
+/// Accepts whole numbers from `low` to `high`: 100000, 100,000 or 1e5.
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
-/// Takes only decimal numbers above zero and up to `high`.
+/// Accepts decimal numbers above zero and up to `high`.
 CLI::Validator positive_number(double high);
 CLI::Validator number_from(double low, double high);
 
@@ -49,27 +49,27 @@ void add_whole_number(CLI::App& app, const std::string& name, std::optional<std:
 void add_positive_number(CLI::App& app, const std::string& name, std::optional<double>& value,
                          const std::string& description, const std::string& unit, double high);
 
-/// An option that names a folder to write into, so never the empty text.
-/// --measure, with its default in the text.
+/// --measure, with its default in the description.
 void add_measure(CLI::App& app, std::optional<double>& measure);
+/// --out, the folder to write into; refuses an empty name.
 void add_output_folder(CLI::App& app, std::string& folder, const std::string& description);
 
-/// `given`, or else one drawn from the system's entropy.
+/// `given`, or a random seed from the system's entropy.
 std::uint64_t seed_or_random(std::optional<std::uint64_t> given);
 
-/// What commands share that ask generated cases: how many or how long, which ones, by which promise, and into which
-/// folder.
+/// The options of commands that ask generated cases: their number or the time, the seed, the measure, and the folder.
 struct Amount {
   std::uint64_t default_cases;
   std::optional<std::uint64_t> cases, seed;
   std::optional<double> seconds, measure;
   std::string out;
 
-  /// --cases, --seconds, --seed, --measure and --out. `what` is what --cases counts: "Cases of each query".
+  /// Declares --cases, --seconds, --seed, --measure and --out. `what` describes the unit of --cases: "Cases of each
+  /// query".
   void declare(CLI::App& app, const std::string& what, const std::string& folder);
-  /// Empty where there is a time instead.
+  /// The number of cases; empty where a time is given.
   std::optional<std::uint64_t> number() const;
-  /// When the time is over that begins now; empty where there is a number of cases instead.
+  /// The end of the given time, counted from now; empty where a number of cases is given.
   std::optional<std::chrono::steady_clock::time_point> until() const;
   std::filesystem::path folder(std::uint64_t chosen_seed) const;
 };

@@ -23,37 +23,35 @@ std::vector<std::string> relation_names() {
 class RelationsCommand : public Command {
  public:
   Manual manual() const override {
-    return {
-        "relations",
-        "ask subjects related cases, and report answers that do not go together",
-        {"Every generated case is changed in ways that are exactly representable and have a known effect: turned, "
-         "mirrored, "
-         "moved, scaled by powers of two, started later, asked in another query about the same sets. Each chosen "
-         "subject "
-         "answers the case and what it is related to, in a process of its own. docs/properties.md has the table of "
-         "relations.",
-         "Answers that differ are no fault by themselves, for rounding may make them differ. A promise is broken where "
-         "the "
-         "judge proves one of the answers to be beyond its contract, where no answer came, or where bits differ "
-         "although "
-         "the subject claims that they do not. Decisions that contradict each other, so that one of them is wrong for "
-         "certain, are reported too; each report says which one it is, and that no contract is broken.",
-         "The folder receives relations.json with all counts, and relations/QUERY/SUBJECT-RELATION-BREACH-ID.json with "
-         "the "
-         "related cases, their answers and truths: of each query, subject and relation the first 3 broken promises and "
-         "the first contradiction, then those that are at least twice as bad as any before.",
-         "The table has a row for each subject and relation. PAIRS: cases that were compared with their follow-ups. "
-         "CONTRADICT: decisions of which one is wrong, within the contract. BITS: differences in spite of a claim. "
-         "CONTRACT, BROKE: broken promises. BACKWARD: the largest proved bound on how far inputs would have to move to "
-         "make a wrong answer right, in units of the scalar's epsilon."},
-        {{"0", "No promise was broken; there may be contradictions within them."},
-         {"1", "Broken promises, or a subject that broke."},
-         {"2", "It could not run, or it was interrupted before it found anything."},
-         internal_error_status()},
-        {{"nearmiss relations --subject bullet", "Every query and relation of one subject."},
-         {"nearmiss relations --subject ode --query box_box_overlap --relation swapped --cases 100000", "One of them."},
-         {"nearmiss relations --subject skim --plugin ./libskim.so --bit-for-bit",
-          "A plugin without any epsilon, so it says."}}};
+    return {"relations",
+            "ask subjects related cases, and report answers that contradict each other",
+            {"Changes every generated case in exactly representable ways with a known effect on the answer: it "
+             "turns, mirrors, moves or scales the case by powers of two, starts it later, or asks another query "
+             "about the same sets. Each chosen subject answers the case and these follow-ups, in a process of its "
+             "own. docs/properties.md has the table of relations.",
+             "Answers that differ are no fault by themselves, because rounding may make them differ. A promise is "
+             "broken where the judge proves that one of the answers violates its contract, where a subject gives "
+             "no answer, or where bits differ although the subject claims that they do not. Decisions that "
+             "contradict each other are reported too, because one of them is certainly wrong; the report names "
+             "the wrong one, and states that no contract is broken.",
+             "The folder receives relations.json with all counts, and "
+             "relations/QUERY/SUBJECT-RELATION-BREACH-ID.json with the cases, their answers and truths: for each "
+             "query, subject and relation the first 3 broken promises and the first contradiction, then those "
+             "that are at least twice as bad as any before.",
+             "The table has a row for each subject and relation. PAIRS: cases that were compared with their "
+             "follow-ups. CONTRADICT: contradicting decisions, one of them wrong, within the contract. BITS: "
+             "differences in spite of a claim. CONTRACT, BROKE: broken promises. BACKWARD: the largest proved "
+             "bound on how far inputs would have to move to make a wrong answer right, in units of the scalar's "
+             "epsilon."},
+            {{"0", "No promise was broken; there may be contradictions."},
+             {"1", "Broken promises, or a subject that broke."},
+             {"2", "It could not run, or it was interrupted before it found anything."},
+             internal_error_status()},
+            {{"nearmiss relations --subject bullet", "Every query and relation of one subject."},
+             {"nearmiss relations --subject ode --query box_box_overlap --relation swapped --cases 100000",
+              "One query and one relation."},
+             {"nearmiss relations --subject skim --plugin ./libskim.so --bit-for-bit",
+              "A plugin that claims to use no tolerance."}}};
   }
   void declare(CLI::App& app) override {
     selection_.declare_subjects(app);

@@ -25,11 +25,11 @@ class ReplayCommand : public Command {
   Manual manual() const override {
     return {
         "replay",
-        "ask subjects one case again, and show what is true",
-        {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again, "
-         "whatever the file says about answers. The page shows the inputs, the exact answer, and for each subject "
-         "its answer, the verdict and how far the inputs would have to move to excuse it. Subjects are held to what "
-         "the report held them to: to their contracts, or to its measure.",
+        "ask subjects one case again, and show the exact answer",
+        {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again; "
+         "answers in the file are ignored. The page shows the inputs, the exact answer, and for each subject "
+         "its answer, the verdict and how far the inputs would have to move to make the answer right. Subjects are "
+         "judged as in the report: by their contracts, or by its measure.",
          "A report of 'nearmiss relations' has several cases: all of them are asked again and compared.",
          "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
         judging_exit_status(),
@@ -50,7 +50,7 @@ class ReplayCommand : public Command {
     std::vector<Measure> measures;
     for (const std::string& f : files_) {
       settle_run_of(f);
-      const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe gives its text no second time
+      const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe cannot be read twice
       warn_of_missing_subject(j, f);
       measures.push_back(measure_ ? Measure{*measure_, true} : measure_of(j, f));
       if (auto related = read_relation_case(j, f)) {
@@ -69,7 +69,7 @@ class ReplayCommand : public Command {
   }
 
  private:
-  /// A report of which the subject is not there is replayed without the answer that it is about.
+  /// Warns where the subject of a report is not loaded: the replay then lacks the reported answer.
   static void warn_of_missing_subject(const nlohmann::json& report, const std::string& file) {
     if (!report.is_object() || !report.contains("finding") || !report.contains("subject")) return;
     const nlohmann::json& subject = report["subject"];

@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The line that tells the measure, where some subject is held to it.
+/// The line that states the measure, where it applies to some subject.
 std::string measure_text(const RunSettings& settings) {
   for (const Subject* s : settings.subjects) {
     for (const Query* q : settings.queries) {
@@ -29,30 +29,30 @@ class RunCommand : public Command {
     return {
         "run",
         "ask subjects many generated cases and judge the answers",
-        {"Every chosen subject answers generated cases of every chosen query that it offers, each in a process of "
-         "its own. The exact oracle knows the truth, and the judge tells what is proved against each answer. "
-         "Subjects that compute in the same scalar get the same cases, and the same seed gives the same cases on "
-         "every machine. A subject that requires something of its callers ('nearmiss list --why') gets cases that are "
-         "fitted to that.",
-         "The run folder receives index.json with all counts (written from the start, and also when the run is "
-         "interrupted) and findings/QUERY/SUBJECT-FAULT-ID.json for the violations: of each query, subject and "
-         "fault (of a breakage, its reason) the first 8, then those that are at least twice as bad as any before. All "
-         "others are counted. "
-         "A folder that exists is added to; its index.json then describes the newest run. One run at a time can have "
-         "it. Where a file cannot be written, say because the disk is full, the run ends and its index says "
-         "\"failed\".",
+        {"Every chosen subject answers generated cases of every chosen query that it offers, each subject in "
+         "a process of its own. The exact oracle computes the truth, and the judge states what is proved "
+         "against each answer. Subjects that compute in the same scalar get the same cases, and the same seed "
+         "gives the same cases on every machine. A subject with preconditions ('nearmiss list --why') gets "
+         "cases that meet them.",
+         "The run folder receives index.json with all counts, written from the start and also after an "
+         "interrupt. It also receives findings/QUERY/SUBJECT-FAULT-ID.json for the violations: for each "
+         "query, subject and fault (for a breakage, its reason) the first 8, then those that are at least "
+         "twice as bad as any before. All others are only counted. An existing folder keeps its reports; its "
+         "index.json then describes the newest run. Only one run at a time can use a folder. Where a file "
+         "cannot be written, for example on a full disk, the run ends and its index says \"failed\".",
          "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
-         "against them. NOT PROVED: they differ, and are not proved to differ by more than was promised. FALSE HIT, "
-         "FALSE MISS, WRONG: proved to differ by more than was promised, by a wrong yes, a wrong no, or wrong numbers; "
-         "an answer that does so in two ways counts in both. A subject that promises nothing for a query is held to "
-         "the measure that the first line tells. OUTSIDE: the promise does not cover the input, or the case is outside "
-         "of what the subject requires and was not asked. BACKWARD: the "
-         "largest proved bound on how far inputs would have to move to make an answer right, in units of the "
-         "scalar's epsilon. FORWARD: the largest proved distance from an exact number, in units in the last place, "
-         "where the decision is right. YES: the share of cases whose exact answer is yes. EXACT: the share that "
-         "intervals could not decide. Below the queries are the sums over all of them. With --by-class a second table "
-         "has a row for each of the generator's moves, such as knife-edge contacts or long thin shapes; a case that "
-         "several moves made is counted in each. The last line is a summary."},
+         "against them. NOT PROVED: they differ, but are not proved to differ by more than was promised. "
+         "FALSE HIT, FALSE MISS, WRONG: proved to differ by more than was promised, by a wrong yes, a wrong "
+         "no, or wrong numbers; an answer that does so in two ways counts in both. For a subject that "
+         "promises nothing for a query the measure, which the first line states, takes the place of a "
+         "promise. OUTSIDE: the promise does not cover the input, or the case does not meet the subject's "
+         "preconditions and was not asked. BACKWARD: the largest proved bound on how far inputs would have to "
+         "move to make an answer right, in units of the scalar's epsilon. FORWARD: the largest proved "
+         "distance from an exact number, in units in the last place, where the decision is right. YES: the "
+         "share of cases whose exact answer is yes. EXACT: the share that intervals could not decide. The "
+         "sums over all queries stand below them. With --by-class a second table has a row for each of the "
+         "generator's mutators, such as knife-edge contacts or long thin shapes; a case that several mutators "
+         "made is counted in each. The last line is a summary."},
         judging_exit_status(),
         {{"nearmiss run", "10,000 cases for every query and subject."},
          {"nearmiss run --subject fcl --query moving_sphere_box --cases 100000 --seed 1",
@@ -66,7 +66,7 @@ class RunCommand : public Command {
     selection_.declare_queries(app);
     amount_.declare(app, "Cases for each query and subject", "The run folder");
     app.add_flag("--by-class", by_class_,
-                 "Print also each subject's findings by the generator's moves that made the cases")
+                 "Print also each subject's findings by the generator's mutators that made the cases")
         ->disable_flag_override();
   }
 
