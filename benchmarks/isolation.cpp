@@ -194,19 +194,19 @@ int measure(const std::vector<const Query*>& queries, const Subject& subject, co
   }
   fmt::print(R"(# What isolation costs
 
-Written by this command, which makes it anew:
+Written by this command; run it again to update this page:
 
 ```sh
 {}
 ```
 
-Every subject is asked in a process of its own, its host, so that a crash or an endless loop costs one case and not the run. Here
-`{}` gets the same cases in its host and in the caller's process, {} times each in turns, {} batches
-of {} cases. A *run* generates, asks and judges, as `nearmiss run` does: it makes the next cases while the subject
-answers. *Asking* is that part of it alone: what handing a case over and back adds to an answer of some nanoseconds.
-Times are medians of processor time for one case without isolation, and costs the medians of the ratios, of processor
-time (both processes together) and of wall time. A run may take at most {} more processor time. Wall time tells also how
-long a process waits for its turn on a machine that others use: this one, of {} cores, had a load of {}.
+Every subject runs in a process of its own, its host, so that a crash or an endless loop costs one case and not the run. Here
+`{}` answers the same cases in its host and in the caller's process, in {} alternating rounds of {} batches
+of {} cases. A *run* generates, asks and judges like `nearmiss run`, which makes the next cases while the subject works.
+*Asking* is that part alone: it shows what the transfer of a case and its answer adds to a call of some nanoseconds.
+Times are medians of the processor time for one case without isolation. Costs are medians of the ratios of processor
+time (of both processes together) and of wall time. A run may take at most {} more processor time. Wall time includes the
+time for which a process waits for a processor on a shared machine: this one, with {} cores, had a load of {}.
 
 {}, one subject.
 
@@ -270,9 +270,9 @@ int main(int argc, char** argv) {
     fmt::print(R"(
 ## Programs over pipes
 
-A case that goes to any other program ([protocol.md](protocol.md)) and its answer, which does next to nothing, so that this
-is what the pipes cost: medians of {} times {} batches of {} cases, nanoseconds of processor time of both processes, and of
-wall time.
+The cost of a case that is sent to any other program ([protocol.md](protocol.md)). The programs compute almost nothing, so the
+figures are the cost of the pipes: medians of {} rounds of {} batches of {} cases, in nanoseconds of processor time of both
+processes and of wall time.
 
 | program | batches | query | processor, ns | wall, ns |
 |---|---|---|--:|--:|

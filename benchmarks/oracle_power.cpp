@@ -1,12 +1,12 @@
-/// How wide the oracle's enclosures are, and which lies the judge tells: writes docs/oracle-power.md to standard
-/// output.
+/// Measures how wide the oracle's enclosures are, and which wrong answers the judge detects; writes
+/// docs/oracle-power.md to standard output.
 ///
 ///   oracle_power [--cases=N] [--lies=N] [QUERY ...]
 ///
-/// Of each plain scene the inputs are widened by 2^24 epsilon of double. The enclosure's width is compared with
-/// that of the hull of the exact answers to inputs within: random ones and, for each number of the answer, the two
-/// corners to which its slopes point. Then lies are told about --lies cases of each family. Exit code 1 where a query's
-/// median is above four times, or where fewer than 99.9 % of a family's lies are told.
+/// The program widens the inputs of plain scenes by 2^24 epsilon of double. It compares the width of the enclosure with
+/// that of the hull of exact answers to inputs within the widening: random ones and, for each number of the answer, the
+/// two corners in the directions of its slopes. Then the judge gets lies about --lies cases of each family. Exit code 1
+/// where the median of a query is above four, or where fewer than 99.9 % of a family's lies are detected.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Detected {
   void add(bool is_refuted) { ++lies, detected += is_refuted; }
   void add(const Detected& t) { lies += t.lies, detected += t.detected; }
   bool enough() const { return double(lies - detected) <= (1 - least_detected) * double(lies); }
-  /// Never rounded up to all of them.
+  /// The share in percent, never rounded up to all.
   std::string share() const {
     if (lies == 0) return "";
     return detected == lies ? "all" : fmt::format("{:.2f} %", std::floor(1e4 * double(detected) / double(lies)) / 100);
@@ -66,18 +66,19 @@ DetectedOf lies_detected(const Query& query, std::uint64_t cases, std::array<Det
   return all;
 }
 
-/// True where enough are told everywhere.
+/// Prints the second section. True where enough lies of every family are detected.
 bool print_lies(std::span<const Query* const> queries, std::uint64_t cases) {
   fmt::print(R"(
-## Which lies are told
+## Which wrong answers are detected
 
-An answer can also be too wide to be wrong: a bound that divides by the length of a short edge may be no bound. So the judge
-is given answers that are wrong by construction: plain bounds (`corpus/lies.cpp`), which share nothing with the oracle,
-prove that no input within 2^10 times the bound on the backward error has such an answer. The bounds are what `Fast` promises,
-in both scalars, and 2^30 ε of double. A lie is about the decision alone, or about one number or one point. Of each family
-{} cases are drawn for each scalar and bound; the table has the share of lies that the judge proves to be further off than the
-bound. `tiny`, `thin` and `degenerate` are scenes of which some things are small, nearly flat, or flat and concentric;
-`huge` and `minute` have lengths of 2^500 to 2^1018 and of 2^-500 to 2^-1060 (float: 2^60 to 2^122, 2^-60 to 2^-140).
+An enclosure can also be so wide that it excludes no answer, for example where it divides by the length of a short edge. So
+the judge gets *lies*, answers that are wrong by construction: elementary bounds (`corpus/lies.cpp`), which share nothing with
+the oracle, prove that no input within 2^10 times the bound on the backward error has such an answer. The bounds on the
+backward error are the promises of `Fast` in both scalars, and 2^30 ε of double. A lie is wrong in the decision alone, in one
+number or in one point. Of each family {} cases are drawn for each scalar and bound; the table has the share of lies that the
+judge proves to be further off than the bound. In the scenes of `tiny`, `thin` and `degenerate` some bodies are small, nearly
+flat, or flat and concentric; `huge` and `minute` have lengths of 2^500 to 2^1018 and of 2^-500 to 2^-1060 (float: 2^60 to
+2^122, 2^-60 to 2^-140).
 
 | query | lies |)",
              cases);
@@ -101,25 +102,25 @@ bound. `tiny`, `thin` and `degenerate` are scenes of which some things are small
     }
     fmt::print("\n");
   }
-  fmt::print("\nOf {} lies {} are told", every.lies, every.detected);
+  fmt::print("\nOf {} lies {} are detected", every.lies, every.detected);
   for (int i = 0; i < topic_count; ++i) {
     const Detected& t = by_topic[std::size_t(i)];
     fmt::print("{} {} of {} about a {}", i == 0 ? ":" : ",", t.detected, t.lies, name_of(Topic(i)));
   }
-  fmt::print(". Fewer than {} % of them: {}.\n", 100 * least_detected, few.empty() ? "nowhere" : few);
+  fmt::print(". Families with fewer than {} % detected: {}.\n", 100 * least_detected, few.empty() ? "none" : few);
   return few.empty();
 }
 
 int run(const std::vector<std::string>& names, std::uint64_t scenes, std::uint64_t cases_with_lies) {
   fmt::print(R"(# How tight the oracle's enclosures are
 
-Written by `build/release/benchmarks/oracle_power`; the same command makes it anew.
+Written by `build/release/benchmarks/oracle_power`. Run the same command to update this page.
 
-An enclosure that is too wide excuses errors. The inputs of {} plain scenes of each query are widened by 2^24 ε of
-double. The width of the enclosure is compared with that of the hull of exact answers to inputs within the widening:
-random ones and, for each number of the answer, the two corners to which its slopes point. A vector counts by its widest
-number. Scenes whose decision is not the same throughout are left out; so are answers that are decisions, flags and
-indices alone.
+An enclosure that is too wide excuses errors. For each query the inputs of {} plain scenes are widened by 2^24 ε of
+double. The table has the ratio of the width of the enclosure to the width of the hull of exact answers to inputs within
+the widening: random inputs and, for each number of the answer, the two corners in the directions of its slopes. The ratio
+of a vector is that of its widest number. Scenes whose decision changes within the widening are left out, and so are
+answers that consist of decisions, flags and indices only.
 
 | query | part | median | 90 % | 99 % |
 |---|---|---|---|---|
