@@ -14,7 +14,8 @@
 extern "C" {
 #endif
 
-/* The version of this header. It changes with every change of the structs below. A plugin of another version is refused. */
+/* The version of this header. It changes with every change of the structs below. A plugin of another version is
+ * refused. */
 #define NEARMISS_PLUGIN_VERSION 2
 
 /* The scalar in which the library computes. Every input is exactly such a number. */
@@ -34,8 +35,8 @@ typedef struct nearmiss_answer {
   char why[200];                   /* for NEARMISS_CANNOT_ANSWER: the reason, shown in reports */
 } nearmiss_answer;
 
-/* Answers one case. `inputs` has the query's inputs in their order; flags are 0 or 1, indices small integers. The function
- * runs in a process of its own: a crash or an endless loop costs only this case. */
+/* Answers one case. `inputs` has the query's inputs in their order; flags are 0 or 1, indices small integers. The
+ * function runs in a process of its own: a crash or an endless loop costs only this case. */
 typedef int (*nearmiss_answer_function)(const double* inputs, nearmiss_answer* answer);
 
 /* The library's promise for a query, with the meaning of collide/contract.hpp; INFINITY promises nothing. */

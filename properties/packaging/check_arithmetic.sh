@@ -49,6 +49,10 @@ echo >"$scratch/without/collide/detail/strict_end.hpp"
 found=$(fused "$scratch/without")
 ((found > 0)) || fail "nothing is contracted without the guard either: the check looks at nothing"
 
+# Without SIMD lanes every query compiles as well.
+"$compiler" -std=c++20 -O0 -Wall -Wextra -Werror -Wno-missing-declarations -DCOLLIDE_NO_LANES -c -o "$scratch/all.o" \
+  -I "$include_folder" "$scratch/all.cpp" || fail "a query does not compile with COLLIDE_NO_LANES"
+
 for option in -ffast-math -Ofast -ffinite-math-only; do
   if "$compiler" -std=c++20 "$option" -fsyntax-only -I "$include_folder" "$scratch/all.cpp" 2>"$scratch/said"; then
     fail "$option is accepted"
