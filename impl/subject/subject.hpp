@@ -84,13 +84,13 @@ struct Subject {
   std::string name;
   std::string version;
   Scalar scalar = Scalar::float64;
-  bool own = false;      ///< belongs to this project (impl/subject/provenance.hpp); false for plugins and commands
   bool referee = false;  ///< also gives a second opinion on the findings of others
   std::vector<Offering> offerings;
   std::string plugin{};   ///< the plugin's file; empty for any other subject
   std::string command{};  ///< the command line, which runs from any folder; empty for any other subject
   std::shared_ptr<const HostProgram> host{};  ///< the program that answers; nullptr: functions of this process answer
   std::shared_ptr<const void> context{};      ///< keeps the context of its functions alive
+  bool own = false;                           ///< belongs to this project (impl/subject/provenance.hpp)
 
   const Offering& offering(std::string_view query) const {
     static const Offering none{"", Offer::not_offered, "unknown query", {}, {}};
