@@ -1,5 +1,5 @@
-/// Bullet 3.24 as a contender, in float or double: shapes, poses and algorithms are made before, the
-/// question is one call. Each query goes to the most direct function that Bullet has for it:
+/// Bullet 3.24 as a contender, in float or double. Shapes, poses and algorithms are made before the timing; the timed part is
+/// one call. Each query uses the most direct functions of Bullet:
 ///
 ///   algorithm    processCollision of the algorithm that its dispatcher finds for the two shapes
 ///   distance     btSphereBoxCollisionAlgorithm::getSphereDistance
@@ -7,9 +7,9 @@
 ///   gjk          btGjkPairDetector with EPA
 ///   subsimplex   btSubsimplexConvexCast, as its ray tests use it
 ///   continuous   btContinuousConvexCollision, as its sweep tests use it
-///   triangle-ray btTriangleRaycastCallback; slabs: btRayAabb2; outcodes: btRayAabb. They tell how far along the ray it
-///                meets the thing; the contact, which the queries ask for, is computed from that as Bullet's
-///                ClosestRayResultCallback does
+///   triangle-ray btTriangleRaycastCallback; slabs: btRayAabb2; outcodes: btRayAabb. They return the fraction along
+///                the ray; the contact that the queries ask for is computed from it as in Bullet's
+///                ClosestRayResultCallback
 #include <btBulletCollisionCommon.h>
 
 #include <BulletCollision/CollisionDispatch/SphereTriangleDetector.h>
@@ -103,7 +103,7 @@ btCollisionDispatcher& dispatcher() {
 /// Bullet's own settings.
 const btDispatcherInfo settings;
 
-/// The deepest contact, kept out of Bullet's manifold so that nothing grows from call to call.
+/// Keeps the deepest contact instead of Bullet's manifold, which would grow from call to call.
 struct DeepestContact final : btManifoldResult {
   using btManifoldResult::btManifoldResult;
   void addContactPoint(const btVector3& normal, const btVector3& point, btScalar distance) override {
@@ -356,7 +356,7 @@ void enter_sweeps(const char* query) {
   enter_as<Q, Continuous<B>>(query, "continuous");
 }
 
-/// Enters what Bullet has for a query.
+/// Registers Bullet's contenders for a query.
 template <QueryName query, class Q>
 void enter_query(const char* name) {
   constexpr std::string_view is = query.text;

@@ -1,4 +1,4 @@
-/// A contender: one way to answer a query, timed against the others on the same scenes.
+/// A contender: one way to answer a query. The benchmarks time all contenders of a query on the same scenes.
 #pragma once
 
 #include <memory>
@@ -15,44 +15,44 @@ namespace nearmiss::benchmarks {
 class Contender {
  public:
   virtual ~Contender() = default;
-  /// Makes what is ready before the question comes: shapes, poses, prepared helps. Not timed.
+  /// Makes the objects that exist before a call: shapes, poses, prepared operands. Not timed.
   virtual void prepare(const Scenes& scenes) = 0;
-  /// Asks every scene once, in the order of that pass.
+  /// Answers every scene once, in the order of this pass.
   virtual void pass(std::size_t pass) = 0;
   virtual void ask(std::size_t scene) = 0;
   virtual bool yes(std::size_t scene) = 0;
-  /// Shares of the scenes, by name: which stage answered, for a contender with stages.
+  /// The share of scenes that each stage answered, by name; empty for a contender without stages.
   virtual std::vector<std::pair<std::string, double>> stages() { return {}; }
 };
 
-/// The i-th scene of a pass. Scenes are in random order, and each pass goes through them in another one, so
-/// that no predictor learns the order by heart.
+/// The i-th scene of a pass. Scenes are in random order, and each pass uses another order, so that no branch predictor can
+/// learn it. `scenes` must be a power of two.
 inline std::size_t scene_in_pass(std::size_t i, std::size_t pass, std::size_t scenes) {
   const std::size_t stride = 2 * (pass * 0x9e3779b97f4a7c15 >> 32) + 1;  // odd, and scenes a power of two
   return (i * stride) & (scenes - 1);
 }
 
-/// Names a contender: it becomes the benchmark QUERY/WHO/WAY/SCALAR.
-void register_contender(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender);
+/// Registers a contender as the benchmark QUERY/LIBRARY/WAY/SCALAR.
+void register_contender(std::string query, std::string library, std::string way, std::unique_ptr<Contender> contender);
 
-/// Tells the results who took part: "FCL", "0.7.0".
+/// Adds an entry to the context of the results: "FCL", "0.7.0".
 void add_context(const std::string& what, const std::string& value);
 
-/// What a library other than collide says: yes or no, and its number where it has one.
+/// The answer of a library other than collide: a decision, and a number where it has one.
 struct LibraryAnswer {
   bool answer = false;
   double number = 0;
   bool yes() const { return answer; }
 };
 
-/// The compiler must compute the value, and may not know what any memory holds from here on.
+/// An optimization barrier: forces the compiler to compute the value, and to assume that all memory changed.
 template <class T>
 inline void keep(const T& value) {
   asm volatile("" : : "m"(value) : "memory");
 }
 
-/// The contender whose scenes are made from Q, the inputs of a query, and answer by `ask()`; perhaps a tier
-/// that counts its stages.
+/// A contender with scenes of type Scene, which are made from Q, the inputs of a query, and answer by `ask()`. `Tier` may
+/// count its stages.
 template <class Scene, class Q, class Tier = void>
 class ContenderOf final : public Contender {
  public:
@@ -60,11 +60,11 @@ class ContenderOf final : public Contender {
   void prepare(const Scenes& scenes) override {
     clear();
     capacity_ = scenes.size();
-    scenes_ = std::allocator<Placed>().allocate(capacity_);  // in one row; a scene need not be movable
+    scenes_ = std::allocator<Placed>().allocate(capacity_);  // contiguous; a scene need not be movable
     for (const auto& values : scenes.values) std::construct_at(scenes_ + size_++, inputs_from<Q>(values.data()));
   }
   void pass(std::size_t pass) override {
-    const Placed* const scenes = scenes_;  // the loop is part of what is timed: members would be read anew each time
+    const Placed* const scenes = scenes_;  // the loop is timed: locals avoid reading the members in each iteration
     const std::size_t size = size_;
     for (std::size_t i = 0; i < size; ++i) keep(scenes[scene_in_pass(i, pass, size)].scene.ask());
   }
@@ -84,8 +84,7 @@ class ContenderOf final : public Contender {
   }
 
  private:
-  /// A scene at the begin of a cache line, so that each takes as few lines as it can: the query is timed, not the
-  /// memory.
+  /// A scene at the start of a cache line, so that it occupies as few lines as possible.
   struct alignas(64) Placed {
     explicit Placed(const Q& q) : scene(q) {}
     Scene scene;

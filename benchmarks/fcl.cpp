@@ -1,9 +1,8 @@
-/// FCL 0.7 as a contender, in double: its shapes and poses are made before, the question is one call of its
-/// API with the solvers of its choice.
+/// FCL 0.7 as a contender, in double. Shapes and poses are made before the timing; the timed part is one call of its API
+/// with its default solvers.
 ///
-/// A plane is FCL's half-space, the solid behind it; for motions it is FCL's plane. Motions run by both of
-/// its ways: "naive", its default, which samples ten positions and may miss what lies between, and
-/// "advancement", which may not.
+/// A plane becomes FCL's half-space, the solid behind it; for motions it becomes FCL's plane. Motions run in both of FCL's
+/// ways: "naive", the default, samples ten positions and may miss contacts between them; "advancement" cannot.
 #include <fcl/config.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
@@ -116,7 +115,7 @@ struct TriangleOverlap {
   fcl::detail::GJKSolver_libccd<double> solver;
 };
 
-/// What a motion may meet.
+/// The targets of a motion.
 template <class B>
 using Target = std::conditional_t<std::is_same_v<B, Plane>, Surface, B>;
 
@@ -145,7 +144,7 @@ void enter_as(const char* query, const char* way) {
   register_contender(query, "fcl", way, std::make_unique<ContenderOf<Scene, Q>>());
 }
 
-/// Enters what FCL has for a query.
+/// Registers FCL's contenders for a query.
 template <QueryName query, class Q>
 void enter_query(const char* name) {
   constexpr std::string_view is = query.text;

@@ -1,11 +1,11 @@
-/// What isolation costs: writes docs/isolation.md to standard output.
+/// Measures the cost of isolation; writes docs/isolation.md to standard output.
 ///
 ///   isolation_cost [--pairs=N] [--subject=NAME] [--command=COMMAND ...] [QUERY ...]
 ///
-/// Times the same work with the subject in its host and in this process, in turns, and tells the medians of the
-/// ratios of processor time (of both processes) and of wall time; then what a case costs that goes to a program over
-/// pipes, for each COMMAND (docs/protocol.md). Exit code 1 where a run takes more than 20 % more processor time: wall
-/// time says as much of what else a machine does.
+/// Times the same work alternately with the subject in its host and in this process, and prints the medians of the ratios of
+/// processor time (of both processes) and of wall time; then the cost of a case for each COMMAND, a program over pipes
+/// (docs/protocol.md). Exit code 1 where isolation costs a run more than 20 % of processor time; wall time also depends on
+/// the load of the machine.
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ namespace {
 constexpr std::size_t batch_size = Workers::batch, batches = 16;
 constexpr double most_cost = 1.2;
 
-/// Seconds that some work took.
+/// The processor time and the wall time of some work, in seconds.
 struct Spent {
   double processor = 0, wall = 0;
 };
@@ -46,7 +46,7 @@ double seconds_of(clockid_t clock) {
 /// The work of a run on one query and subject.
 class Measured {
  public:
-  /// `here` and `hosted` are the same subject, whose functions are in this process, and in a host.
+  /// `here` and `hosted` are the same subject, with its functions in this process and in a host.
   Measured(const Query& query, const Subject& here, const Subject& hosted, Workers& workers)
       : query_(query),
         subject_(hosted),
@@ -75,7 +75,7 @@ class Measured {
       }
     });
   }
-  /// Asking alone.
+  /// Only asks.
   Spent ask(bool isolated) {
     generate_batch(0, cases_);
     return measured([&] {
@@ -124,11 +124,11 @@ double median(std::vector<double> all) {
   return all[all.size() / 2];
 }
 
-/// The same work in turns, isolated and not: ratios, and seconds of processor time without isolation.
+/// The ratios of the costs of the same work with and without isolation, and its processor time without isolation.
 struct Cost {
   std::vector<double> processor_ratios, wall_ratios, seconds;
 
-  /// Each kind goes first in every other pair.
+  /// Does the work both ways. Either way is first in every other pair.
   void add_pair(int number, const auto& work) {
     const bool isolated_first = number % 2 == 0;
     const Spent first = work(isolated_first), second = work(!isolated_first);
@@ -139,7 +139,7 @@ struct Cost {
   }
   double processor() const { return median(processor_ratios); }
   double wall() const { return median(wall_ratios); }
-  /// Of a case without isolation.
+  /// Nanoseconds of processor time for a case without isolation.
   double nanoseconds() const { return 1e9 * median(seconds) / double(batches * batch_size); }
 };
 
@@ -150,21 +150,21 @@ struct Costs {
 
 std::string percent(double ratio) { return fmt::format("{:+.0f} %", 100 * (ratio - 1)); }
 
-/// Of the last minute.
+/// The load average of the last minute.
 std::string load() {
   std::string one_minute;
   std::ifstream("/proc/loadavg") >> one_minute;
   return one_minute;
 }
 
-/// What a case costs that goes to a program over pipes, processor time of both and wall time; medians.
+/// Prints the cost of a case for a program over pipes: medians of the processor time of both processes and of wall time.
 void measure_program(const Subject& program, int rounds) {
   Workers workers;
   for (const Offering& o : program.offerings) {
     if (o.answer == nullptr) continue;
     Measured measured(*find_query(o.query), program, program, workers);
     std::vector<double> processor, wall;
-    measured.ask(true);  // at first a program gets few cases at once
+    measured.ask(true);  // a program gets small requests at first
     for (int i = 0; i < rounds; ++i) {
       const Spent spent = measured.ask(true);
       processor.push_back(spent.processor);
@@ -184,7 +184,7 @@ int measure(const std::vector<const Query*>& queries, const Subject& subject, co
   for (const Query* q : queries) {
     if (subject.offering(q->name).answer != nullptr) all.push_back({q, {}, {}});
   }
-  // Round after round, so that what else the machine does for some seconds is spread over all queries.
+  // Measures round by round, so that a load of some seconds is spread over all queries.
   for (int round = 0; round < pairs; ++round) {
     for (Costs& c : all) {
       Measured measured(*c.query, subject, hosted, workers);

@@ -1,4 +1,4 @@
-/// What the results say about where they were measured.
+/// Describes the machine, for the results.
 #pragma once
 
 #include <fstream>
@@ -6,7 +6,7 @@
 
 namespace nearmiss::benchmarks {
 
-/// As the kernel names it; empty where it does not.
+/// The processor's name from the kernel; empty where unknown.
 inline std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

@@ -1,10 +1,10 @@
-/// Times every contender on the scenes of its query. Google Benchmark's own options apply;
-/// --scenes=N, a power of two, sets how many scenes each query gets.
+/// Times every contender on the scenes of its query. Google Benchmark's own options apply; --scenes=N, a power of two, sets
+/// the number of scenes for each query.
 ///
-/// Time is that of one call among others, scenes in random order. Counters: p50 and p99 over the scenes, ns
-/// that one costs by itself, from its begin to its end, which overlaps with no other; hits and agree,
-/// shares of the scenes: those with a yes, and those where the decision is that of Fast in double; and of a
-/// tier with stages the share that each answered.
+/// The time is that of one call in a sequence of calls, with the scenes in random order. Counters: p50 and p99, percentiles
+/// over the scenes of the latency in ns of a single call that overlaps with no other; hits, the share of scenes with a
+/// yes; agree, the share of scenes with the same decision as Fast in double; and for a tier with stages the share that
+/// each stage answered.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ double ns_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
 }
 
-/// A clock that resolves a few nanoseconds: on x86 the cycle counter, between fences, so that nothing of
-/// the question is begun before or ended after the reading.
+/// A clock with a resolution of a few nanoseconds. On x86 it is the cycle counter between fences, so that no instruction
+/// of the timed call moves across the reading.
 std::uint64_t ticks() {
 #if defined(__x86_64__)
   _mm_lfence();
@@ -62,7 +62,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// What is measured of a question that costs nothing.
+/// An empty call, which measures the overhead of the timing.
 class NoQuestion final : public Contender {
   void prepare(const Scenes&) override {}
   void pass(std::size_t) override {}
@@ -70,8 +70,8 @@ class NoQuestion final : public Contender {
   bool yes(std::size_t) override { return false; }
 };
 
-/// Ticks that each scene costs by itself, of some passes in different orders the median: what slows one
-/// pass alone is the machine, not the question.
+/// The latency of each scene in ticks: the median of some passes in different orders, so that a load on the machine during
+/// one pass does not count.
 std::vector<double> costs_of_scenes(Contender& contender, std::size_t scenes) {
   constexpr std::size_t passes = 9;
   std::vector<std::vector<double>> costs(scenes);
@@ -94,7 +94,7 @@ struct Percentiles {
 
 Percentiles percentiles(Contender& contender, const Scenes& scenes) {
   static NoQuestion nothing;
-  Contender* volatile no_question = &nothing;  // the call must stay a call
+  Contender* volatile no_question = &nothing;  // the compiler must not inline the call
   const double overhead = median(costs_of_scenes(*no_question, scenes.size()));
   std::vector<double> costs = costs_of_scenes(contender, scenes.size());
   std::sort(costs.begin(), costs.end());
@@ -104,7 +104,7 @@ Percentiles percentiles(Contender& contender, const Scenes& scenes) {
   return {ns(costs.size() / 2), ns(costs.size() * 99 / 100), double(agree) / double(scenes.size())};
 }
 
-/// What outlives the several calls that Google Benchmark makes for one result.
+/// A benchmark. Keeps its percentiles, because Google Benchmark calls run() several times for one result.
 struct Entry {
   std::string query;
   std::unique_ptr<Contender> contender;
@@ -121,7 +121,7 @@ struct Entry {
     state.counters["hits"] = scenes.share_of_yes();
     state.counters["agree"] = measured->agree;
     for (const auto& [stage, share] : contender->stages()) state.counters[stage] = share;
-    contender->prepare({});  // memory back
+    contender->prepare({});  // frees the memory
   }
 };
 
@@ -130,7 +130,7 @@ std::vector<std::unique_ptr<Entry>>& entries() {
   return all;
 }
 
-/// Takes --scenes=N out of the arguments; false where N is no power of two.
+/// Removes --scenes=N from the arguments; false where N is not a power of two.
 bool take_scene_count(int& argc, char** argv) {
   constexpr std::string_view option = "--scenes=";
   for (int i = 1; i < argc; ++i) {
@@ -150,8 +150,8 @@ bool take_scene_count(int& argc, char** argv) {
 
 void add_context(const std::string& what, const std::string& value) { benchmark::AddCustomContext(what, value); }
 
-void register_contender(std::string query, std::string who, std::string way, std::unique_ptr<Contender> contender) {
-  const std::string name = query + "/" + who + "/" + way + "/" NEARMISS_SCALAR_NAME;
+void register_contender(std::string query, std::string library, std::string way, std::unique_ptr<Contender> contender) {
+  const std::string name = query + "/" + library + "/" + way + "/" NEARMISS_SCALAR_NAME;
   entries().push_back(std::make_unique<Entry>(Entry{std::move(query), std::move(contender), {}}));
   benchmark::RegisterBenchmark(name.c_str(), [entry = entries().back().get()](benchmark::State& s) { entry->run(s); });
 }

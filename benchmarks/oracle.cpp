@@ -1,15 +1,15 @@
-/// Times the judge on every query: cases of collide's fast tier, whose answers are known before. Google
-/// Benchmark's own options apply; --cases=N sets how many cases each measurement has.
+/// Times the judge on every query, with answers of collide's fast tier that are computed before. Google Benchmark's own
+/// options apply; --cases=N sets the number of cases of each measurement.
 ///
 ///   QUERY/judge/SCALAR       plain scenes: the decision, the contract and the proved backward bound
 ///   QUERY/wrong/SCALAR       the same, each answer off by a part in 4096, or else with the opposite decision
 ///   QUERY/forward/SCALAR     as judge, and the forward error to a tenth of an ulp
 ///   QUERY/degenerate/SCALAR  as judge, of the generator's cases that only the exact stage decides
-///   QUERY/worst/SCALAR       everything that a report has, of one case: the costliest of all these, of raw
-///                            numbers and of far-scaled ones
-///   QUERY/stages/SCALAR      as judge, of all that the generator draws
+///   QUERY/worst/SCALAR       everything in a report, for one case: the costliest of the degenerate cases, of raw numbers
+///                            and of far-scaled cases
+///   QUERY/stages/SCALAR      as judge, for all cases that the generator draws
 ///
-/// Counters: exact, the share of the cases that the exact stage decided; cases, how many there were.
+/// Counters: exact, the share of the cases that the exact stage decided; cases, their number.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -67,8 +67,8 @@ std::vector<Asked> all_sorts(const Pairing& p) {
   return all;
 }
 
-/// The plain scenes with answers that are all wrong: a number that is given and not zero is a little off, and
-/// where there is none the decision.
+/// The plain scenes with wrong answers: each nonzero number is off by a part in 4096; without such a number the decision is
+/// wrong.
 std::vector<Asked> with_wrong_answers(const Pairing& p) {
   std::vector<Asked> all = plain_scenes(p);
   for (Asked& a : all) {
@@ -85,8 +85,8 @@ std::vector<Asked> with_wrong_answers(const Pairing& p) {
   return all;
 }
 
-/// At most a quarter of the count; fewer, or none, where they are rare. What the contract leaves out of its domain is
-/// judged without the exact stage, so it is none of them.
+/// At most count / 4 cases that the exact stage decides; fewer, or none, where they are rare. A case outside the domain of
+/// the contract is judged without the exact stage, so it is not among them.
 std::vector<Asked> degenerate(const Pairing& p) {
   std::vector<Asked> found;
   for (std::uint64_t i = 0; i < 64 * count && found.size() < std::max<std::size_t>(count / 4, 1); ++i) {
@@ -104,7 +104,7 @@ double thread_cpu_ms() {
   return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
 }
 
-/// Of some repetitions the least: what slows one alone is the machine.
+/// The costliest case. Its cost is the least of some repetitions, so that a load on the machine does not count.
 Asked costliest(const Pairing& p) {
   std::vector<Asked> all = degenerate(p);
   for (std::size_t i = 0; i < count; ++i) {
@@ -173,7 +173,7 @@ void enter_all() {
   }
 }
 
-/// Takes --cases=N out of the arguments; false where N is not positive.
+/// Removes --cases=N from the arguments; false where N is not positive.
 bool take_case_count(int& argc, char** argv) {
   constexpr std::string_view option = "--cases=";
   for (int i = 1; i < argc; ++i) {

@@ -1,4 +1,4 @@
-/// What a user prepares once and keeps, the benchmarks prepare before the question, too.
+/// Prepares operands before the timing, as a user would prepare and keep them.
 #pragma once
 
 #include <tuple>
@@ -7,7 +7,7 @@
 
 namespace nearmiss::benchmarks {
 
-/// The inputs of a query as they are when the question comes.
+/// The prepared arguments of a query.
 template <class Tier, class Q>
 struct Ready {
   explicit Ready(const Q& q) : arguments(adapters::arguments<Tier>(q)) {}

@@ -1,4 +1,4 @@
-/// The questions that are timed: the generator's plain scenes, about half of them hits, in random order.
+/// The timed cases: plain scenes of the generator, about half of them with a yes, in random order.
 #pragma once
 
 #include <string>
@@ -7,21 +7,20 @@
 
 namespace nearmiss::benchmarks {
 
-/// Distinct cases of a query. Every number is exact in float, so that each scalar and library is asked
-/// the same.
+/// Distinct cases of a query. Every number is exact in float, so that each scalar and library answers the same cases.
 struct Scenes {
-  std::vector<std::vector<double>> values;  ///< one per input, as Case::values
-  std::vector<bool> yes;                    ///< what Fast in double says
+  std::vector<std::vector<double>> values;  ///< one number for each input, as in Case::values
+  std::vector<bool> yes;                    ///< the decision of Fast in double
 
   std::size_t size() const { return values.size(); }
   double share_of_yes() const;
 };
 
-/// How many scenes each query gets, a power of two. To be set before the first call of scenes_of.
+/// The number of scenes for each query, a power of two. Set it before the first call of scenes_of.
 void set_scene_count(std::size_t count);
 std::size_t scene_count();
 
-/// The scenes of a query of the catalogue, made at the first call: always the same.
+/// The scenes of a query of the catalogue: the same in every run. Made at the first call.
 const Scenes& scenes_of(std::string_view query);
 
 }  // namespace nearmiss::benchmarks

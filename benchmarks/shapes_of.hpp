@@ -1,4 +1,4 @@
-/// What the adapters to other libraries need of a query's inputs.
+/// Access to the shapes in a query's inputs, for the contenders of other libraries.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ const S& the(const Q& q) {
   }
 }
 
-/// The shape of type B that stands after one of type A: the second of two of one type.
+/// The shape of type B beside one of type A; the second one where both types are the same.
 template <class A, class B, class Q>
 const B& the_other(const Q& q) {
   constexpr int k = std::is_same_v<A, B> ? 1 : 0;
@@ -71,8 +71,7 @@ collide::Sphere<T> ball_around(const collide::Triangle<T>& t) {
   const collide::Vec3<T> center = (t.v0 + t.v1 + t.v2) / T(3);
   return {center, std::max({norm(t.v0 - center), norm(t.v1 - center), norm(t.v2 - center)})};
 }
-/// Where a motion that goes on for ever may end without missing anything: past the shape. Other libraries
-/// move from a start to an end.
+/// An end for an unlimited motion, past the shape, so that no contact is lost. Other libraries move from a start to an end.
 template <class S, class T>
 collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius,
                                const S& shape) {

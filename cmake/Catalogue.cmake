@@ -1,5 +1,5 @@
-# Reads the catalogue: sets NEARMISS_QUERIES and writes the headers with the inputs of every query and with the function
-# of `collide` for each.
+# Reads the catalogue: sets NEARMISS_QUERIES, and writes two headers, with the inputs of every query and with the function
+# of `collide` for every query.
 
 set(NEARMISS_CATALOGUE ${PROJECT_SOURCE_DIR}/impl/catalogue/catalogue.def)
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${NEARMISS_CATALOGUE})

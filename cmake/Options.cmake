@@ -1,4 +1,4 @@
-# Options of the build, and the one place that fixes the floating-point environment.
+# Options of the build. Also fixes the floating-point environment, for all targets.
 
 option(NEARMISS_TESTS "Build the tests" ON)
 option(NEARMISS_FCL "Build FCL as a subject, where it is installed" ON)
@@ -21,8 +21,8 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# Paths below the source folder are hashed as relative ones, so that another clone, or the copy that
-# properties/another_query builds, finds what was compiled here.
+# ccache hashes paths below the source folder as relative paths, so that another clone, or the copy that
+# properties/another_query builds, can use the objects of this build.
 find_program(NEARMISS_CCACHE ccache)
 if(NEARMISS_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER
@@ -30,9 +30,9 @@ if(NEARMISS_CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 
-# Warnings, and floating point as IEEE 754 has it. A contraction (a * b + c in one rounding) or a
-# reassociation changes what a tier computes and breaks the intervals' bounds, so the result of a case
-# would depend on the compiler. oracles/environment.cpp asserts at build and at start that it holds.
+# Warnings, and floating point according to IEEE 754. A contraction (a * b + c with one rounding) or a reassociation would
+# change the results of a tier and break the bounds of intervals, so that results would depend on the compiler.
+# oracles/environment.cpp checks the environment at build time and at start.
 add_library(nearmiss_flags INTERFACE)
 target_compile_options(nearmiss_flags INTERFACE
   -Wall -Wextra -Wshadow -Wno-unknown-pragmas
@@ -45,7 +45,7 @@ if(NEARMISS_SANITIZE)
     -fsanitize=${NEARMISS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=${NEARMISS_SANITIZE})
 endif()
-if(NEARMISS_LIBFUZZER)  # the counters by which libFuzzer steers; its main is linked into the fuzz targets alone
+if(NEARMISS_LIBFUZZER)  # the coverage counters of libFuzzer; only fuzz targets link its main
   target_compile_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()

@@ -1,5 +1,5 @@
-# Writes nearmiss/per_query_tests.hpp: "SUITE.TEST" for each test of properties/ that runs for every query, which are the
-# tests of the suites that INSTANTIATE_FOR_EVERY_QUERY names.
+# Writes nearmiss/per_query_tests.hpp, which lists "SUITE.TEST" for each test of properties/ that runs for every query:
+# the tests of the suites in INSTANTIATE_FOR_EVERY_QUERY.
 
 file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/properties/*_test.cpp)
 list(SORT test_sources)

@@ -1,16 +1,17 @@
 # nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [LIBRARIES ...])
-#   NAME      as the command line knows it
-#   HEADER    the adapter's header: beside the file that calls this, or from the top of this project
-#   ADAPTER   the adapter's type, qualified
-#   LIBRARIES what the header needs. Their compile options and definitions are for this adapter alone
-#   OWN       a subject of this project: its contracts are held in every test, and relations ask it for the same bits
-#   ISOLATED  never linked into a program with other subjects: for a library whose names another subject's library has as
-#             well, such as another version of it. Fuzz targets and property tests, which ask subjects in their own process,
-#             are without it
+#   NAME      its name on the command line
+#   HEADER    the adapter's header: relative to the calling file, or to the top of this project
+#   ADAPTER   the qualified name of the adapter's type
+#   LIBRARIES the libraries that the header needs. Their compile options and definitions apply only to this adapter
+#   OWN       a subject of this project: fuzz targets and property tests check its contracts, and relations require the
+#             same bits of it
+#   ISOLATED  never linked into a program with other subjects: for a library that defines the same symbols as another
+#             subject's library, such as another version of it. Fuzz targets and property tests, which ask subjects in
+#             their own process, do not include it
 #
-# Your own library is added by a CMake file of yours, which calls this and is named to CMake by
-# -DNEARMISS_ADD=FILE; docs/bring-your-own.md shows it. Everything else follows: list, run, replay, nightly, fuzz
-# targets and properties read the same list.
+# To add your own library, write a CMake file that calls this function, and pass it to CMake by -DNEARMISS_ADD=FILE
+# (docs/bring-your-own.md). The commands list, run, replay and nightly, the fuzz targets and the properties then include
+# it.
 
 function(nearmiss_add_subject name header adapter)
   cmake_parse_arguments(arg "OWN;ISOLATED" "" "LIBRARIES" ${ARGN})
@@ -45,7 +46,7 @@ Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
   endif()
 endfunction()
 
-# The functions of impl/subject/provenance.hpp: who brought which subject.
+# Sets `variable` to the C++ functions of impl/subject/provenance.hpp.
 function(nearmiss_provenance variable)
   set(text "")
   foreach(kind own added)
@@ -58,8 +59,7 @@ function(nearmiss_provenance variable)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# Writes the source `file` that lists subjects whose functions the program itself has. A program that compiles one of its
-# own links no other subject.
+# Writes the source `file` that lists subjects whose functions are linked into the program.
 function(nearmiss_write_subjects file)  # SUBJECT ...
   set(text "// Written by CMake.\n#include \"impl/subject/provenance.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
   foreach(s IN LISTS ARGN)
@@ -73,7 +73,7 @@ function(nearmiss_write_subjects file)  # SUBJECT ...
   file(GENERATE OUTPUT ${file} CONTENT "${text}  };\n}\n${provenance}}\n")
 endfunction()
 
-# Writes the source `file` that lists the same subjects as programs of their own.
+# Writes the source `file` that lists subjects with the programs that are their hosts.
 function(nearmiss_write_hosts file)  # SUBJECT ...
   set(text "// Written by CMake.\n#include \"impl/subject/provenance.hpp\"\n#include \"impl/host/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
   foreach(s IN LISTS ARGN)
@@ -84,8 +84,9 @@ function(nearmiss_write_hosts file)  # SUBJECT ...
   file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${provenance}}\n")
 endfunction()
 
-# Compiles a subject's adapter by itself, so that nobody else sees what its libraries ask of a compiler; makes the program
-# that is its host, and adds it to nearmiss_subjects for those who ask it in their own process.
+# Compiles a subject's adapter in a target of its own, so that the compile options of its libraries apply to no other
+# source; makes the program that is its host; and, unless it is isolated, adds it to nearmiss_subjects for the programs that
+# ask it in their own process.
 function(nearmiss_compile_subject identifier)
   get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME)
   get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES)
@@ -119,17 +120,17 @@ int main() { _exit(nearmiss::host_of(nearmiss::subject_${identifier})); }
     OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${NEARMISS_HOSTS})
 endfunction()
 
-# Makes the hosts of all subjects, the library that holds the subjects, and nearmiss_hosts for the programs that ask hosts.
+# Makes the hosts of all subjects, the library nearmiss_subjects, and nearmiss_hosts for the programs that ask hosts.
 function(nearmiss_finish_subjects)
   find_package(nlohmann_json REQUIRED)
   set(NEARMISS_HOSTS ${PROJECT_BINARY_DIR}/hosts)
   get_property(subjects GLOBAL PROPERTY NEARMISS_SUBJECTS)
   find_package(fmt REQUIRED)
-  # What is asked.
+  # The queries.
   add_library(nearmiss_catalogue STATIC ${PROJECT_SOURCE_DIR}/impl/catalogue/catalogue.cpp)
   target_link_libraries(nearmiss_catalogue PUBLIC nearmiss_flags collide PRIVATE fmt::fmt)
   target_include_directories(nearmiss_catalogue PUBLIC ${NEARMISS_GENERATED})
-  # What a host is made of, apart from its subject.
+  # The parts of a host other than its subject.
   add_library(nearmiss_host STATIC ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp)
   target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nlohmann_json::nlohmann_json)
   target_include_directories(nearmiss_host PUBLIC ${NEARMISS_GENERATED})
@@ -153,7 +154,7 @@ function(nearmiss_finish_subjects)
   target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
   add_library(nearmiss_hosts OBJECT ${NEARMISS_GENERATED}/subjects/hosts.cpp)
   target_link_libraries(nearmiss_hosts PUBLIC nearmiss_flags collide)
-  target_link_options(nearmiss_hosts INTERFACE -Wl,--as-needed)  # the libraries of subjects in process are not wanted
+  target_link_options(nearmiss_hosts INTERFACE -Wl,--as-needed)  # drops the libraries of subjects that are linked in process
   foreach(s IN LISTS subjects)
     nearmiss_compile_subject(${s})
     add_dependencies(nearmiss_hosts nearmiss_host_${s})

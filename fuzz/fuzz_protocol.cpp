@@ -1,7 +1,7 @@
-/// Fuzzes what the judge's process takes from the other side of the wall: hellos, answers over pipes, answers in shared
-/// memory, text for terminals. What they say may be refused, never believed: each property below ends the process.
+/// Fuzzes the data that the judge's process reads from hosts: hellos, answers over pipes, answers in shared memory, text for
+/// terminals. The reader may refuse any data, but must never accept invalid data: a failed demand() aborts.
 ///
-/// The first byte says which of them the others are; for answers the second is how many numbers an answer has.
+/// The first byte selects the kind of data; for answers the second byte is the count of numbers in an answer.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +22,7 @@ const char* const nearmiss::fuzzed_query = "protocol";
 namespace nearmiss {
 namespace {
 
+/// Aborts unless `held`.
 void demand(bool held, const char* what) {
   if (held) return;
   std::fprintf(stderr, "fuzz_protocol: %s\n", what);
@@ -78,7 +79,7 @@ void hear_replies(std::string_view bytes, std::size_t outputs,
   }
 }
 
-/// Heads, then numbers, as a host may leave them; its reasons are the same bytes again.
+/// Fills the heads of shared memory with the bytes, and the reasons with the same bytes again.
 void look_at_shared_memory(std::string_view bytes, std::size_t outputs) {
   static const auto memory = std::make_unique<wire::SharedAnswers>();
   static std::array<Answer, wire::capacity> into;

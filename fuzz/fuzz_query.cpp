@@ -1,5 +1,5 @@
-/// One fuzz target per query, named by fuzzed_query: bytes become a case, the tiers of
-/// `collide` answer it, the judge has its say, and a violation ends the process with the case in hand.
+/// The fuzz target of the query fuzzed_query: bytes become a case, the tiers of `collide` answer it, and the judge judges
+/// the answers. A violation aborts the process and prints the case.
 ///
 /// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas; "added": those of NEARMISS_ADD that
 ///                         offer this query
@@ -53,8 +53,8 @@ std::vector<std::string> named_in_environment() {
   return names;
 }
 
-/// Every tier of `collide`, and the subjects and plugins named in the environment, that answer this query. They are
-/// told on standard error, for whoever started this.
+/// Every tier of `collide`, and the subjects, plugins and commands in the environment, that answer this query. Prints their
+/// names to standard error, where `nearmiss nightly` reads them.
 std::vector<const Subject*> asked_subjects() {
   try {
     load_subjects_of_environment();
@@ -110,7 +110,7 @@ std::uint64_t content_hash(const Case& c) {  // FNV-1a
   return h;
 }
 
-/// One common bug must not fill the disk: this many files of one kind of finding are enough.
+/// Most files for one kind of finding, so that one common bug does not fill the disk.
 constexpr int most_files_of_a_kind = 100;
 
 void store(const std::filesystem::path& folder, const Case& c, const Subject& subject, const Finding& f) {
@@ -134,7 +134,7 @@ void report(const Case& c, const Subject& subject, const Finding& f) {
   std::abort();
 }
 
-/// The case is an artifact of this target then, and whoever judges that meets the error again.
+/// Aborts, so that the case becomes an artifact of this target. Judging the artifact repeats the error.
 [[noreturn]] void end_with(const InternalError& error, const Subject& subject) {
   const std::string note = fmt::format("internal error: {}: {}", subject.name, error.what());
   std::fprintf(stderr, "%s\n%s", note.c_str(), case_file(error.question(), note).c_str());
@@ -161,7 +161,7 @@ void examine(const Case& c) {
 }  // namespace
 }  // namespace nearmiss
 
-/// -1 for bytes that are no case: libFuzzer does not keep them.
+/// Returns -1 for bytes that are not a case: libFuzzer then does not add them to the corpus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   auto c = nearmiss::case_from_bytes(nearmiss::query(), {data, size});
   if (!c) return -1;
@@ -174,8 +174,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
-/// Half of the mutations are the generator's moves, which keep a case a case and bring it near
-/// something; the others are libFuzzer's own, on the bytes. Bytes that are no case give way to a new one.
+/// Half of the mutations are the generator's mutators, which keep a case valid and bring it near a special configuration;
+/// the others are libFuzzer's own mutations of bytes. Bytes that are not a case are replaced by a generated case.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   using namespace nearmiss;
@@ -192,7 +192,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   return bytes.size();
 }
 
-/// Every case of a query has one of two lengths: growing inputs slowly from nothing would find none.
+/// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never valid.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   static std::vector<char*> arguments(*argv, *argv + *argc);
   static char no_length_control[] = "-len_control=0";

@@ -1,4 +1,4 @@
-/// The query of a fuzz target: the one line that its targets do not share, written by CMake.
+/// The query of a fuzz target. CMake writes its definition, the only source that the targets do not share.
 #pragma once
 
 namespace nearmiss {

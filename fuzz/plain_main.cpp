@@ -1,6 +1,6 @@
-/// Gives a fuzz target a main of its own where libFuzzer is not linked: asks about every file that is
-/// named, or found in a folder that is named. A .json file is a case file, any other holds bytes.
-/// Exit code 0: all replayed; 2: nothing to replay, or a file that is no case. A violation aborts.
+/// The main of a fuzz target without libFuzzer: replays every file in the arguments and every file in folders in the
+/// arguments. A .json file is a case file; any other file holds bytes. Exit code 0: all files replayed; 2: no file, or a
+/// file that is not a case. A violation aborts.
 #include <fmt/format.h>
 
 #include <algorithm>

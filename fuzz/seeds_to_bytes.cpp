@@ -1,5 +1,5 @@
-/// Writes every stored case of a query as bytes, for a fuzzer's corpus; the folder holds nothing else
-/// afterwards. Usage: seeds_to_bytes QUERY FOLDER
+/// Writes every stored case of a query as bytes, for a fuzzer's corpus, and removes all other files in the folder. Usage:
+/// seeds_to_bytes QUERY FOLDER
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace {
 
 std::size_t write_seeds(const Query& query, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {  // what a fuzzer added the last time
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {  // files that a fuzzer added
     if (entry.is_regular_file()) std::filesystem::remove(entry.path());
   }
   const std::vector<StoredCase> stored = stored_cases(query);
