@@ -1,9 +1,9 @@
 /// Bullet 3.24 as a subject, in double or, without BT_USE_DOUBLE_PRECISION, in float: the algorithms of its dispatcher,
 /// its detectors, its ray tests (btSubsimplexConvexCast) and its sweeps (btContinuousConvexCollision, with GJK and
-/// EPA). What the adapter computes for them, such as the end of a cast, it computes in double and rounds once.
+/// EPA). The adapter computes their parameters, such as the end of a cast, in double and rounds once.
 ///
-/// Every margin that is not a radius is set to zero: with Bullet's default of 0.04 a box has round edges and is
-/// another body than the one that is asked about.
+/// Every margin that is not a radius is set to zero: with Bullet's default of 0.04 a box has round edges, so it would
+/// be a different body.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -33,7 +33,7 @@ namespace nearmiss::adapters {
 
 namespace in = inputs;
 
-/// The questions whose numbers are btScalars, asked in doubles.
+/// The queries with inputs in double that are exact btScalars.
 struct BulletInDoubles {
   static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
   static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
@@ -51,7 +51,7 @@ struct BulletInDoubles {
   }
 
   static auto answer(const in::sphere_sphere_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2, &Said::on_first);
+    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2, &Result::on_first);
   }
   static auto answer(const in::sphere_box_penetration<double>& q) {
     return depth<collide::Penetration<double>>(q.sphere, q.box);
@@ -60,7 +60,7 @@ struct BulletInDoubles {
     return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
   }
   static auto answer(const in::sphere_plane_penetration<double>& q) {
-    return depth<collide::Penetration<double>, 1>(q.sphere, q.plane, &Said::on_first);
+    return depth<collide::Penetration<double>, 1>(q.sphere, q.plane, &Result::on_first);
   }
   static auto answer(const in::box_plane_penetration<double>& q) {
     return depth<collide::CornerContacts<double>, 1>(q.box, q.plane);
@@ -100,7 +100,7 @@ struct BulletInDoubles {
         btRayAabb(vector(q.point), vector(end), vector(q.aabox.min), vector(q.aabox.max), fraction, normal);
     collide::Entry<double> entry = collide::Entry<double>::miss();
     if (hit) entry.time = fraction * horizon;
-    return only(entry, {"time"});  // btRayAabb's normal leads inward on one side and outward on the other
+    return only(entry, {"time"});  // btRayAabb's normal points inward on one side and outward on the other
   }
 
   static auto answer(const in::moving_sphere_sphere<double>& q) { return sweep(q.sphere, q.velocity, q.fixed); }
@@ -111,7 +111,7 @@ struct BulletInDoubles {
   using Impact = collide::Impact<double>;
   static constexpr const char* no_cast = "a cast has two ends, apart and finite";
 
-  /// As time_to_pass, and some time also for what moves away; 0 where nothing moves.
+  /// Like time_to_pass, but positive also for a body that moves away; 0 without motion.
   static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity,
                              const collide::Sphere<double>& to) {
     const double passing = time_to_pass(from, radius, velocity, to), speed = length(velocity);
@@ -128,7 +128,7 @@ struct BulletInDoubles {
     btVector3 normal{0, 0, 0};
     bool hit = false;
   };
-  /// The deepest contact, kept out of Bullet's manifold, which would merge and drop some.
+  /// Collects the deepest contact instead of Bullet's manifold, which merges and drops contacts.
   struct Deepest final : btManifoldResult {
     using btManifoldResult::btManifoldResult;
     void addContactPoint(const btVector3& on_b, const btVector3& point, btScalar distance) override {
@@ -164,12 +164,12 @@ struct BulletInDoubles {
     return btTransform(ball ? btQuaternion::getIdentity() : shortestArcQuat(btVector3(0, 0, 1), along.normalized()),
                        vector(c.p0 * 0.5 + c.p1 * 0.5));
   }
-  static btStaticPlaneShape shape(const collide::Plane<double>& p) {  // Bullet brings the normal to unit length
+  static btStaticPlaneShape shape(const collide::Plane<double>& p) {  // Bullet normalizes the normal
     return btStaticPlaneShape(vector(p.normal), btScalar(-p.offset / length(p.normal)));
   }
   static btTransform pose(const collide::Plane<double>&) { return btTransform::getIdentity(); }
 
-  /// A shape with its pose, as Bullet's algorithms take it.
+  /// A shape with its pose, in the form of Bullet's algorithms.
   template <class S>
   struct Body {
     explicit Body(const S& s) : geometry(shape(s)) {
@@ -187,9 +187,8 @@ struct BulletInDoubles {
     static btCollisionDispatcher one(&configuration);
     return one;
   }
-  /// What the algorithm of Bullet's dispatcher says: a signed distance, or nothing; the places as its manifolds have
-  /// them.
-  struct Said {
+  /// The result of the algorithm of Bullet's dispatcher: a signed distance and contact points, or none.
+  struct Result {
     bool any;
     btScalar distance;
     btVector3 normal, on_second;
@@ -197,7 +196,7 @@ struct BulletInDoubles {
     btVector3 on_first() const { return on_second + normal * distance; }
   };
   template <class A, class B>
-  static Said asked(const A& first, const B& second) {
+  static Result asked(const A& first, const B& second) {
     Body<A> a(first);
     Body<B> b(second);
     btCollisionAlgorithm* algorithm =
@@ -210,22 +209,22 @@ struct BulletInDoubles {
   }
   template <class A, class B>
   static collide::Decision<double> decided(const A& a, const B& b) {
-    const Said said = asked(a, b);
-    return {said.any && said.distance <= 0};
+    const Result result = asked(a, b);
+    return {result.any && result.distance <= 0};
   }
   /// `turn`: -1 for a normal from the first to the second, 1 for one from the second to the first.
-  /// `contact`: which place of what is said, for an answer that has one.
+  /// `contact`: the member of the result that is the contact, for an answer with a contact.
   template <class Depth, int turn = -1, class A, class B, class Contact = std::nullptr_t>
   static Partly<Depth> depth(const A& a, const B& b, Contact contact = nullptr) {
-    const Said said = asked(a, b);
+    const Result result = asked(a, b);
     Depth d;
-    d.depth = said.any ? -said.distance : -1;
-    if (!(d.depth >= 0)) return only(d, {});  // apart: its distance is told only when it is short
-    d.normal = doubles(said.normal) * double(turn);
+    d.depth = result.any ? -result.distance : -1;
+    if (!(d.depth >= 0)) return only(d, {});  // apart: Bullet reports only short distances
+    d.normal = doubles(result.normal) * double(turn);
     if constexpr (std::same_as<Contact, std::nullptr_t>) {
       return only(d, {"depth", "normal"});
     } else {
-      d.contact = doubles(std::invoke(contact, said));
+      d.contact = doubles(std::invoke(contact, result));
       return only(d, {"depth", "normal", "contact"});
     }
   }
@@ -237,7 +236,7 @@ struct BulletInDoubles {
     if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
     btConvexCast::CastResult result;
     result.m_fraction = 1;
-    const btScalar unset = std::numeric_limits<btScalar>::quiet_NaN();  // what it does not tell is no number
+    const btScalar unset = std::numeric_limits<btScalar>::quiet_NaN();  // Bullet leaves some numbers unset
     result.m_normal = btVector3(unset, unset, unset);
     if (!by.calcTimeOfImpact(at(from), at(end), still, still, result)) return Impact::miss();
     return only(Impact{result.m_fraction * horizon, {}, doubles(result.m_normal)}, {"time", "normal"});
@@ -253,7 +252,7 @@ struct BulletInDoubles {
   }
   template <class B>
   static Reply<Impact> sweep(const collide::Sphere<double>& sphere, const Vec3d& velocity, const B& fixed) {
-    // Its sweeps do not see a shape that they start in: that is asked of its algorithms first.
+    // Bullet's sweeps miss a shape in which they start, so the static algorithm is asked first.
     if (decided(sphere, fixed).yes()) return only(Impact{0.0, {}, {}}, {"time"});
     Body<B> b(fixed);
     btSphereShape ball(btScalar(sphere.radius));
@@ -264,7 +263,7 @@ struct BulletInDoubles {
   }
 };
 
-/// The same numbers in double; every btScalar is one.
+/// The same numbers in double; every btScalar is exact in double.
 template <template <class> class Inputs>
 Inputs<double> in_doubles(const Inputs<btScalar>& q) {
   std::vector<double> values;

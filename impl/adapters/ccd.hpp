@@ -1,6 +1,6 @@
-/// libccd 2.1 as a subject: its GJK with EPA, and its MPR (Minkowski portal refinement), asked directly. Shapes are
-/// support functions, so that spheres, boxes, triangles and swept spheres are given exactly, but for the rotation of
-/// a box, which is rounded to a matrix.
+/// libccd 2.1 as a subject: its GJK with EPA, and its MPR (Minkowski portal refinement), called directly. Shapes are
+/// support functions, so spheres, boxes, triangles and swept spheres are exact, except for the rotation of a box, which
+/// is rounded to a matrix.
 #pragma once
 
 #include <ccd/ccd.h>
@@ -27,8 +27,8 @@ struct Ccd {
   static constexpr bool referee = true;
   static std::string version() { return "libccd 2.1"; }
 
-  /// ccd.h: epa_tolerance and mpr_tolerance are 1e-4 by default, lengths; so the scene's lengths are to be at least 1.
-  /// In units of 2^-53, up to the next power of two.
+  /// The defaults of epa_tolerance and mpr_tolerance in ccd.h, 1e-4, in units of 2^-53, rounded up to a power of two.
+  /// These tolerances are lengths, so the domain starts at lengths of 1.
   template <class Q>
   static collide::Contract contract() {
     return {.backward = 0x1p40, .lowest = 0, .highest = 300};
@@ -86,14 +86,14 @@ struct Ccd {
   static constexpr const char* positions =
       "ccd.h calls a position the place where a force should act, and not which point of the two bodies it is";
 
-  /// Of GJK, whose own default is no limit; and of EPA, which has none: to a ball it adds points as long as that brings
-  /// it nearer by the tolerance.
+  /// The limit of iterations for GJK, whose default is unlimited, and for EPA, which has none: against a ball EPA adds
+  /// points as long as each comes closer by the tolerance.
   static constexpr int most_iterations = 1000;
-  /// Each iteration of either asks both bodies for a point.
+  /// Each iteration of either computes a support point of both bodies.
   static constexpr int most_points = 2 * (most_iterations + most_iterations);
-  static inline int points = 0;  ///< that libccd has asked for since it was last asked
+  static inline int points = 0;  ///< support points computed in the current call
 
-  /// The hull of at most three points, or a box, with a ball around each of its points.
+  /// The convex hull of at most three points, or a box, rounded by a radius.
   struct Convex {
     int corners = 0;
     std::array<Vec3d, 3> corner{};
@@ -133,7 +133,7 @@ struct Ccd {
              Vec3d{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}},
             0};
   }
-  /// Its corners are given exactly, so that no center is needed.
+  /// An axis-aligned box by its corners, which are exact.
   struct Corners {
     Vec3d min, max;
     Vec3d center() const { return min * 0.5 + max * 0.5; }
@@ -146,7 +146,7 @@ struct Ccd {
   template <class S>
   static void support(const void* shape, const ccd_vec3_t* direction, ccd_vec3_t* point) {
     const S& s = *static_cast<const S*>(shape);
-    // A point within is no gain, and so it ends EPA.
+    // Beyond the limit, a point inside the shape ends EPA, because it is no progress.
     const bool within = ++points > most_points;
     const Vec3d p = within ? s.center() : s.support({direction->v[0], direction->v[1], direction->v[2]});
     ccdVec3Set(point, p.x, p.y, p.z);
@@ -192,7 +192,7 @@ struct Ccd {
     if (points > most_points) return CannotAnswer{"EPA has not ended after 1000 iterations"};
     Depth d;
     d.depth = -1;
-    if (apart != 0) return only(d, {});  // it says no more than that
+    if (apart != 0) return only(d, {});  // no distance is available
     d.depth = deep;
     d.normal = {direction.v[0], direction.v[1], direction.v[2]};
     return only(d, {"depth", "normal"});

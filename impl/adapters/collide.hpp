@@ -1,4 +1,4 @@
-/// The tiers of our own library as subjects.
+/// The tiers of `collide` as subjects.
 #pragma once
 
 #include <collide/tiers.hpp>

@@ -1,4 +1,4 @@
-/// The certified tier of our own library as subjects.
+/// The certified tier of `collide` as subjects.
 #pragma once
 
 #include <collide/certified.hpp>

@@ -1,4 +1,4 @@
-/// How `collide` is asked what the catalogue asks: which function answers a query, and with which arguments.
+/// Maps each query of the catalogue to its function in `collide` and the arguments of that function.
 #pragma once
 
 #include <cmath>
@@ -19,11 +19,11 @@
 
 namespace nearmiss::adapters {
 
-/// The function of `collide` that has the query's name, and its contract.
+/// The function of `collide` with the query's name, and its contract.
 template <class Q>
 struct CollideFunction;
 
-/// Defines that for one query, whose header of `collide` and whose inputs are included.
+/// Defines CollideFunction for one query. Requires the headers of its function and of its inputs.
 #define NEARMISS_COLLIDE_FUNCTION(query)                       \
   template <class T>                                           \
   struct CollideFunction<inputs::query<T>> {                   \
@@ -37,7 +37,8 @@ struct CollideFunction;
     }                                                          \
   };
 
-/// The arguments that the function takes, in a tuple: the members of the inputs, prepared where it takes them prepared.
+/// The arguments of the function in a tuple: the members of the inputs, prepared where the function takes prepared
+/// ones.
 template <class Tier, class Q>
 auto arguments(const Q& q) noexcept {
   return std::apply([&](const auto&... member) { return std::tuple(q.*(member.pointer)...); }, Q::members());
@@ -62,7 +63,7 @@ template <class Tier, class T>
 auto arguments(const inputs::moving_sphere_passes_box<T>& q) noexcept {
   return std::tuple(q.sphere, q.velocity, q.box, q.forever ? std::numeric_limits<T>::infinity() : q.limit);
 }
-/// A limit that is not finite is no limit of the query, which has a flag for that.
+/// A limit that is not finite becomes NaN: the query has a flag for an unlimited motion.
 template <class Tier, class T>
 auto arguments(const inputs::moving_sphere_passes_sphere<T>& q) noexcept {
   const bool valid = q.limit >= T(0) && std::isfinite(q.limit);
@@ -70,7 +71,7 @@ auto arguments(const inputs::moving_sphere_passes_sphere<T>& q) noexcept {
   return std::tuple(q.sphere, q.velocity, q.fixed, valid ? until : std::numeric_limits<T>::quiet_NaN());
 }
 
-/// What `collide` answers in that tier.
+/// The answer of `collide` in the tier.
 template <class Tier, class Q>
 auto ask_collide(const Q& q) noexcept {
   return std::apply([](const auto&... a) { return CollideFunction<Q>::template call<Tier>(a...); }, arguments<Tier>(q));

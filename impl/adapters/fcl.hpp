@@ -19,7 +19,7 @@ namespace nearmiss::adapters {
 
 namespace in = inputs;
 
-/// The catalogue's shapes as FCL's.
+/// Converts the catalogue's shapes to FCL's.
 struct FclShapes {
   static fcl::Vector3d vector(const Vec3d& v) { return {v.x, v.y, v.z}; }
   static fcl::Transform3d at(const Vec3d& p) {
@@ -45,20 +45,20 @@ struct FclShapes {
     }
     return t;
   }
-  /// What lies behind the plane; FCL itself brings the normal to unit length.
+  /// The half-space behind the plane; FCL normalizes the normal.
   static fcl::Halfspaced shape(const collide::Plane<double>& p) { return {vector(p.normal), -p.offset}; }
   static fcl::Transform3d pose(const collide::Plane<double>&) { return fcl::Transform3d::Identity(); }
 };
 
-/// One way to use FCL: a solver for static questions, a solver for motions.
+/// FCL with one solver for static queries and one solver for motions.
 template <fcl::GJKSolverType static_solver, fcl::CCDSolverType motion_solver>
 struct Fcl : FclShapes {
   using Number = double;
   static constexpr bool referee = true;
   static std::string version() { return "FCL 0.7"; }
 
-  /// FCL's own figures, relative to the scene: CollisionRequest::gjk_tolerance is 1e-6, and
-  /// ContinuousCollisionRequest::toc_err is 1e-4. In units of 2^-53, up to the next power of two.
+  /// FCL's own tolerances, relative to the scene, in units of 2^-53, rounded up to a power of two:
+  /// CollisionRequest::gjk_tolerance is 1e-6, and ContinuousCollisionRequest::toc_err is 1e-4.
   static constexpr double gjk_tolerance = 0x1p34;
   static constexpr double time_of_contact_error = 0x1p40;
 
@@ -119,7 +119,7 @@ struct Fcl : FclShapes {
 
   static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
   static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
-  static auto answer(const in::box_box_overlap<double>& q) {  // FCL does not tell which axis separates them
+  static auto answer(const in::box_box_overlap<double>& q) {  // FCL does not return the separating axis
     return only(collide::BoxOverlap<double>{meet(q.box1, q.box2, nullptr), -1}, {});
   }
   static auto answer(const in::sphere_triangle_overlap<double>& q) {
@@ -140,7 +140,7 @@ struct Fcl : FclShapes {
   static auto answer(const in::box_box_penetration<double>& q) {
     return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
   }
-  static auto answer(const in::sphere_plane_penetration<double>& q) {  // FCL's normal leads into the half-space
+  static auto answer(const in::sphere_plane_penetration<double>& q) {  // FCL's normal points into the half-space
     return depth<collide::Penetration<double>, -1>(q.sphere, q.plane);
   }
   static auto answer(const in::box_plane_penetration<double>& q) {
@@ -164,7 +164,7 @@ struct Fcl : FclShapes {
   using Solver = std::conditional_t<static_solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
                                     fcl::detail::GJKSolver_indep<double>>;
 
-  /// With `result`, contacts are asked for as well.
+  /// With `result`, also requests contacts.
   template <class A, class B>
   static bool meet(const A& a, const B& b, fcl::CollisionResultd* result) {
     fcl::CollisionRequestd request(result != nullptr ? 16 : 1, result != nullptr);
@@ -184,13 +184,13 @@ struct Fcl : FclShapes {
                                            nullptr);
   }
 
-  /// The deepest contact's depth and normal. FCL's position of a contact is another point than the one asked for.
+  /// The depth and normal of the deepest contact. FCL's contact position is a different point than the query asks for.
   template <class Depth, int turn = 1, class A, class B>
   static Partly<Depth> depth(const A& a, const B& b) {
     fcl::CollisionResultd result;
     Depth d;
     d.depth = -1;
-    if (!meet(a, b, &result)) return only(d, {});  // apart: FCL says no more than that
+    if (!meet(a, b, &result)) return only(d, {});  // apart: FCL returns no distance
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
       const fcl::Contactd& c = result.getContact(i);
       if (i > 0 && !(c.penetration_depth > d.depth)) continue;
@@ -232,15 +232,16 @@ struct Fcl : FclShapes {
   }
 };
 
-/// FCL's signed distance, negative where two shapes overlap: by another way than its collision, GJK and EPA of one of
-/// its solvers. GST_LIBCCD builds a ball from triangles, which may take minutes; GST_INDEP asserts where shapes touch.
+/// FCL's signed distance, which is negative where two shapes overlap. It uses another algorithm than FCL's collision:
+/// GJK and EPA of one of its solvers. GST_LIBCCD builds a ball from triangles, which may take minutes; GST_INDEP fails
+/// an assertion where shapes touch.
 template <fcl::GJKSolverType solver>
 struct FclDistance : FclShapes {
   using Number = double;
   static std::string version() { return "FCL 0.7"; }
 
-  /// DistanceRequest::distance_tolerance is 1e-6, a length; so the scene's lengths are to be at least 1/16. In units of
-  /// 2^-53, relative to that, up to the next power of two.
+  /// DistanceRequest::distance_tolerance, 1e-6, relative to the least length, in units of 2^-53, rounded up to a power
+  /// of two. The tolerance is a length, so the domain starts at lengths of 1/16.
   template <class Q>
   static collide::Contract contract() {
     return {.backward = 0x1p38, .lowest = -4, .highest = 300};
@@ -290,8 +291,8 @@ struct FclDistance : FclShapes {
     const auto shape_b = shape(b);
     fcl::distance(&shape_a, pose(a), &shape_b, pose(b), request, result);
     Depth d;
-    d.depth = -result.min_distance;  // the function's own value is -1 for GST_INDEP wherever they overlap
-    // Of boxes apart the query asks for the gap along an axis of theirs, which their distance is not.
+    d.depth = -result.min_distance;  // the return value is -1 for every overlap with GST_INDEP
+    // For separated boxes the query asks for the gap along an axis, which is not their distance.
     if (std::is_same_v<Depth, collide::BoxPenetration<double>> && d.depth < 0) return only(d, {});
     return only(d, {"depth"});
   }

@@ -1,4 +1,4 @@
-/// What adapters need to turn a motion without an end into one of a known length.
+/// Helpers that turn an unlimited motion into one of a known length.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ inline collide::Sphere<double> ball_around(const collide::Triangle<double>& t) {
   return {t.v0, std::max(length(t.v1 - t.v0), length(t.v2 - t.v0))};
 }
 
-/// The quaternion at unit length, rounded; of any length but zero.
+/// The normalized quaternion, rounded, for any length except zero.
 inline collide::Quaternion<double> unit(const collide::Quaternion<double>& q) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
   const double scale = std::exp2(-std::floor(std::log2(largest)));  // exact, so that no square overflows
@@ -40,7 +40,7 @@ inline collide::Quaternion<double> unit(const collide::Quaternion<double>& q) {
 
 inline double power_of_two_above(double x) { return x > 0 ? std::exp2(std::ceil(std::log2(x))) : 0.0; }
 
-/// The least power of two that carries a ball past `target`; 0 where it does not move or starts past it.
+/// The least power of two as a time after which the ball is past `target`; 0 where it does not move or starts past it.
 inline double time_to_pass(const Vec3d& center, double radius, const Vec3d& velocity,
                            const collide::Sphere<double>& target) {
   const double speed = length(velocity);
@@ -57,7 +57,8 @@ inline double time_to_pass(const Vec3d& center, double radius, const Vec3d& velo
 
 inline constexpr const char* no_end = "the end of the motion is not finite";
 
-/// The way of q.sphere as a capsule: until q.limit or, without one, past `target`. Empty where its end is not finite.
+/// The path of q.sphere as a capsule: until q.limit or, without a limit, past `target`. Empty where its end is not
+/// finite.
 template <class Q>
 std::optional<collide::Capsule<double>> way_of(const Q& q, const collide::Sphere<double>& target) {
   const auto& [center, radius] = q.sphere;
@@ -66,13 +67,13 @@ std::optional<collide::Capsule<double>> way_of(const Q& q, const collide::Sphere
   return collide::Capsule<double>{center, end, radius};
 }
 
-/// An axis-aligned box by its center and half extents, where these are floats exactly.
+/// An axis-aligned box by its center and half extents; empty where these are not exact.
 inline std::optional<collide::Box<double>> centered(const collide::AABox<double>& b) {
   collide::Box<double> box;
   const auto axis = [](double low, double high, double& center, double& half) {
     const auto exact_sum = [](double x, double y, double& sum) {
       sum = x + y;
-      const double y_part = sum - x, x_part = sum - y_part;  // what of x and y is in the sum
+      const double y_part = sum - x, x_part = sum - y_part;  // the parts of x and y in the sum
       return x - x_part == 0 && y - y_part == 0;
     };
     return low / 2 * 2 == low && high / 2 * 2 == high && exact_sum(low / 2, high / 2, center) &&

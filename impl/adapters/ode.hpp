@@ -74,7 +74,8 @@ struct Ode {
   static auto answer(const in::box_box_penetration<double>& q) {
     return depth<collide::BoxPenetration<double>, -1>(q.box1, q.box2);
   }
-  static auto answer(const in::sphere_plane_penetration<double>& q) {  // the normal into the first is the plane's
+  static auto answer(
+      const in::sphere_plane_penetration<double>& q) {  // the normal points into the first operand, like the plane's
     return depth<collide::Penetration<double>, 1>(q.sphere, q.plane);
   }
   static auto answer(const in::box_plane_penetration<double>& q) {
@@ -84,9 +85,9 @@ struct Ode {
   static auto answer(const in::moving_point_sphere<double>& q) -> Reply<collide::Impact<double>> {
     const Geometry sphere = geometry(q.sphere);
     if (q.solid && dGeomSpherePointDepth(sphere.get(), q.point.x, q.point.y, q.point.z) >= 0) {
-      return only(collide::Impact<double>{0.0, {}, {}}, {"time"});  // ODE's ray would tell the exit
+      return only(collide::Impact<double>{0.0, {}, {}}, {"time"});  // ODE's ray would return the exit
     }
-    // From inside it is the exit, with ODE's normal turned inward.
+    // From inside, ODE's ray returns the exit, with a normal that points inward.
     const bool inside = dGeomSpherePointDepth(sphere.get(), q.point.x, q.point.y, q.point.z) >= 0;
     return cast(q.point, q.velocity, sphere, time_to_pass(q.point, 0, q.velocity, q.sphere), !inside);
   }
@@ -154,7 +155,7 @@ struct Ode {
     }
     return g;
   }
-  static Geometry geometry(const collide::Plane<double>& p) {  // ODE brings the normal to unit length
+  static Geometry geometry(const collide::Plane<double>& p) {  // ODE normalizes the normal
     start();
     return made(dCreatePlane(nullptr, p.normal.x, p.normal.y, p.normal.z, -p.offset));
   }
@@ -172,24 +173,24 @@ struct Ode {
   static collide::Decision<double> decided(const A& a, const B& b) {
     return {deepest(a, b).has_value()};
   }
-  /// ODE's normals lead into the first geometry, and its contact positions are other points than those asked for.
+  /// ODE's normals point into the first geometry. Its contact positions are different points than the query asks for.
   template <class Depth, int turn, class A, class B>
   static Partly<Depth> depth(const A& a, const B& b) {
     Depth d;
     d.depth = -1;
     const auto contact = deepest(a, b);
-    if (!contact) return only(d, {});  // it says no more than that
+    if (!contact) return only(d, {});  // ODE returns no distance
     d.depth = contact->depth;
     d.normal = {turn * contact->normal[0], turn * contact->normal[1], turn * contact->normal[2]};
     return only(d, {"depth", "normal"});
   }
-  /// The ray's way to the geometry's surface.
+  /// The time of the ray to the geometry's surface.
   static Reply<collide::Impact<double>> cast(const Vec3d& from, const Vec3d& velocity, const Geometry& to,
                                              double horizon, bool normal_is_outward = true) {
     using Impact = collide::Impact<double>;
     const double speed = length(velocity);
     if (!(speed > 0)) return CannotAnswer{"a ray has a direction, and nothing moves here"};
-    if (horizon == 0) horizon = 1 / speed;  // starts past it: any length will do
+    if (horizon == 0) horizon = 1 / speed;  // starts past the geometry: any length is right
     const double reach = horizon * speed;
     if (!std::isfinite(reach)) return CannotAnswer{"the ray's length is not finite"};
     start();

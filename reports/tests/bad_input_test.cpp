@@ -1,4 +1,4 @@
-/// Bad input: exit code 2, one line on standard error that says what and why, and nothing is written.
+/// Bad input gives exit code 2 and one line on standard error with the error and its reason, and writes no file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A good case, but for what `center`, `radius` and `query` say.
+/// A case that is valid where `center`, `radius` and `query` are.
 std::string case_text(const std::string& center, const std::string& radius,
                       const std::string& query = "sphere_box_penetration", const std::string& scalar = "double") {
   return R"({"query": ")" + query + R"(", "scalar": ")" + scalar + R"(", "inputs": {"sphere": {"center": )" + center +
@@ -24,7 +24,7 @@ std::string case_text(const std::string& center, const std::string& radius,
 struct Bad {
   const char* name;
   std::vector<std::string> arguments;  ///< OUT becomes a folder that does not exist, FILE a file with `text`
-  std::vector<std::string> says;       ///< all of them in the one line
+  std::vector<std::string> says;       ///< each must be in the line
   std::string text = "";
 };
 void PrintTo(const Bad& b, std::ostream* out) { *out << b.name; }
@@ -164,7 +164,8 @@ TEST_P(BadCommandLine, SaysWhyInOneLineAndWritesNothing) {
   std::vector<std::string> left;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
     const fs::path name = entry.path().filename();
-    const bool empty_folder = entry.is_directory() && fs::is_empty(entry.path());  // import makes it before it reads
+    const bool empty_folder =
+        entry.is_directory() && fs::is_empty(entry.path());  // import makes the folder before it reads
     if (name != "input" && name != "good.json" && !empty_folder) left.push_back(name.string());
   }
   EXPECT_TRUE(left.empty()) << left[0];
@@ -222,7 +223,7 @@ TEST(Cli, SaysWhenItsOutputCannotBeWritten) {
   EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");
 }
 
-/// A closed standard file would be the next that is opened: a pipe to a worker, into which the page would go.
+/// Without care, the next opened file, a pipe to a worker, would take the place of a closed standard file.
 TEST(Cli, SaysWhenItsOutputIsClosed) {
   const TemporaryFolder folder;
   const std::string file = folder.file("case.json", case_text("[0, 0, 0]", "1"));

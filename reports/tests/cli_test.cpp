@@ -1,4 +1,4 @@
-/// The command line does what its manual says.
+/// The commands behave as their manuals describe.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ TEST(List, ShowsEveryQueryAndSubject) {
   EXPECT_NE(why.out.find("not offered"), std::string::npos);
 }
 
-/// "SUITE.TEST" of each test that properties/ has for the query.
+/// "SUITE.TEST" for each test of properties/ that runs for the query.
 std::map<std::string, std::set<std::string>> tests_by_query() {
   const Ran ran = run_program(NEARMISS_PROPERTIES_PROGRAM, {"--gtest_list_tests"});
   std::map<std::string, std::set<std::string>> tests;
@@ -80,7 +80,7 @@ std::map<std::string, std::set<std::string>> tests_by_query() {
   return tests;
 }
 
-/// The independent derivations are written for some queries; nothing makes them run for a new one.
+/// Independent derivations exist for some queries only, so they are not in the list.
 bool written_by_query(const std::string& test) {
   return test.starts_with("OracleOnLattice.") || test.starts_with("Watch.");
 }
@@ -172,7 +172,7 @@ TEST(Run, PutsNewFoldersBelowTheNamedOne) {
   EXPECT_TRUE(made[0].string().ends_with("Z-5")) << made[0];
 }
 
-/// Starts a long run, interrupts it when its first index is there, and waits for it.
+/// Starts a long run, interrupts it once its first index exists, and waits for its end.
 TEST(Run, StopsCleanlyWhenInterrupted) {
   const TemporaryFolder folder;
   const std::string out = (folder / "r").string();
@@ -202,7 +202,7 @@ TEST(Run, LeavesAFolderToTheRunThatHasIt) {
   EXPECT_EQ(index_of(folder / "r")["state"], "finished");
 }
 
-/// Runs fcl into `folder` with files of at most so many KiB.
+/// Runs fcl into `folder` with a limit on the size of files in KiB.
 Ran run_with_small_files(const fs::path& folder, const std::string& kibibytes, const std::string& options) {
   return run_program("bash", {"-c", "ulimit -S -f " + kibibytes + "; exec '" NEARMISS_PROGRAM "' run -s fcl --seed 1 " +
                                         options + " --out '" + folder.string() + "'"});
@@ -246,7 +246,7 @@ TEST(Run, GoesOnWithoutAReaderOfItsOutput) {
   EXPECT_EQ(index_of(folder / "r")["state"], "finished");
 }
 
-/// In a space of process numbers of its own: what ends more processes than its own ends none of those outside.
+/// Runs in a process namespace, so that a command that kills other processes cannot kill those outside.
 TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
   const std::vector<std::string> apart{"--user", "--map-root-user", "--pid", "--fork"};
   std::vector<std::string> arguments = apart;
@@ -373,7 +373,7 @@ TEST(Run, MeasuresThoseThatPromiseNothing) {
     bad += beyond(index);
   }
   EXPECT_GT(bad, 0u);
-  for (const json& listed : index["reports"]) {  // a report is judged again by the measure that found it
+  for (const json& listed : index["reports"]) {  // a replay uses the measure of the report
     const Ran again = nearmiss({"replay", "-s", "bullet", (folder / "r" / listed["file"].get<std::string>()).string()});
     EXPECT_EQ(again.exit_code, 1) << again.out;
     EXPECT_EQ(again.out.find("out of domain"), std::string::npos) << again.out;
@@ -392,7 +392,7 @@ TEST(Run, MeasuresThoseThatPromiseNothing) {
   EXPECT_LE(bad_scenes, bad);
 }
 
-/// The tolerance of libccd is a length: it takes two small balls that overlap for apart, until they are scaled up.
+/// The tolerance of libccd is a length: it reports two small overlapping balls as apart, but not after scaling up.
 TEST(Report, AsksRefereesAtUnitScaleToo) {
   if (find_subject("libccd-gjk") == nullptr) GTEST_SKIP() << "libccd is not part of this build";
   const TemporaryFolder folder;
@@ -436,7 +436,7 @@ TEST(Replay, ShowsInputsTruthAndEverySubject) {
   for (const Subject& s : subjects()) EXPECT_NE(ran.out.find(s.name), std::string::npos) << ran.out;
 }
 
-/// Two libraries with the same names for other things: each computes in its own numbers, in one run.
+/// Two libraries that define the same symbols: each computes in its own scalar in one run.
 TEST(Replay, AsksBothBuildsOfBullet) {
   if (find_subject("bullet") == nullptr || find_subject("bullet-float") == nullptr) {
     GTEST_SKIP() << "one of the two is not part of this build";
@@ -469,7 +469,7 @@ TEST(Replay, JudgesEveryStoredCase) {
   }
 }
 
-/// What a report of the first version said of a finding is not read again; its case is.
+/// A report of schema version 1 can be replayed: only its case is read.
 TEST(Replay, ReadsAReportOfTheFirstVersion) {
   const TemporaryFolder folder;
   const std::string report = folder.file("report.json", R"({
@@ -505,7 +505,7 @@ TEST(Import, ComparesTheShippedSample) {
   EXPECT_GT(cases, 0u);
 }
 
-/// The sample with every truth turned around.
+/// The sample with every truth inverted.
 TEST(Import, ListsWhatContradictsTheTruthColumn) {
   std::string text = read_file(corpus_folder() / "nyu-ccd" / "sample.csv");
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at) text[at - 1] ^= 1;
@@ -516,7 +516,7 @@ TEST(Import, ListsWhatContradictsTheTruthColumn) {
   EXPECT_NE(ran.out.find("The oracle contradicts the truth column:\n  " + file + ":1: "), std::string::npos) << ran.out;
 }
 
-/// Like libFuzzer, as far as the command line can tell: it leaves a case file, an artifact and statistics.
+/// Imitates libFuzzer: leaves a case file, an artifact and statistics.
 std::string fuzz_target(const StoredCase& c, const std::string& artifact) {
   return "#!/bin/sh\n"
          "cp '" +
@@ -569,7 +569,7 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0);
 }
 
-/// Stands for the program of property tests.
+/// Replaces the program of property tests.
 fs::path property_program(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
   const fs::path program = folder.file(name, "#!/bin/sh\necho \"$NEARMISS_SEED $NEARMISS_RUNS $RC_PARAMS\"\n" + lines);
   fs::permissions(program, fs::perms::owner_all);
@@ -691,7 +691,7 @@ TEST(Version, IsTold) {
   EXPECT_TRUE(ran.out.starts_with("nearmiss ")) << ran.out;
 }
 
-/// What bash offers at the end of `words`.
+/// The completions of bash at the end of `words`.
 std::string completions(const std::string& words) {
   const std::string script = "source <('" NEARMISS_PROGRAM "' completion bash); COMP_WORDS=('" NEARMISS_PROGRAM "' " +
                              words +

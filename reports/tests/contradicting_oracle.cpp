@@ -1,6 +1,6 @@
-/// A judge that contradicts itself, about sphere_sphere_overlap. Where the first center's x is positive, intervals say
-/// the opposite of whatever was answered, and exact numbers the same. Elsewhere both stages say "no": a yes is a false
-/// hit.
+/// An oracle of sphere_sphere_overlap that contradicts itself. Where the first center's x is positive, the interval
+/// stage returns the opposite of the given answer, and the exact stage returns the given answer. Elsewhere both stages
+/// return "no", so a yes is a false hit.
 #include "oracles/exact/oracle.hpp"
 
 namespace nearmiss::oracle {

@@ -1,4 +1,4 @@
-/// However a command ends, it ends soon, nothing that it started is left, and what it found is there.
+/// Every command ends soon after any kind of end, leaves no process behind, and keeps its findings.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Seconds. What is promised is one; a machine that runs other tests beside this one gets more.
+/// Seconds. The promise is one; the test allows more on a machine that runs other tests at the same time.
 constexpr double soon = 4, long_enough = 60;
 
 struct Command {
@@ -31,7 +31,7 @@ void PrintTo(const Command& c, std::ostream* out) { *out << c.name; }
 
 class EveryCommand : public testing::TestWithParam<Command> {};
 
-/// A subject that never answers, and all the patience in the world.
+/// A subject that never answers, with a very long case timeout.
 TEST_P(EveryCommand, EndsWhenItIsToldTo) {
   const TemporaryFolder folder;
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -54,7 +54,7 @@ TEST_P(EveryCommand, EndsWhenItIsToldTo) {
     command.send(signal);
     const std::optional<Ran> ran = command.wait(soon);
     ASSERT_TRUE(ran.has_value()) << "it goes on";
-    if (ran->exit_code >= 0) {  // it does not take the signal for its own end
+    if (ran->exit_code >= 0) {  // the command did not end by the signal
       EXPECT_EQ(ran->exit_code, 2) << ran->out << ran->err;
       EXPECT_NE(ran->err.find("interrupted"), std::string::npos) << ran->err;
     }
@@ -100,7 +100,7 @@ TEST(Run, EndsWhenItsTimeIsOver) {
   EXPECT_EQ(index.at("state"), "finished");
 }
 
-/// A subject that is late whenever it is asked is asked so often, and then no more: in each of these.
+/// A subject that is always late is given up by each of these commands.
 TEST(EverySubject, IsGivenUpWhereItIsAlwaysLate) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& arguments :
@@ -131,7 +131,7 @@ TEST(Cli, EndsWhereTheEndOfChildrenIsIgnored) {
   EXPECT_EQ(ran->exit_code, 2) << ran->err;
 }
 
-/// A host that could not get its own files would write into those of the command.
+/// A host that could not get its own files must not write into those of the command.
 TEST(Cli, StartsNoHostThatHasNotItsOwnFiles) {
   for (const int files : {10, 20, 40, 64, 90, 101, 104, 110, 128}) {
     const TemporaryFolder folder;
@@ -153,7 +153,7 @@ TEST(Cli, StartsNoHostThatHasNotItsOwnFiles) {
   }
 }
 
-/// Whoever can write beside a run can leave anything there.
+/// Other programs may leave any files in a run folder.
 TEST(Run, TakesNoHarmFromWhatIsBesideItsFolder) {
   const TemporaryFolder folder;
   constexpr std::size_t deep = 300'000;
@@ -172,15 +172,15 @@ TEST(Run, TakesNoHarmFromWhatIsBesideItsFolder) {
   }
 }
 
-/// How many times each is killed; the nightly job asks for more.
+/// How often each command is killed; the nightly job sets more.
 int kills() {
   const char* asked = std::getenv("NEARMISS_KILLS");
   return asked == nullptr ? 2 : std::max(1, std::atoi(asked));
 }
 
-/// Every file of a folder that was left by a command that was killed, after somebody else wrote beside it.
+/// Checks every file in the folder of a killed command, after another program wrote there.
 void expect_whole(const fs::path& folder) {
-  if (!fs::exists(folder)) return;  // it had not begun
+  if (!fs::exists(folder)) return;  // the command had not begun
   std::set<std::string> on_disk, listed;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;

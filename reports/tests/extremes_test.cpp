@@ -1,4 +1,4 @@
-/// The maps of extremes: their JSON, their page, and that they show what is there to see.
+/// The maps of extremes: their JSON, their page, and that they show known errors.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-/// A judge that contradicts itself is found out by every engine: no finding comes of it, and the exit code is 3.
+/// Every engine detects a judge that contradicts itself: it counts no finding and exits with code 3.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -27,7 +27,7 @@ Ran contradicting(std::vector<std::string> arguments, const TemporaryFolder& fol
   return run_program(NEARMISS_CONTRADICTING, arguments);
 }
 
-/// Of the file that the engine wrote: it is valid, and every kept case is a file with both words in it.
+/// Checks the file of the engine: it is valid, and every kept case is a file with both findings.
 void check(const TemporaryFolder& folder, const json& written, const std::string& schema) {
   EXPECT_EQ(complaints(written, schema), "");
   const json& errors = written.at("internal_errors");
@@ -74,7 +74,7 @@ TEST(InternalErrors, EndRelationsAndExtremes) {
   check(swept, json::parse(read_file(swept / "r" / "extremes.json")), "extremes.schema.json");
 }
 
-/// Stored cases come first in a night, and take a second.
+/// A nightly run starts with the stored cases, which take about a second.
 TEST(InternalErrors, EndANight) {
   const TemporaryFolder folder;
   const Ran ran =

@@ -1,4 +1,4 @@
-/// A library that is loaded at run time is examined like any other, and a bad one is refused in one line.
+/// A plugin is examined like any other subject, and an invalid one is refused in one line.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -94,7 +94,7 @@ json tallies_beside(std::vector<std::string> arguments) {
   return json::parse(read_file(folder / "r" / "index.json")).at("tallies");
 }
 
-/// It flushes subnormal numbers to zero and rounds upward as soon as it is loaded.
+/// The plugin sets flush to zero and upward rounding when it is loaded.
 TEST(Plugin, KeepsItsModesOfArithmeticToItself) {
   const json alone = tallies_beside({});
   EXPECT_EQ(tallies_beside({"--plugin", plugin("sets_modes")}), alone);

@@ -20,7 +20,7 @@ Ran run_program(const std::string& program, const std::vector<std::string>& argu
 /// The same for the command line under test.
 Ran nearmiss(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
-/// A program that runs beside the test. It has ended when this ends.
+/// A program that runs beside the test. The destructor ends it.
 class Started {
  public:
   Started(const std::string& program, const std::vector<std::string>& arguments,
@@ -29,7 +29,8 @@ class Started {
   Started(const Started&) = delete;
   Started& operator=(const Started&) = delete;
   void send(int signal) const;
-  /// Empty while it runs: it is awaited for so long. The exit code is minus the signal that killed it.
+  /// Waits for the end at most so long; empty where the program still runs. The exit code is minus a signal that killed
+  /// it.
   std::optional<Ran> wait(double seconds);
 
  private:
@@ -37,15 +38,15 @@ class Started {
   int process_ = -1;
 };
 
-/// A variable for a program's environment, "NAME=value", by which the program and all that it starts are found.
+/// A unique variable "NAME=value" for a program's environment, by which the test finds the program and its descendants.
 std::string new_mark();
 std::vector<int> processes_with(const std::string& mark);
-/// Whether all of them have ended, after a while: the system ends a namespace's processes one after the other.
+/// True once all of them have ended; waits a while, because the system ends the processes of a namespace one by one.
 bool nothing_is_left(const std::string& mark);
 
 std::string last_line(const std::string& text);
 
-/// A folder of its own, removed at the end.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder();

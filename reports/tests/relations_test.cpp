@@ -1,4 +1,4 @@
-/// Related cases are asked, compared, reported and replayed; a promise that is kept is never called broken.
+/// Related cases are asked, compared, reported and replayed; a kept promise is never reported as broken.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ const std::string skim = NEARMISS_PLUGINS "/libskim_plugin.so";
 
 json relations_of(const fs::path& folder) { return json::parse(read_file(folder / "relations.json")); }
 
-/// Its slack is a length, so that spheres which meet do so no more when everything is scaled.
+/// Uses a tolerance that is a length, so that spheres that meet no longer meet when everything is scaled.
 TEST(RelationsCommand, FindsTheSlackOfTheExampleAndReplaysIt) {
   const TemporaryFolder folder;
   const Ran ran = nearmiss({"relations", "--plugin", skim, "-s", "skim", "-q", "sphere_sphere_overlap", "-r",
@@ -99,10 +99,10 @@ TEST(RelationsCommand, RefusesAReportWhoseFollowUpsAreOthers) {
   EXPECT_NE(ran.err.find("changed.json: relation: 'scaled-lengths' does not lead"), std::string::npos) << ran.err;
 }
 
-/// A promise above the ladder: nothing is ever proved to break it.
+/// A promise above the ladder, which no proof can break.
 constexpr collide::Contract lenient{.backward = 0x1p60};
 
-/// Says that balls overlap if the first has the larger radius: no promise, and yet a contradiction.
+/// Reports an overlap if the first ball has the larger radius: breaks no promise, but contradicts itself.
 Subject biased(const collide::Contract& contract) {
   const auto answer = [](std::span<const double> v) {
     Answer a;
@@ -141,7 +141,7 @@ Answer says(bool yes) {
   return a;
 }
 
-/// Sees the point in no rectangle and in every triangle.
+/// Reports the point in no rectangle and in every triangle.
 TEST(RelationReport, CountsItsAnswers) {
   const Subject s{
       "triangular",

@@ -1,4 +1,4 @@
-/// Reports say what is true of each kind of disagreement, and are valid under their schema.
+/// Reports explain each kind of disagreement correctly, and are valid under their schema.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,13 +21,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Never asked: its answers are given by the tests.
+/// A subject that is never asked: the tests provide its answers.
 Subject stooge(std::string_view query, const collide::Contract& contract) {
   const auto never = [](std::span<const double>) { return Answer::without(Answer::Status::broke, "asked"); };
   return {"stooge", "1", Scalar::float64, false, {{std::string(query), Offer::answers, "", contract, never}}};
 }
 
-/// Promises the utmost.
+/// The strictest promise.
 constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
 
 /// A ball of radius 1 that flies along x from -10 with speed 2, at the unit box around (0, y, 0).
@@ -71,7 +71,7 @@ Answer hit(double time, double y = 0, double normal_x = -1, double normal_y = 0)
   return answer(true, {time, -1, y, 0, normal_x, normal_y, 0});
 }
 
-/// Of a ball that stands still, by a subject that requires a motion.
+/// A report about a ball at rest, for a subject that requires a motion.
 Report unasked_report() {
   Case still = flight(9);
   std::fill_n(still.values.begin() + 4, 3, 0.0);
@@ -92,7 +92,7 @@ Report report(const Case& question, const Answer& given, const collide::Contract
 
 using Touching = std::map<std::string, std::set<std::pair<bool, bool>>>;
 
-/// What the referees say of before and after, by whose time it is.
+/// The referees' answers before and after, by the source of the time.
 Touching touching(const Report& r) {
   Touching said;
   for (const StaticCheck& c : r.static_checks) said[c.of].insert({c.said[0].yes, c.said[2].yes});
@@ -120,7 +120,7 @@ TEST(Report, ChecksTimesOfContactByStaticQueries) {
   }
 }
 
-/// A point that flies at each obstacle is put there as a ball without a radius.
+/// The static check places a moving point as a ball of radius zero.
 TEST(Report, ChecksTimesOfPoints) {
   const auto says = [](const char* query, std::vector<double> values) {
     const Case c{find_query(query), Scalar::float64, std::move(values), "test", 0, 0, {}};
@@ -395,7 +395,7 @@ TEST(Report, HasAnIdThatDependsOnTheCaseAndTheFault) {
   EXPECT_NE(id, id_of(report(flight(0), hit(4.5))));
 }
 
-/// Every way to take a report apart must be seen by the schema, or it checks nothing.
+/// The schema must refuse every mutilated report; otherwise it checks nothing.
 TEST(ReportSchema, RejectsBrokenDocuments) {
   const nlohmann::json good = nlohmann::json::parse(report_to_json(report(flight(0), hit(4.5))).dump());
   ASSERT_EQ(complaints(good, "report.schema.json"), "");

@@ -1,4 +1,4 @@
-/// A subject is asked nothing outside of what it requires, and nothing outside is held against it.
+/// A subject is only asked cases that meet its preconditions, and no other case counts against it.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -35,7 +35,7 @@ Answer always_wrong(std::span<const double> values) {
   a.yes = !exact_decision(c);
   return a;
 }
-/// It must not be asked outside: that breaks.
+/// Breaks on a case that does not meet its preconditions.
 Answer breaks_outside(std::span<const double> values) {
   const Answer a = right_for_rectangles(values);
   const Case c{find_query(query), Scalar::float64, {values.begin(), values.end()}, "", 0, 0, {}};
@@ -84,7 +84,7 @@ TEST(Requires, NothingOutsideIsAFinding) {
   EXPECT_EQ(index.at("findings"), 0);
 }
 
-/// The same subject without a word about it is wrong in most cases of the generator.
+/// The same subject without stated preconditions is wrong in most cases of the generator.
 TEST(Requires, CasesAreFittedToItAndOthersKeepTheirOwn) {
   const TemporaryFolder folder;
   const Subject says = stooge("says", right_for_rectangles, rectangles);
@@ -129,7 +129,7 @@ TEST(Requires, AReplayDoesNotAskAndSaysWhy) {
             std::string::npos);
 }
 
-/// A batch of which some cases are outside gives each case its own answer.
+/// In a batch where some cases do not meet the preconditions each case gets its own answer.
 TEST(Requires, AnswersStayWithTheirCases) {
   const Subject s = stooge("stooge", breaks_outside, rectangles);
   Case beside = true_one();

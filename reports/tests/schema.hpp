@@ -1,4 +1,4 @@
-/// The shipped JSON Schemas, applied by a validator that is not ours.
+/// Validates documents against the shipped JSON Schemas with an independent validator.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-/// "" when `document` is valid under reports/`schema_name`, otherwise every complaint.
+/// "" where `document` is valid under reports/`schema_name`, otherwise every error.
 std::string complaints(const nlohmann::json& document, const std::string& schema_name);
 
 }  // namespace nearmiss

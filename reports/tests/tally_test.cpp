@@ -1,4 +1,4 @@
-/// What is counted, what is kept, and how numbers are told.
+/// Counts, retention of findings, and formats of numbers.
 #include <gtest/gtest.h>
 
 #include "reports/engine/tally.hpp"

@@ -1,4 +1,4 @@
-/// Exact touches are told from near ones, and counted; two conventions in one library are told.
+/// Exact touches are distinguished from near ones and counted; two conventions in one library are reported.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ TEST_P(Contacts, AreExactTouchesOrNot) {
 INSTANTIATE_TEST_SUITE_P(Touch, Contacts, testing::ValuesIn(contacts),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Counts `n` answers to an exact touch of two things.
+/// Counts `n` answers to an exact touch of two bodies.
 void touch(Touches& touches, const Subject& s, const Contact& c, bool says, std::uint64_t n) {
   const Case question{find_query(c.query), Scalar::float64, c.inputs, "test", 0, 0, {"small-lattice", "touch-by-size"}};
   Answer a;

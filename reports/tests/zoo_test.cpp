@@ -1,5 +1,5 @@
-/// Subjects that misbehave in every way that we know: each costs what it breaks and nothing else. What must be said,
-/// whom it blames, and that the subject beside it has exactly its usual counts.
+/// Subjects that misbehave in every known way. Each test checks the reported reason, the affected cases, and that
+/// another subject in the same run has exactly its usual counts.
 #include <gtest/gtest.h>
 #include <sys/shm.h>
 
@@ -17,20 +17,20 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* patience = "0.04";  // seconds, and five times as much in all
+constexpr const char* patience = "0.04";  // seconds of processor time, and five times as many of wall time
 
-/// What comes of a misdeed.
+/// The expected result of a misdeed.
 enum class End {
-  refused,   ///< exit code 2 and one line, before anything is asked
+  refused,   ///< exit code 2 and one line, before the first case
   broke,     ///< cases that broke, with the reason
-  given_up,  ///< cases that broke, until the others are not asked
+  given_up,  ///< cases that broke, until the subject is given up
   either,    ///< one or the other: by the time it is looked at, all may be answered, and what is done after that is no
              ///< matter
-  judged,    ///< nothing breaks: its answers are judged like any other's
+  judged,    ///< no case breaks; the answers are judged as usual
 };
 
 struct Misdeed {
-  const char* name;  ///< as NEARMISS_ZOO has it
+  const char* name;  ///< its name in NEARMISS_ZOO
   End end;
   const char* says;  ///< a part of the line, or of every reason
 };
@@ -42,7 +42,7 @@ std::vector<std::string> zoo(bool plugin) {
   return {"--command", NEARMISS_ZOO_PROGRAM};
 }
 
-/// A run of the zoo beside an innocent subject, or of that alone.
+/// A run of the zoo beside a well-behaved subject, or of that subject alone.
 std::vector<std::string> a_run(const std::vector<std::string>& of, const fs::path& out) {
   std::vector<std::string> arguments{"run", "--patience", patience};
   arguments.insert(arguments.end(), of.begin(), of.end());
