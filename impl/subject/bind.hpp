@@ -1,15 +1,16 @@
 /// Turns an adapter into a Subject: pairs it with every line of the catalogue.
 ///
 /// An adapter is a struct with
-///   using Number = double;                         // or float: the scalar in which the library computes
+///   using Number = double;  // or float: the scalar in which the library computes
 ///   static std::string version();
-///   static constexpr bool referee = true;           // optional
-///   static auto answer(const inputs::QUERY<Number>&);   // one for each query that it answers
-///   template <class Q> static collide::Contract contract();      // optional: its promise for inputs Q
-///   template <class Q> static std::string equivalence();         // optional: "" or the equivalent operation it uses
-///   template <class Q> static std::string left_out();            // optional: "" or the members it does not give, and
-///   why template <class Q> static std::string why_not();             // optional: why a query is not offered template
-///   <class Q> static nearmiss::Preconditions needs();   // optional: what it requires of inputs Q
+///   static auto answer(const inputs::QUERY<Number>&);  // one for each query that it answers
+/// and, optionally,
+///   static constexpr bool referee = true;
+///   template <class Q> static collide::Contract contract();  // the promise for inputs Q
+///   template <class Q> static std::string equivalence();     // "" or the equivalent operation that it uses
+///   template <class Q> static std::string left_out();        // "" or the members that it does not give, and why
+///   template <class Q> static std::string why_not();         // why a query is not offered
+///   template <class Q> static nearmiss::Preconditions needs();
 #pragma once
 
 #include <concepts>

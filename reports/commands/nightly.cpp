@@ -305,8 +305,8 @@ class NightlyCommand : public Command {
     return fmt::format("{} of {} fuzz targets in {}", found.targets.size(), found.targets.size() + found.missing.size(),
                        found.where);
   }
-  /// Notes all in the index. A target that ended with an error makes `failed` true; returns what the
-  /// summary says.
+  /// Runs the fuzz targets and adds their results to the index. Sets `failed` where a target ended with an error.
+  /// Returns the text for the summary.
   static std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end, bool& failed) {
     Json note{{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}};
     if (found.targets.empty()) {

@@ -49,7 +49,7 @@ class Run {
 
   /// Makes the folder and writes the first index. Throws IoError where it cannot, and
   /// BadInput where another run has locked the folder.
-  /// The same goes for whatever is written later: the line says how far the run came.
+  /// Later writes throw too; the message then states how far the run came.
   explicit Run(RunSettings settings);
   /// Without a previous finish() it marks the run as failed in the index, even on a full disk.
   ~Run();

@@ -1,4 +1,4 @@
-/* A plugin with the one fault that the build names, or one whose function misbehaves. */
+/* A plugin with one fault, which a definition of the build selects. */
 #include <stdlib.h>
 
 #include "impl/plugin/nearmiss_plugin.h"
@@ -8,7 +8,7 @@
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
-/* As a library does that is linked with -ffast-math, and one that wants intervals. */
+/* Like a library that is linked with -ffast-math, or one for interval arithmetic. */
 __attribute__((constructor)) static void set_modes(void) {
   fesetround(FE_UPWARD);
 #ifdef __SSE2__

@@ -631,7 +631,7 @@ TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "targets");
   const std::string query(catalogue().front().name);
-  folder.file("targets/fuzz_" + query, std::string("\0max_total_time\0", 16));  // nobody may execute it
+  folder.file("targets/fuzz_" + query, std::string("\0max_total_time\0", 16));  // not executable
   const Ran ran = nearmiss({"nightly", "--minutes", "0.1", "--fuzz-targets", (folder / "targets").string(), "--out",
                             (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;

@@ -93,7 +93,7 @@ TEST(Extremes, WriteWhatTheyHaveWhenInterrupted) {
   EXPECT_TRUE(last_line(ran.out).starts_with("interrupted: ")) << ran.out;
 }
 
-/// The plugin loops for ever about half of all cases beyond 1e9.
+/// The plugin loops forever on about half of all cases beyond 1e9.
 TEST(Extremes, GiveUpASubjectThatDoesNotComeBackAndSaySo) {
   const TemporaryFolder folder;
   const json report = swept(folder, {"--plugin", NEARMISS_PLUGINS "/libmisbehaves.so", "--subject", "misbehaves",

@@ -20,7 +20,7 @@ using nlohmann::json;
 constexpr std::string_view query = "moving_point_rectangle";
 constexpr Preconditions rectangles{Precondition::true_rectangle};
 
-/// Right for true rectangles: the exact decision and no number. Elsewhere it says the opposite.
+/// Right for true rectangles: the exact decision and no number. Elsewhere it returns the opposite.
 Answer right_for_rectangles(std::span<const double> values) {
   const Case c{find_query(query), Scalar::float64, {values.begin(), values.end()}, "", 0, 0, {}};
   Answer a;

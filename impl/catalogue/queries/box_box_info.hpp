@@ -1,4 +1,4 @@
-/// What the tools for pairs of boxes share.
+/// The intermediate values that the queries on pairs of boxes share.
 #pragma once
 
 #include "impl/catalogue/inputs.hpp"

@@ -1,4 +1,4 @@
-/// When and where a moving point meets a one-sided triangle that is asked about many times.
+/// When and where a moving point meets a one-sided triangle that is prepared for many calls.
 #pragma once
 
 #include "impl/catalogue/inputs.hpp"

@@ -13,7 +13,7 @@ struct moving_sphere_passes_box {
   Vec3<T> velocity{};
   Box<T> box{};
   T limit{};
-  bool forever = false;  ///< the limit is +infinity, whatever `limit` says
+  bool forever = false;  ///< no limit: `limit` is ignored
 
   static constexpr auto members() {
     return std::tuple(member("sphere", &moving_sphere_passes_box::sphere),

@@ -13,7 +13,7 @@ struct moving_sphere_passes_sphere {
   Vec3<T> velocity{};
   Sphere<T> fixed{};
   T limit{1};
-  bool forever = false;  ///< no limit, whatever `limit` is
+  bool forever = false;  ///< no limit: `limit` is ignored
 
   static constexpr auto members() {
     return std::tuple(member("sphere", &moving_sphere_passes_sphere::sphere),

@@ -1,4 +1,4 @@
-/* What a subject may do, by name: the environment variable NEARMISS_ZOO says which. Shared by the plugin and the
+/* The misdeeds of a subject, by name: the environment variable NEARMISS_ZOO selects one. Shared by the plugin and the
  * program. */
 #ifndef NEARMISS_TESTS_MISDEEDS_H
 #define NEARMISS_TESTS_MISDEEDS_H
@@ -66,7 +66,7 @@ static int overflow_the_stack(volatile int depth) {
 
 static void eat_memory(void) {
   for (size_t size = (size_t)1 << 24;;) {
-    char* volatile more = malloc(size); /* a compiler may leave out memory that nobody looks at */
+    char* volatile more = malloc(size); /* a compiler may remove unused memory */
     if (more == NULL) abort();
     more[0] = 1;
   }

@@ -1,4 +1,4 @@
-/* A plugin with every fault, one at a time: NEARMISS_ZOO says which (misdeeds.h). */
+/* A plugin with every fault, one at a time: NEARMISS_ZOO selects it (misdeeds.h). */
 #include "reports/tests/zoo/misdeeds.h"
 
 #include <math.h>

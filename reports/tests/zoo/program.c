@@ -1,11 +1,11 @@
-/* A program that speaks the protocol, with every fault, one at a time: NEARMISS_ZOO says which (misdeeds.h). */
+/* A program that speaks the protocol, with every fault, one at a time: NEARMISS_ZOO selects it (misdeeds.h). */
 #include "reports/tests/zoo/misdeeds.h"
 
 static const char usual_hello[] =
     "{\"nearmiss\": 1, \"name\": \"zoo\", \"version\": \"1\", \"scalar\": \"double\", \"batches\": \"json\", "
     "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}, {\"query\": \"moving_point_triangle\"}]}\n";
 
-/* What is said in place of the usual hello, by name. */
+/* Lines that replace the usual hello, by name. */
 static const struct {
   const char *name, *text;
 } hellos[] = {
@@ -35,7 +35,7 @@ static const struct {
      "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"requires\": [\"luck\"]}]}\n"},
 };
 
-/* What is said in place of an answer, by name. */
+/* Lines that replace an answer, by name. */
 static const struct {
   const char *name, *text;
 } replies[] = {
