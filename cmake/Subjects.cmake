@@ -109,7 +109,7 @@ function(nearmiss_compile_subject identifier)
 namespace nearmiss {
 Subject subject_${identifier}();
 }
-int main() { _exit(nearmiss::host_of(nearmiss::subject_${identifier})); }
+int main() { _exit(nearmiss::run_built_in_host(nearmiss::subject_${identifier})); }
 ")
   add_executable(nearmiss_host_${identifier} ${main} $<TARGET_OBJECTS:${target}>)
   target_link_libraries(nearmiss_host_${identifier} PRIVATE nearmiss_host)

@@ -136,16 +136,16 @@ int host_plugin(const std::string& path) {
   if (library == nullptr) {
     std::string why = dlerror();
     if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
-    return refuse("it cannot be loaded: " + why);
+    return send_refusal("it cannot be loaded: " + why);
   }
   const auto entry = reinterpret_cast<Entry>(dlsym(library, "nearmiss_plugin_entry"));
-  if (entry == nullptr) return refuse("it is no plugin: it has no function nearmiss_plugin_entry");
+  if (entry == nullptr) return send_refusal("it is no plugin: it has no function nearmiss_plugin_entry");
   const nearmiss_plugin* plugin = entry();
   const FloatingPointModes modes = FloatingPointModes::current();
   FloatingPointModes::standard().set();
-  if (const std::string fault = fault_of(plugin); !fault.empty()) return refuse(fault);
+  if (const std::string fault = fault_of(plugin); !fault.empty()) return send_refusal(fault);
   std::vector<AskedFunction> functions;
-  return host(described_by(*plugin, modes, functions));
+  return run_host(described_by(*plugin, modes, functions));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool say(int file, std::string_view text) {
+bool write_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = write(file, text.data(), text.size());
     if (put < 0 && errno == EINTR) continue;
@@ -29,7 +29,7 @@ bool say(int file, std::string_view text) {
   return true;
 }
 
-bool woken(int file) {
+bool wait_for_wake_up(int file) {
   char byte = 0;
   ssize_t got = 0;
   while ((got = read(file, &byte, 1)) < 0 && errno == EINTR) {
@@ -58,7 +58,7 @@ T* mapped(int file, int protection) {
 
 void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
            std::span<const AnswerFunction> offers) {
-  while (woken(from_judge)) {
+  while (wait_for_wake_up(from_judge)) {
     const AnswerFunction answer = offers.empty() ? asked.answer : offers[asked.offer];
     const std::size_t count = asked.count, inputs = asked.inputs;
     std::size_t used = 0;
@@ -71,7 +71,7 @@ void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire:
       used += a.count;
       answered.done.store(std::uint32_t(i + 1), std::memory_order_release);
     }
-    if (!say(to_judge, "d")) return;
+    if (!write_all(to_judge, "d")) return;
   }
 }
 
@@ -104,17 +104,17 @@ std::string refusal(const std::string& why) {
          "\n";
 }
 
-int refuse(const std::string& why) { return say(wire::to_judge, refusal(why)) ? 0 : 1; }
+int send_refusal(const std::string& why) { return write_all(wire::to_judge, refusal(why)) ? 0 : 1; }
 
-int host_of(Subject (*subject)()) {
+int run_built_in_host(Subject (*subject)()) {
   // A program that a library starts with exec does not inherit the pipes.
   for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
     fcntl(file, F_SETFD, FD_CLOEXEC);
   FloatingPointModes::standard().set();  // a library may have changed them when it was loaded
-  return host(subject());
+  return run_host(subject());
 }
 
-int host(const Subject& subject) {
+int run_host(const Subject& subject) {
   const auto* asked = mapped<const wire::SharedRequest>(wire::shared_request, PROT_READ);
   auto* answered = mapped<wire::SharedAnswers>(wire::shared_answers, PROT_READ | PROT_WRITE);
   if (asked == nullptr || answered == nullptr) {
@@ -125,7 +125,7 @@ int host(const Subject& subject) {
   for (const Offering& o : subject.offerings) {
     if (o.offer != Offer::not_offered) offers.push_back(o.answer);
   }
-  if (!say(wire::to_judge, hello_of(subject))) return 1;
+  if (!write_all(wire::to_judge, hello_of(subject))) return 1;
   FloatingPointModes::standard().set();
   serve(wire::from_judge, wire::to_judge, *asked, *answered, offers);
   return 0;

@@ -19,10 +19,10 @@ std::string hello_of(const Subject& subject);
 std::string refusal(const std::string& why);
 
 /// The main function of a host of this project: sends the hello, then serves. Returns the exit code.
-int host(const Subject& subject);
+int run_host(const Subject& subject);
 /// The same for a subject of this build, which is created after the pipes are protected.
-int host_of(Subject (*subject)());
+int run_built_in_host(Subject (*subject)());
 /// Sends a refusal(); returns the exit code.
-int refuse(const std::string& why);
+int send_refusal(const std::string& why);
 
 }  // namespace nearmiss
