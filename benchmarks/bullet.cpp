@@ -1,5 +1,5 @@
-/// Bullet 3.24 as a contender, in float or double. Shapes, poses and algorithms are made before the timing; the timed part is
-/// one call. Each query uses the most direct functions of Bullet:
+/// Bullet 3.24 as a contender, in float or double. Shapes, poses and algorithms are made before the timing; the timed
+/// part is one call. Each query uses the most direct functions of Bullet:
 ///
 ///   algorithm    processCollision of the algorithm that its dispatcher finds for the two shapes
 ///   distance     btSphereBoxCollisionAlgorithm::getSphereDistance

@@ -25,8 +25,8 @@ class Contender {
   virtual std::vector<std::pair<std::string, double>> stages() { return {}; }
 };
 
-/// The i-th scene of a pass. Scenes are in random order, and each pass uses another order, so that no branch predictor can
-/// learn it. `scenes` must be a power of two.
+/// The i-th scene of a pass. Scenes are in random order, and each pass uses another order, so that no branch predictor
+/// can learn it. `scenes` must be a power of two.
 inline std::size_t scene_in_pass(std::size_t i, std::size_t pass, std::size_t scenes) {
   const std::size_t stride = 2 * (pass * 0x9e3779b97f4a7c15 >> 32) + 1;  // odd, and scenes a power of two
   return (i * stride) & (scenes - 1);
@@ -51,8 +51,8 @@ inline void keep(const T& value) {
   asm volatile("" : : "m"(value) : "memory");
 }
 
-/// A contender with scenes of type Scene, which are made from Q, the inputs of a query, and answer by `ask()`. `Tier` may
-/// count its stages.
+/// A contender with scenes of type Scene, which are made from Q, the inputs of a query, and answer by `ask()`. `Tier`
+/// may count its stages.
 template <class Scene, class Q, class Tier = void>
 class ContenderOf final : public Contender {
  public:

@@ -1,8 +1,8 @@
-/// FCL 0.7 as a contender, in double. Shapes and poses are made before the timing; the timed part is one call of its API
-/// with its default solvers.
+/// FCL 0.7 as a contender, in double. Shapes and poses are made before the timing; the timed part is one call of its
+/// API with its default solvers.
 ///
-/// A plane becomes FCL's half-space, the solid behind it; for motions it becomes FCL's plane. Motions run in both of FCL's
-/// ways: "naive", the default, samples ten positions and may miss contacts between them; "advancement" cannot.
+/// A plane becomes FCL's half-space, the solid behind it; for motions it becomes FCL's plane. Motions run in both of
+/// FCL's ways: "naive", the default, samples ten positions and may miss contacts between them; "advancement" cannot.
 #include <fcl/config.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>

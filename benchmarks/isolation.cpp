@@ -2,10 +2,10 @@
 ///
 ///   isolation_cost [--pairs=N] [--subject=NAME] [--command=COMMAND ...] [QUERY ...]
 ///
-/// Times the same work alternately with the subject in its host and in this process, and prints the medians of the ratios of
-/// processor time (of both processes) and of wall time; then the cost of a case for each COMMAND, a program over pipes
-/// (docs/protocol.md). Exit code 1 where isolation costs a run more than 20 % of processor time; wall time also depends on
-/// the load of the machine.
+/// Times the same work alternately with the subject in its host and in this process, and prints the medians of the
+/// ratios of processor time (of both processes) and of wall time; then the cost of a case for each COMMAND, a program
+/// over pipes (docs/protocol.md). Exit code 1 where isolation costs a run more than 20 % of processor time; wall time
+/// also depends on the load of the machine.
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -157,7 +157,8 @@ std::string load() {
   return one_minute;
 }
 
-/// Prints the cost of a case for a program over pipes: medians of the processor time of both processes and of wall time.
+/// Prints the cost of a case for a program over pipes: medians of the processor time of both processes and of wall
+/// time.
 void measure_program(const Subject& program, int rounds) {
   Workers workers;
   for (const Offering& o : program.offerings) {

@@ -1,10 +1,10 @@
-/// Times every contender on the scenes of its query. Google Benchmark's own options apply; --scenes=N, a power of two, sets
-/// the number of scenes for each query.
+/// Times every contender on the scenes of its query. Google Benchmark's own options apply; --scenes=N, a power of two,
+/// sets the number of scenes for each query.
 ///
-/// The time is that of one call in a sequence of calls, with the scenes in random order. Counters: p50 and p99, percentiles
-/// over the scenes of the latency in ns of a single call that overlaps with no other; hits, the share of scenes with a
-/// yes; agree, the share of scenes with the same decision as Fast in double; and for a tier with stages the share that
-/// each stage answered.
+/// The time is that of one call in a sequence of calls, with the scenes in random order. Counters: p50 and p99,
+/// percentiles over the scenes of the latency in ns of a single call that overlaps with no other; hits, the share of
+/// scenes with a yes; agree, the share of scenes with the same decision as Fast in double; and for a tier with stages
+/// the share that each stage answered.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ double ns_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
 }
 
-/// A clock with a resolution of a few nanoseconds. On x86 it is the cycle counter between fences, so that no instruction
-/// of the timed call moves across the reading.
+/// A clock with a resolution of a few nanoseconds. On x86 it is the cycle counter between fences, so that no
+/// instruction of the timed call moves across the reading.
 std::uint64_t ticks() {
 #if defined(__x86_64__)
   _mm_lfence();
@@ -70,8 +70,8 @@ class NoQuestion final : public Contender {
   bool yes(std::size_t) override { return false; }
 };
 
-/// The latency of each scene in ticks: the median of some passes in different orders, so that a load on the machine during
-/// one pass does not count.
+/// The latency of each scene in ticks: the median of some passes in different orders, so that a load on the machine
+/// during one pass does not count.
 std::vector<double> costs_of_scenes(Contender& contender, std::size_t scenes) {
   constexpr std::size_t passes = 9;
   std::vector<std::vector<double>> costs(scenes);

@@ -5,7 +5,8 @@
 ///   QUERY/wrong/SCALAR       the same, each answer off by a part in 4096, or else with the opposite decision
 ///   QUERY/forward/SCALAR     as judge, and the forward error to a tenth of an ulp
 ///   QUERY/degenerate/SCALAR  as judge, of the generator's cases that only the exact stage decides
-///   QUERY/worst/SCALAR       everything in a report, for one case: the costliest of the degenerate cases, of raw numbers
+///   QUERY/worst/SCALAR       everything in a report, for one case: the costliest of the degenerate cases, of raw
+///   numbers
 ///                            and of far-scaled cases
 ///   QUERY/stages/SCALAR      as judge, for all cases that the generator draws
 ///
@@ -67,8 +68,8 @@ std::vector<Asked> all_sorts(const Pairing& p) {
   return all;
 }
 
-/// The plain scenes with wrong answers: each nonzero number is off by a part in 4096; without such a number the decision is
-/// wrong.
+/// The plain scenes with wrong answers: each nonzero number is off by a part in 4096; without such a number the
+/// decision is wrong.
 std::vector<Asked> with_wrong_answers(const Pairing& p) {
   std::vector<Asked> all = plain_scenes(p);
   for (Asked& a : all) {
@@ -85,8 +86,8 @@ std::vector<Asked> with_wrong_answers(const Pairing& p) {
   return all;
 }
 
-/// At most count / 4 cases that the exact stage decides; fewer, or none, where they are rare. A case outside the domain of
-/// the contract is judged without the exact stage, so it is not among them.
+/// At most count / 4 cases that the exact stage decides; fewer, or none, where they are rare. A case outside the domain
+/// of the contract is judged without the exact stage, so it is not among them.
 std::vector<Asked> degenerate(const Pairing& p) {
   std::vector<Asked> found;
   for (std::uint64_t i = 0; i < 64 * count && found.size() < std::max<std::size_t>(count / 4, 1); ++i) {

@@ -71,7 +71,8 @@ collide::Sphere<T> ball_around(const collide::Triangle<T>& t) {
   const collide::Vec3<T> center = (t.v0 + t.v1 + t.v2) / T(3);
   return {center, std::max({norm(t.v0 - center), norm(t.v1 - center), norm(t.v2 - center)})};
 }
-/// An end for an unlimited motion, past the shape, so that no contact is lost. Other libraries move from a start to an end.
+/// An end for an unlimited motion, past the shape, so that no contact is lost. Other libraries move from a start to an
+/// end.
 template <class S, class T>
 collide::Vec3<T> end_of_motion(const collide::Vec3<T>& start, const collide::Vec3<T>& velocity, T radius,
                                const S& shape) {

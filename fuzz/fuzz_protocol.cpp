@@ -1,5 +1,5 @@
-/// Fuzzes the data that the judge's process reads from hosts: hellos, answers over pipes, answers in shared memory, text for
-/// terminals. The reader may refuse any data, but must never accept invalid data: a failed demand() aborts.
+/// Fuzzes the data that the judge's process reads from hosts: hellos, answers over pipes, answers in shared memory,
+/// text for terminals. The reader may refuse any data, but must never accept invalid data: a failed demand() aborts.
 ///
 /// The first byte selects the kind of data; for answers the second byte is the count of numbers in an answer.
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// The fuzz target of the query fuzzed_query: bytes become a case, the tiers of `collide` answer it, and the judge judges
-/// the answers. A violation aborts the process and prints the case.
+/// The fuzz target of the query fuzzed_query: bytes become a case, the tiers of `collide` answer it, and the judge
+/// judges the answers. A violation aborts the process and prints the case.
 ///
 /// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas; "added": those of NEARMISS_ADD that
 ///                         offer this query
@@ -53,8 +53,8 @@ std::vector<std::string> named_in_environment() {
   return names;
 }
 
-/// Every tier of `collide`, and the subjects, plugins and commands in the environment, that answer this query. Prints their
-/// names to standard error, where `nearmiss nightly` reads them.
+/// Every tier of `collide`, and the subjects, plugins and commands in the environment, that answer this query. Prints
+/// their names to standard error, where `nearmiss nightly` reads them.
 std::vector<const Subject*> asked_subjects() {
   try {
     load_subjects_of_environment();
@@ -174,8 +174,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
-/// Half of the mutations are the generator's mutators, which keep a case valid and bring it near a special configuration;
-/// the others are libFuzzer's own mutations of bytes. Bytes that are not a case are replaced by a generated case.
+/// Half of the mutations are the generator's mutators, which keep a case valid and bring it near a special
+/// configuration; the others are libFuzzer's own mutations of bytes. Bytes that are not a case are replaced by a
+/// generated case.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   using namespace nearmiss;
@@ -192,7 +193,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   return bytes.size();
 }
 
-/// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never valid.
+/// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never
+/// valid.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   static std::vector<char*> arguments(*argv, *argv + *argc);
   static char no_length_control[] = "-len_control=0";

@@ -1,6 +1,6 @@
 /// The main of a fuzz target without libFuzzer: replays every file in the arguments and every file in folders in the
-/// arguments. A .json file is a case file; any other file holds bytes. Exit code 0: all files replayed; 2: no file, or a
-/// file that is not a case. A violation aborts.
+/// arguments. A .json file is a case file; any other file holds bytes. Exit code 0: all files replayed; 2: no file, or
+/// a file that is not a case. A violation aborts.
 #include <fmt/format.h>
 
 #include <algorithm>

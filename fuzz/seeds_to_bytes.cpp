@@ -1,5 +1,5 @@
-/// Writes every stored case of a query as bytes, for a fuzzer's corpus, and removes all other files in the folder. Usage:
-/// seeds_to_bytes QUERY FOLDER
+/// Writes every stored case of a query as bytes, for a fuzzer's corpus, and removes all other files in the folder.
+/// Usage: seeds_to_bytes QUERY FOLDER
 #include <fmt/format.h>
 
 #include <cstdio>
