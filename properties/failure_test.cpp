@@ -31,7 +31,10 @@ Subject broken_subject() {
     return erase(SlackAdapter::answer(inputs_from<inputs::sphere_sphere_overlap<double>>(values.data())));
   };
   constexpr collide::Contract promise{.backward = 8, .lowest = -100, .highest = 100};
-  return {"slack", "1", Scalar::float64, false, {{"sphere_sphere_overlap", Offer::answers, "", promise, answer}}};
+  return {.name = "slack",
+          .version = "1",
+          .scalar = Scalar::float64,
+          .offerings = {{"sphere_sphere_overlap", Offer::answers, "", promise, answer}}};
 }
 
 /// The runs folder of one test, removed at its end.

@@ -110,7 +110,10 @@ Subject biased(const collide::Contract& contract) {
     a.given = 0;
     return a;
   };
-  return {"biased", "1", Scalar::float64, false, {{"sphere_sphere_overlap", Offer::answers, "", contract, answer}}};
+  return {.name = "biased",
+          .version = "1",
+          .scalar = Scalar::float64,
+          .offerings = {{"sphere_sphere_overlap", Offer::answers, "", contract, answer}}};
 }
 
 RelationReport swapped(const Subject& s) {
@@ -182,8 +185,10 @@ TEST(RelationReport, NumbersAloneProveNothing) {
     a.values[0] = v[0] + 0.25;
     return a;
   };
-  const Subject vague{
-      "vague", "1", Scalar::float64, false, {{"closest_point_segment", Offer::answers, "", lenient, answer}}};
+  const Subject vague{.name = "vague",
+                      .version = "1",
+                      .scalar = Scalar::float64,
+                      .offerings = {{"closest_point_segment", Offer::answers, "", lenient, answer}}};
   const Case c{find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 4, 0, 0, 1, 2, 0}, "test", 0, 0, {}};
   const RelationFinding f = *examine(*find_relation("turned-corners"), c, 0, vague,
                                      [&](const Case& asked) { return vague.offerings.front().answer(asked.values); });

@@ -24,7 +24,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A subject that is never asked: the tests provide its answers.
 Subject stooge(std::string_view query, const collide::Contract& contract) {
   const auto never = [](std::span<const double>) { return Answer::without(Answer::Status::broke, "asked"); };
-  return {"stooge", "1", Scalar::float64, false, {{std::string(query), Offer::answers, "", contract, never}}};
+  return {.name = "stooge",
+          .version = "1",
+          .scalar = Scalar::float64,
+          .offerings = {{std::string(query), Offer::answers, "", contract, never}}};
 }
 
 /// The strictest promise.

@@ -43,7 +43,7 @@ Answer breaks_outside(std::span<const double> values) {
 }
 
 Subject stooge(const char* name, Answer (*answer)(std::span<const double>), Preconditions required) {
-  Subject s{name, "1", Scalar::float64, false, {}};
+  Subject s{.name = name, .version = "1", .scalar = Scalar::float64, .offerings = {}};
   s.offerings.push_back(
       {std::string(query), Offer::answers, "", {.backward = 0, .exact_decisions = true}, answer, required});
   return s;

@@ -19,7 +19,7 @@ Finding violation(Disagreement d, double above) {
 Tally tally_of(const Subject& subject) { return {&catalogue()[0], &subject}; }
 
 TEST(Tally, NeverAddsFalseHitsToFalseMisses) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   Tally t = tally_of(s);
   for (int i = 0; i < 3; ++i) t.count(violation(Disagreement::false_hit, 4));
   for (int i = 0; i < 5; ++i) t.count(violation(Disagreement::false_miss, 1 << i));
@@ -48,7 +48,7 @@ Finding two_violations(double above_of_time) {
 }
 
 TEST(Tally, CountsByMember) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   Tally t = tally_of(s);
   t.count(two_violations(16));
   EXPECT_EQ(t.violations[std::size_t(Disagreement::wrong_time)], 1u);
@@ -58,7 +58,7 @@ TEST(Tally, CountsByMember) {
 }
 
 TEST(FindingRetention, KeepsAFaultThatACommonerOneHides) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   const Tally t = tally_of(s);
   FindingRetention retention;
   for (std::uint64_t i = 0; i < 3 * FindingRetention::first_few; ++i)
@@ -72,7 +72,7 @@ TEST(FindingRetention, KeepsAFaultThatACommonerOneHides) {
 }
 
 TEST(Tally, CountsTruthOnlyWhereItWasAskedFor) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   Tally t = tally_of(s);
   Finding f;
   f.truth_yes = true;
@@ -89,7 +89,7 @@ TEST(Tally, CountsTruthOnlyWhereItWasAskedFor) {
 }
 
 TEST(FindingRetention, KeepsTheFirstFewThenOnlyTheMuchWorse) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   const Tally t = tally_of(s);
   FindingRetention retention;
   for (std::uint64_t i = 0; i < FindingRetention::first_few; ++i)
@@ -116,7 +116,7 @@ std::string assertion(int line) {
 }
 
 TEST(FindingRetention, KeepsTheFirstFewOfEachReasonToBreak) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   Tally t = tally_of(s);
   FindingRetention retention;
   const auto keeps = [&](const std::string& reason) {
@@ -133,7 +133,7 @@ TEST(FindingRetention, KeepsTheFirstFewOfEachReasonToBreak) {
 }
 
 TEST(Tally, KnowsSoManyReasonsAndNoMore) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   Tally t = tally_of(s);
   for (int line = 0; line < 100; ++line) t.count(breakage(assertion(line)));
   t.count(breakage(assertion(0)));

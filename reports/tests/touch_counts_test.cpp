@@ -57,7 +57,7 @@ void touch(Touches& touches, const Subject& s, const Contact& c, bool says, std:
 }
 
 TEST(Touches, AreCountedByFeature) {
-  const Subject s{"s", "", Scalar::float64, false, {}};
+  const Subject s{.name = "s", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   TouchCounts touches;
   touch(touches, s, contacts[0], true, 3);
   touch(touches, s, contacts[0], false, 5);
@@ -70,7 +70,8 @@ TEST(Touches, AreCountedByFeature) {
 }
 
 TEST(Touches, ClosedHereAndStrictThereIsInconsistent) {
-  const Subject closed{"closed", "", Scalar::float64, false, {}}, both{"both", "", Scalar::float64, false, {}};
+  const Subject closed{.name = "closed", .version = "1", .scalar = Scalar::float64, .offerings = {}},
+      both{.name = "both", .version = "1", .scalar = Scalar::float64, .offerings = {}};
   TouchCounts touches;
   touch(touches, closed, contacts[0], true, TouchCounts::enough);
   touch(touches, closed, contacts[3], true, TouchCounts::enough);
