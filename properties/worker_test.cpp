@@ -348,8 +348,8 @@ TEST(Worker, StopsWaitingWhenItIsTold) {
 /// are being written, each one complete.
 TEST(Wire, CarriesAnswersWholeWhileOthersAreWritten) {
   constexpr int rounds = 20;
-  const auto asked = std::make_unique<wire::Asked>();
-  const auto answered = std::make_unique<wire::Answered>();
+  const auto asked = std::make_unique<wire::SharedRequest>();
+  const auto answered = std::make_unique<wire::SharedAnswers>();
   int to_host[2], to_judge[2];
   ASSERT_EQ(pipe(to_host) | pipe(to_judge), 0);
   const AnswerFunction halves = [](std::span<const double> inputs) {
