@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Touch, Contacts, testing::ValuesIn(contacts),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// Counts `n` answers to an exact touch of two bodies.
-void touch(Touches& touches, const Subject& s, const Contact& c, bool says, std::uint64_t n) {
+void touch(TouchCounts& touches, const Subject& s, const Contact& c, bool says, std::uint64_t n) {
   const Case question{find_query(c.query), Scalar::float64, c.inputs, "test", 0, 0, {"small-lattice", "touch-by-size"}};
   Answer a;
   a.yes = says;
