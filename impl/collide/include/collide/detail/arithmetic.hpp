@@ -1,6 +1,7 @@
 /// The arithmetic of a kernel: how it computes sums of products that may cancel, and what is built on these.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include <collide/detail/double_word.hpp>
