@@ -147,12 +147,12 @@ Answer says(bool yes) {
 /// Reports the point in no rectangle and in every triangle.
 TEST(RelationReport, CountsItsAnswers) {
   const Subject s{
-      "triangular",
-      "1",
-      Scalar::float64,
-      false,
-      {{"point_in_rectangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(false); }},
-       {"point_in_triangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(true); }}}};
+      .name = "triangular",
+      .version = "1",
+      .scalar = Scalar::float64,
+      .offerings = {
+          {"point_in_rectangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(false); }},
+          {"point_in_triangle", Offer::answers, "", lenient, [](std::span<const double>) { return says(true); }}}};
   const Case inside{find_query("point_in_rectangle"),
                     Scalar::float64,
                     {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, 0, 0, 1, 3, 1, 0},
