@@ -60,12 +60,14 @@ double decimal(std::string_view text) {
 
 /// "1.5", "inf", "2^-51", "sqrt(1/2)".
 double term(std::string_view text) {
-  if (text.starts_with('-')) return -term(text.substr(1));
+  if (text.starts_with('-') && !text.starts_with("--")) return -term(text.substr(1));
   if (text == "inf") return std::numeric_limits<double>::infinity();
   if (text.starts_with("2^")) return std::exp2(decimal(text.substr(2)));
   if (text.starts_with("sqrt(") && text.ends_with(')')) {
-    const std::vector<std::string_view> ratio = split(text.substr(5, text.size() - 6), '/');
-    return std::sqrt(decimal(ratio.front()) / (ratio.size() == 2 ? decimal(ratio.back()) : 1));
+    const std::string_view inside = text.substr(5, text.size() - 6);
+    const std::vector<std::string_view> ratio = split(inside, '/');
+    if (ratio.size() != 2) throw BadLine(fmt::format("\"{}\" is not a ratio", inside));
+    return std::sqrt(decimal(ratio[0]) / decimal(ratio[1]));
   }
   return decimal(text);
 }

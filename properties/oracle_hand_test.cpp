@@ -15,6 +15,9 @@
 #include "properties/hand_derived.hpp"
 
 namespace nearmiss {
+
+void PrintTo(const HandDerived& hand, std::ostream* out) { *out << hand.where; }
+
 namespace {
 
 /// A contract that only the exact answer, rounded once, keeps.
@@ -30,8 +33,6 @@ std::vector<HandDerived> all_answers() {
   for (const auto& [query, file] : files()) all.insert(all.end(), file.answers.begin(), file.answers.end());
   return all;
 }
-
-void PrintTo(const HandDerived& hand, std::ostream* out) { *out << hand.where; }
 
 class ByHand : public testing::TestWithParam<HandDerived> {};
 
@@ -118,6 +119,8 @@ TEST(HandDerivedParser, RefusesBadLines) {
       {given("point = (1, 2, five)" + rest), "file:2: \"five\" is not a number"},
       {given("point = (1, 2, 1e400)" + rest), "file:2: \"1e400\" is not a number"},
       {given("point = (1, 2, nan)" + rest), "file:2: \"nan\" is not a number"},
+      {given("point = (1, 2, --5)" + rest), "file:2: \"--5\" is not a number"},
+      {given("point = (1, 2, sqrt(1/2/3))" + rest), "file:2: \"1/2/3\" is not a ratio"},
       {given("point = (1, 2, sqrt(5)" + rest),
        "file:2: \"point = (1, 2, sqrt(5)" + rest + "\" has unbalanced parentheses"},
       {given("plane = (0, 0, 2); point = (1, 2, 5); velocity = (0, 0, 1)"),
