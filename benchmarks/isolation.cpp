@@ -1,11 +1,12 @@
 /// Measures the cost of isolation; writes docs/isolation.md to standard output.
 ///
-///   isolation_cost [--pairs=N] [--subject=NAME] [--command=COMMAND ...] [QUERY ...]
+///   isolation_cost [--frame] [--pairs=N] [--subject=NAME] [--command=COMMAND ...] [QUERY ...]
 ///
 /// Times the same work alternately with the subject in its host and in this process, and prints the medians of the
 /// ratios of processor time (of both processes) and of wall time; then the cost of a case for each COMMAND, a program
 /// over pipes (docs/protocol.md). Exit code 1 where isolation costs a run more than 20 % of processor time; wall time
-/// also depends on the load of the machine.
+/// also depends on the load of the machine. --frame measures nothing and prints the page with a dash in place of each
+/// figure.
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -158,11 +159,16 @@ std::string load() {
 }
 
 /// Prints the cost of a case for a program over pipes: medians of the processor time of both processes and of wall
-/// time.
+/// time. Without rounds dashes take the place of the figures.
 void measure_program(const Subject& program, int rounds) {
   Workers workers;
+  const char* batch_format = program.host->batches == HostProgram::Batches::json ? "JSON" : "binary";
   for (const Offering& o : program.offerings) {
     if (o.answer == nullptr) continue;
+    if (rounds == 0) {
+      fmt::print("| `{}` | {} | `{}` | - | - |\n", program.name, batch_format, o.query);
+      continue;
+    }
     Measured measured(*find_query(o.query), program, program, workers);
     std::vector<double> processor, wall;
     measured.ask(true);  // a program gets small requests at first
@@ -172,12 +178,12 @@ void measure_program(const Subject& program, int rounds) {
       wall.push_back(spent.wall);
     }
     const double cases = double(batches * batch_size);
-    fmt::print("| `{}` | {} | `{}` | {:.0f} | {:.0f} |\n", program.name,
-               program.host->batches == HostProgram::Batches::json ? "JSON" : "binary", o.query,
+    fmt::print("| `{}` | {} | `{}` | {:.0f} | {:.0f} |\n", program.name, batch_format, o.query,
                1e9 * median(processor) / cases, 1e9 * median(wall) / cases);
   }
 }
 
+/// Prints the table of queries. Without pairs dashes take the place of the figures. Returns the exit code.
 int measure(const std::vector<const Query*>& queries, const Subject& subject, const Subject& hosted, int pairs,
             const std::string& command_line) {
   Workers workers;
@@ -218,6 +224,10 @@ time for which a process waits for a processor on a shared machine: this one, wi
              std::thread::hardware_concurrency(), load(), benchmarks::processor());
   double worst = 0;
   for (const Costs& c : all) {
+    if (pairs == 0) {
+      fmt::print("| `{}` | - | - | - | - | - | - |\n", c.query->name);
+      continue;
+    }
     fmt::print("| `{}` | {:.0f} | {} | {} | {:.0f} | {} | {} |\n", c.query->name, c.run.nanoseconds(),
                percent(c.run.processor()), percent(c.run.wall()), c.ask.nanoseconds(), percent(c.ask.processor()),
                percent(c.ask.wall()));
@@ -242,8 +252,13 @@ int main(int argc, char** argv) {
   std::vector<std::string> commands;
   std::string name = "collide-fast-float", command_line = "build/release/benchmarks/isolation_cost";
   int pairs = 31;
+  bool frame = false;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
+    if (argument == "--frame") {
+      frame = true;
+      continue;
+    }
     command_line += fmt::format(" {}", shell_quoted(argument));
     if (argument.starts_with("--pairs=")) {
       pairs = std::atoi(argv[i] + 8);
@@ -259,6 +274,7 @@ int main(int argc, char** argv) {
     }
   }
   command_line += " > docs/isolation.md";
+  if (frame) pairs = 0;
   if (queries.empty()) {
     for (const Query& q : catalogue()) queries.push_back(&q);
   }
