@@ -121,14 +121,14 @@ TEST(LongerNumbers, KeepTheBoundsOfDoublesTimesTheRatio) {
     };
     Doubt::any = false;
     const Bounded<double> bounded = in(Bounded<double>());
-    const auto words = in(detail::Longer<double, Wide>()).value;
+    const auto words = in(detail::HighPrecision<double, Wide>()).value;
     const WideBounded<double> reference = in(WideBounded<double>());
     ASSERT_FALSE(Doubt::any);
     const Q truth = exact(reference.value), slack(reference.error);
     ASSERT_LE(Q(abs(exact(bounded.value) - truth)), Q(bounded.error) + slack);
     ASSERT_LE(Q(abs(exact(words) - truth)), Q(bounded.error) * Q(detail::double_word_ratio) + slack);
     if constexpr (detail::has_long_double) {
-      const long double longer = in(detail::Longer<double, long double>()).value;
+      const long double longer = in(detail::HighPrecision<double, long double>()).value;
       const Q value = Q(double(longer)) + Q(double(longer - static_cast<long double>(double(longer))));
       ASSERT_LE(Q(abs(value - truth)), Q(bounded.error) * Q(detail::long_double_ratio) + slack);
     }
@@ -175,7 +175,7 @@ TEST(CompensatedSums, LoseOnlyWhatTwiceThePrecisionLoses) {
 class RealNumbers : public testing::Test {
  protected:
   using R = Real<double>;
-  ~RealNumbers() override { detail::Expressions::here().clear(); }
+  ~RealNumbers() override { detail::Expressions::of_this_thread().clear(); }
 };
 
 TEST_F(RealNumbers, KnowWhenNestedRootsAreEqual) {

@@ -29,7 +29,8 @@ namespace contracts {
 
 /// First order: the vector to the center carries 3 eps of the positions and of velocity * time; unit
 /// vectors 4 eps, the dot product 3, the reflection 3: what they turn the direction is explained by moving the location
-/// and the velocity by as much. Nothing explains a length other than 1: of_length() leaves its last rounding.
+/// and the velocity by as much. Nothing explains a length other than 1: with_corrected_length() leaves its last
+/// rounding.
 template <class Tier = Fast, class T = double>
 constexpr Contract bounce_direction() {
   return Tier::template contract<T>({.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});

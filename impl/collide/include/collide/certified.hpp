@@ -27,9 +27,9 @@
 // Numbers with bounds are worth their speed where a whole kernel becomes one piece of code: the compiler then sees
 // which are exact. Sanitizers would check each operation of it by itself, and compile for very long.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(COLLIDE_SANITIZED)
-#define COLLIDE_IN_ONE_PIECE [[gnu::noinline, gnu::flatten]]
+#define COLLIDE_FLATTEN [[gnu::noinline, gnu::flatten]]
 #else
-#define COLLIDE_IN_ONE_PIECE [[gnu::noinline]]
+#define COLLIDE_FLATTEN [[gnu::noinline]]
 #endif
 
 #include <collide/detail/strict_begin.hpp>
@@ -51,7 +51,7 @@ namespace detail {
 
 /// The compiler cannot know the numbers of `x` from before.
 template <class X>
-void forget(const X& x) {
+void make_opaque(const X& x) {
 #if defined(__GNUC__)
   asm volatile("" : : "r"(&x) : "memory");
 #else
@@ -60,23 +60,23 @@ void forget(const X& x) {
 }
 
 /// `x`, and whatever is in memory, is computed before what follows.
-inline void settle(double x) {
+inline void force_evaluation(double x) {
 #if defined(__GNUC__) && defined(__SSE2__)
   asm volatile("" : : "x"(x) : "memory");
 #elif defined(__GNUC__)
   asm volatile("" : : "m"(x) : "memory");
 #else
-  const volatile double settled = x;
-  static_cast<void>(settled);
+  const volatile double evaluated = x;
+  static_cast<void>(evaluated);
 #endif
 }
-inline void settle(const DoubleWord<double>& x) { settle(x.high), settle(x.low); }
-inline void settle(int x) {
+inline void force_evaluation(const DoubleWord<double>& x) { force_evaluation(x.high), force_evaluation(x.low); }
+inline void force_evaluation(int x) {
 #if defined(__GNUC__)
   asm volatile("" : : "r"(x) : "memory");
 #else
-  const volatile int settled = x;
-  static_cast<void>(settled);
+  const volatile int evaluated = x;
+  static_cast<void>(evaluated);
 #endif
 }
 
@@ -87,18 +87,18 @@ class RangeFlags {
   template <class... Args>
   explicit RangeFlags(const Args&... args) {
     clear();
-    (forget(args), ...);
+    (make_opaque(args), ...);
   }
   template <class A>
   bool raised_for(const A& answer) const {
-    if constexpr (requires { A::decision_member(); }) settle(int(answer.*A::decision_member()));
+    if constexpr (requires { A::decision_member(); }) force_evaluation(int(answer.*A::decision_member()));
     for_each_leaf(answer, [](const auto& leaf, Role) {
       if constexpr (requires { leaf.error; }) {
-        settle(leaf.value), settle(leaf.error);
+        force_evaluation(leaf.value), force_evaluation(leaf.error);
       } else if constexpr (std::same_as<std::remove_cvref_t<decltype(leaf)>, double>) {
-        settle(leaf);
+        force_evaluation(leaf);
       } else {
-        settle(int(leaf));
+        force_evaluation(int(leaf));
       }
     });
     return raised();
@@ -121,42 +121,42 @@ class RangeFlags {
 /// The operations of a kernel in more digits, without bounds: those of Bounded hold for them too, times the
 /// ratio of the unit roundoffs. `M` is the machine's long double where that has 64 digits, or a double-word.
 template <class Scalar, class M>
-struct Longer {
+struct HighPrecision {
   M value{};
 
-  constexpr Longer() = default;
-  constexpr Longer(double v) noexcept : value(v) {}
-  constexpr explicit Longer(float v) noexcept : value(double(v)) {}
-  constexpr explicit Longer(int v) noexcept : value(double(v)) {}
-  static constexpr Longer of(const M& v) {
-    Longer x;
+  constexpr HighPrecision() = default;
+  constexpr HighPrecision(double v) noexcept : value(v) {}
+  constexpr explicit HighPrecision(float v) noexcept : value(double(v)) {}
+  constexpr explicit HighPrecision(int v) noexcept : value(double(v)) {}
+  static constexpr HighPrecision of(const M& v) {
+    HighPrecision x;
     x.value = v;
     return x;
   }
 
-  friend Longer operator-(const Longer& a) { return of(-a.value); }
-  friend Longer operator+(const Longer& a, const Longer& b) { return of(a.value + b.value); }
-  friend Longer operator-(const Longer& a, const Longer& b) { return of(a.value - b.value); }
-  friend Longer operator*(const Longer& a, const Longer& b) { return of(a.value * b.value); }
-  friend Longer operator/(const Longer& a, const Longer& b) { return of(a.value / b.value); }
-  Longer& operator+=(const Longer& b) { return *this = *this + b; }
-  Longer& operator-=(const Longer& b) { return *this = *this - b; }
-  Longer& operator*=(const Longer& b) { return *this = *this * b; }
-  friend Longer sqrt(const Longer& a) {
+  friend HighPrecision operator-(const HighPrecision& a) { return of(-a.value); }
+  friend HighPrecision operator+(const HighPrecision& a, const HighPrecision& b) { return of(a.value + b.value); }
+  friend HighPrecision operator-(const HighPrecision& a, const HighPrecision& b) { return of(a.value - b.value); }
+  friend HighPrecision operator*(const HighPrecision& a, const HighPrecision& b) { return of(a.value * b.value); }
+  friend HighPrecision operator/(const HighPrecision& a, const HighPrecision& b) { return of(a.value / b.value); }
+  HighPrecision& operator+=(const HighPrecision& b) { return *this = *this + b; }
+  HighPrecision& operator-=(const HighPrecision& b) { return *this = *this - b; }
+  HighPrecision& operator*=(const HighPrecision& b) { return *this = *this * b; }
+  friend HighPrecision sqrt(const HighPrecision& a) {
     using detail::sqrt;
     return of(sqrt(a.value));
   }
-  friend Longer abs(const Longer& a) {
+  friend HighPrecision abs(const HighPrecision& a) {
     using detail::abs;
     return of(abs(a.value));
   }
-  friend bool operator<(const Longer& a, const Longer& b) { return a.value < b.value; }
-  friend bool operator>(const Longer& a, const Longer& b) { return a.value > b.value; }
-  friend bool operator<=(const Longer& a, const Longer& b) { return a.value <= b.value; }
-  friend bool operator>=(const Longer& a, const Longer& b) { return a.value >= b.value; }
-  friend bool operator==(const Longer& a, const Longer& b) { return a.value == b.value; }
-  friend Longer larger(const Longer& a, const Longer& b) { return a.value < b.value ? b : a; }
-  friend Longer smaller(const Longer& a, const Longer& b) { return b.value < a.value ? b : a; }
+  friend bool operator<(const HighPrecision& a, const HighPrecision& b) { return a.value < b.value; }
+  friend bool operator>(const HighPrecision& a, const HighPrecision& b) { return a.value > b.value; }
+  friend bool operator<=(const HighPrecision& a, const HighPrecision& b) { return a.value <= b.value; }
+  friend bool operator>=(const HighPrecision& a, const HighPrecision& b) { return a.value >= b.value; }
+  friend bool operator==(const HighPrecision& a, const HighPrecision& b) { return a.value == b.value; }
+  friend HighPrecision larger(const HighPrecision& a, const HighPrecision& b) { return a.value < b.value ? b : a; }
+  friend HighPrecision smaller(const HighPrecision& a, const HighPrecision& b) { return b.value < a.value ? b : a; }
 };
 
 inline constexpr bool has_long_double = std::numeric_limits<long double>::digits == 64;
@@ -174,7 +174,7 @@ struct AnswerOver<S<T>> {
 
 /// The argument in numbers of type N.
 template <class N, class Argument>
-auto raised(const Argument& argument) {
+auto widened(const Argument& argument) {
   Rebound<Argument, N> wide{};
   convert(argument, wide, [](const auto& from, N& to) { to = N(double(from)); });
   return wide;
@@ -196,60 +196,60 @@ void miss_beyond_range(A& answer) {
 /// The largest distance that one number of a member may have from the exact one: half a unit in the last
 /// place of the member's largest number, which leaves another half for rounding.
 template <class T>
-double allowed(double largest) {
+double allowed_error(double largest) {
   constexpr double least = std::numeric_limits<T>::min();
   return std::max(largest, least) * (double(std::numeric_limits<T>::epsilon()) / 4);
 }
 
-inline double leading(double value) { return value; }
-inline double leading(const DoubleWord<double>& value) { return value.high; }
+inline double leading_part(double value) { return value; }
+inline double leading_part(const DoubleWord<double>& value) { return value.high; }
 
 /// How well the numbers of a quantity or an answer are known: well enough as they are, if they are computed again in
 /// long doubles, in double-words, or not even then.
-enum class Known { not_yet, in_double_words, in_long_double, now };
+enum class Accuracy { insufficient, needs_double_words, needs_long_double, sufficient };
 
 /// Of one quantity (a time, a point, a vector) over Bounded or WideBounded, for T. Infinities and what is exactly a T
 /// are known.
 template <class T, class Quantity>
-Known known_quantity(const Quantity& quantity) {
+Accuracy accuracy_of_quantity(const Quantity& quantity) {
   double largest = 0, error = 0;
   for_each_leaf(quantity, [&](const auto& leaf, Role) {
     if constexpr (requires { leaf.error; }) {
-      largest = std::max(largest, detail::abs(leading(leaf.value)));
+      largest = std::max(largest, detail::abs(leading_part(leaf.value)));
       error = leaf.error <= error ? error : leaf.error;  // NaN stays
     }
   });
-  const double most = allowed<T>(largest), needed = error * (1 + 0x1p-20);
-  if (needed <= most) return Known::now;
+  const double most = allowed_error<T>(largest), needed = error * (1 + 0x1p-20);
+  if (needed <= most) return Accuracy::sufficient;
   bool all = true;
   for_each_leaf(quantity, [&](const auto& leaf, Role) {
     if constexpr (requires { leaf.error; }) {
-      const double value = leading(leaf.value);
+      const double value = leading_part(leaf.value);
       if (leaf.error != 0 || !(double(T(value)) == value || std::isinf(value))) all = false;
     }
   });
-  if (all) return Known::now;
-  if (has_long_double && needed * long_double_ratio <= most) return Known::in_long_double;
-  return needed * double_word_ratio <= most ? Known::in_double_words : Known::not_yet;
+  if (all) return Accuracy::sufficient;
+  if (has_long_double && needed * long_double_ratio <= most) return Accuracy::needs_long_double;
+  return needed * double_word_ratio <= most ? Accuracy::needs_double_words : Accuracy::insufficient;
 }
 
 /// Of a whole answer. A member without a role of its own consists of several quantities.
 template <class T, class A>
-Known known(const A& answer, Role role = Role::inherited) {
+Accuracy accuracy_of(const A& answer, Role role = Role::inherited) {
   if constexpr (Listed<A> || requires { answer.begin(); }) {
     if (role == Role::inherited) {
-      Known all = Known::now;
+      Accuracy all = Accuracy::sufficient;
       if constexpr (Listed<A>) {
         for_each_member(answer, [&](std::string_view, const auto& member, Role own) {
-          all = std::min(all, known<T>(member, own));
+          all = std::min(all, accuracy_of<T>(member, own));
         });
       } else {
-        for (const auto& item : answer) all = std::min(all, known<T>(item, role));
+        for (const auto& item : answer) all = std::min(all, accuracy_of<T>(item, role));
       }
       return all;
     }
   }
-  return known_quantity<T>(answer);
+  return accuracy_of_quantity<T>(answer);
 }
 
 }  // namespace detail
@@ -262,7 +262,7 @@ struct Certified : Plain {
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
   template <class T>
-  static constexpr bool keeps = false;
+  static constexpr bool computes_in = false;
 
   /// The same for every query and scalar, without a bound of magnitudes.
   template <class T>
@@ -278,7 +278,7 @@ struct Certified : Plain {
 
   /// An answer that is known by a query's own bound on its error in doubles.
   template <class A>
-  static A sure(const A& answer) {
+  static A decided_by_filter(const A& answer) {
     ++counts().filter;
     return answer;
   }
@@ -295,34 +295,34 @@ struct Certified : Plain {
     } else {
       exact<T>(answer, kernel, args...);
     }
-    deny_if_invalid(answer, args...);
+    reject_nonfinite(answer, args...);
     return answer;
   }
 
  private:
   template <class T, class F, class... Args>
-  COLLIDE_IN_ONE_PIECE static bool filtered(auto& answer, F& kernel, const Args&... args) {
+  COLLIDE_FLATTEN static bool filtered(auto& answer, F& kernel, const Args&... args) {
     using N = Bounded<T>;
     const detail::RangeFlags range(args...);
     Doubt::any = false;
-    auto wide = kernel(Plain{}, detail::raised<N>(args)...);
+    auto wide = kernel(Plain{}, detail::widened<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     const bool yes = wide.yes();
     if (range.raised_for(wide) || Doubt::any) return false;
-    const detail::Known known = detail::known<T>(wide);
-    if (known == detail::Known::now) {
+    const detail::Accuracy accuracy = detail::accuracy_of<T>(wide);
+    if (accuracy == detail::Accuracy::sufficient) {
       convert(wide, answer, [](const N& from, T& to) { to = T(from.value); });
-      keep_apart(yes, answer);
+      keep_sign_of_depth(yes, answer);
       return true;
     }
     if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
       if constexpr (detail::has_long_double) {
-        if (known == detail::Known::in_long_double) {
+        if (accuracy == detail::Accuracy::needs_long_double) {
           in_long_double<T>(yes, answer, kernel, args...);
           return true;
         }
       }
-      if (known == detail::Known::in_double_words) {
+      if (accuracy == detail::Accuracy::needs_double_words) {
         return in_double_words<T>(yes, answer, kernel, args...);
       }
     }
@@ -330,20 +330,20 @@ struct Certified : Plain {
   }
 
   template <class T, class F, class... Args>
-  COLLIDE_IN_ONE_PIECE static void in_long_double(bool yes, auto& answer, F& kernel, const Args&... args) {
-    longer<T, detail::Longer<T, long double>>(yes, answer, kernel, args...);
+  COLLIDE_FLATTEN static void in_long_double(bool yes, auto& answer, F& kernel, const Args&... args) {
+    in_high_precision<T, detail::HighPrecision<T, long double>>(yes, answer, kernel, args...);
   }
   template <class T, class F, class... Args>
   [[gnu::noinline]] static bool in_double_words(bool yes, auto& answer, F& kernel, const Args&... args) {
     const detail::RangeFlags range(args...);
-    longer<T, detail::Longer<T, DoubleWord<double>>>(yes, answer, kernel, args...);
+    in_high_precision<T, detail::HighPrecision<T, DoubleWord<double>>>(yes, answer, kernel, args...);
     return !range.raised_for(answer);
   }
   template <class T, class N, class F, class... Args>
-  static void longer(bool yes, auto& answer, F& kernel, const Args&... args) {
-    const auto wide = kernel(Plain{}, detail::raised<N>(args)...);
+  static void in_high_precision(bool yes, auto& answer, F& kernel, const Args&... args) {
+    const auto wide = kernel(Plain{}, detail::widened<N>(args)...);
     convert(wide, answer, [](const N& from, T& to) { to = detail::rounded(from.value); });
-    keep_apart(yes, answer);
+    keep_sign_of_depth(yes, answer);
   }
 
   template <class T, class F, class... Args>
@@ -351,12 +351,13 @@ struct Certified : Plain {
     using N = WideBounded<T>;
     const detail::RangeFlags range(args...);
     Doubt::any = false;
-    auto wide = kernel(Plain{}, detail::raised<N>(args)...);
+    auto wide = kernel(Plain{}, detail::widened<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     const bool yes = wide.yes();
-    if (range.raised_for(wide) || Doubt::any || detail::known<T>(wide) != detail::Known::now) return false;
+    if (range.raised_for(wide) || Doubt::any || detail::accuracy_of<T>(wide) != detail::Accuracy::sufficient)
+      return false;
     convert(wide, answer, [](const N& from, T& to) { to = T(from.value.high); });
-    keep_apart(yes, answer);
+    keep_sign_of_depth(yes, answer);
     return true;
   }
 
@@ -370,20 +371,20 @@ struct Certified : Plain {
     }
     ++counts().exact;
     const struct ClearAtEnd {
-      ~ClearAtEnd() { detail::Expressions::here().clear(); }
-    } after_the_numbers;
-    auto wide = kernel(Plain{}, detail::raised<N>(args)...);
+      ~ClearAtEnd() { detail::Expressions::of_this_thread().clear(); }
+    } clear_at_end;
+    auto wide = kernel(Plain{}, detail::widened<N>(args)...);
     detail::miss_beyond_range<N>(wide);
     convert(wide, answer, [](const N& from, T& to) { to = from.rounded(); });
-    keep_apart(wide.yes(), answer);
+    keep_sign_of_depth(wide.yes(), answer);
   }
 };
 
 }  // namespace collide
 
 template <class Scalar, class M>
-struct std::numeric_limits<collide::detail::Longer<Scalar, M>> : std::numeric_limits<double> {
-  using Number = collide::detail::Longer<Scalar, M>;
+struct std::numeric_limits<collide::detail::HighPrecision<Scalar, M>> : std::numeric_limits<double> {
+  using Number = collide::detail::HighPrecision<Scalar, M>;
   static constexpr Number infinity() { return std::numeric_limits<double>::infinity(); }
   static constexpr Number quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
   static constexpr Number max() { return double(std::numeric_limits<Scalar>::max()); }

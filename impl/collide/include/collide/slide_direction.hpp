@@ -30,8 +30,9 @@ namespace contracts {
 /// vectors 4 eps each, either cross product 3 eps: what they turn the direction is explained by moving the location and
 /// the velocity by as much. The length, with the length of u squared, is off by 20 eps. A turn by k eps changes it by k
 /// cosine eps, cosine that of d and u: 12 explain it where the cosine is above 1/2, with the 20 of the directions 32.
-/// Below, where no turn explains it as the cosine nears 0, of_length() leaves 2^-8 eps, the error of cosine^2, 20 eps
-/// of itself or 10 of the length times it, and a third of 20 cosine^2: a turn by 8 eps, beside the last rounding.
+/// Below, where no turn explains it as the cosine nears 0, with_corrected_length() leaves 2^-8 eps, the error of
+/// cosine^2, 20 eps of itself or 10 of the length times it, and a third of 20 cosine^2: a turn by 8 eps, beside the
+/// last rounding.
 template <class Tier = Fast, class T = double>
 constexpr Contract slide_direction() {
   return Tier::template contract<T>({.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});

@@ -47,25 +47,24 @@ constexpr auto not_finite_bit(T x) {
 /// Whether every number of the arguments is finite. An argument that is a bare number may be +infinity.
 template <class... Args>
 constexpr bool all_finite(const Args&... args) {
-  std::uint64_t found = 0;  // in the sign bit of double, and in that of float
-  const auto look = [&](const auto& argument) {
+  std::uint64_t bits = 0;  // in the sign bit of double, and in that of float
+  const auto check = [&](const auto& argument) {
     if constexpr (MachineNumber<std::remove_cvref_t<decltype(argument)>>) {
-      if (!(argument >= -std::numeric_limits<std::remove_cvref_t<decltype(argument)>>::max()))
-        found = ~std::uint64_t{0};
+      if (!(argument >= -std::numeric_limits<std::remove_cvref_t<decltype(argument)>>::max())) bits = ~std::uint64_t{0};
     } else {
       for_each_leaf(argument, [&](const auto& leaf, Role) {
-        if constexpr (MachineNumber<std::remove_cvref_t<decltype(leaf)>>) found |= not_finite_bit(leaf);
+        if constexpr (MachineNumber<std::remove_cvref_t<decltype(leaf)>>) bits |= not_finite_bit(leaf);
       });
     }
   };
-  (look(args), ...);
+  (check(args), ...);
   constexpr bool only_floats = (std::same_as<Rebound<Args, float>, Args> && ...);
-  return (found & (only_floats ? std::uint64_t{1} << 31 : std::uint64_t{1} << 63)) == 0;
+  return (bits & (only_floats ? std::uint64_t{1} << 31 : std::uint64_t{1} << 63)) == 0;
 }
 
 /// The answer to invalid input: no, a miss, or a depth that is NaN.
 template <class A>
-constexpr A nothing() {
+constexpr A answer_to_nonfinite() {
   if constexpr (requires(A a) { a.depth; }) {
     A answer{};
     answer.depth = std::numeric_limits<decltype(answer.depth)>::quiet_NaN();
@@ -77,9 +76,9 @@ constexpr A nothing() {
 
 /// Turns a hit into a miss when any argument is not finite.
 template <class A, class... Args>
-constexpr void deny_if_invalid(A& answer, const Args&... args) {
+constexpr void reject_nonfinite(A& answer, const Args&... args) {
   if constexpr (!requires { A::yes(); }) {
-    if (answer.yes() && !all_finite(args...)) answer = nothing<A>();
+    if (answer.yes() && !all_finite(args...)) answer = answer_to_nonfinite<A>();
   }
 }
 
@@ -93,13 +92,13 @@ struct Fast : Plain {
 
   /// Whether the tier computes in T itself, so that prepared inputs in T can help it.
   template <class T>
-  static constexpr bool keeps = true;
+  static constexpr bool computes_in = true;
 
   /// Calls `kernel(arithmetic, arguments...)`.
   template <class F, class... Args>
   static constexpr auto lift(F&& kernel, const Args&... args) {
     auto answer = kernel(Plain{}, args...);
-    deny_if_invalid(answer, args...);
+    reject_nonfinite(answer, args...);
     return answer;
   }
   /// The contract of a query in T whose contract in the fast tier is `fast`.
@@ -115,12 +114,12 @@ inline constexpr bool in_lanes = std::same_as<Tier, Fast> && MachineNumber<T>;
 
 /// Whether a tier tries a query's filter, where the query has one, before it calls the kernel with error bounds.
 template <class Tier, class T>
-inline constexpr bool looks_first = MachineNumber<T> && requires { Tier::sure(true); };
+inline constexpr bool uses_filter = MachineNumber<T> && requires { Tier::decided_by_filter(true); };
 
 /// After rounding: replaces a depth that became zero by the negative number next to zero where the answer is no, since
 /// the sign of the depth is the decision.
 template <class A>
-constexpr void keep_apart(bool yes, A& answer) {
+constexpr void keep_sign_of_depth(bool yes, A& answer) {
   if constexpr (requires { answer.depth; }) {
     if (!yes && answer.yes()) answer.depth = -std::numeric_limits<decltype(answer.depth)>::denorm_min();
   }
@@ -132,7 +131,7 @@ struct Accurate : Compensated {
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
   template <class T>
-  static constexpr bool keeps = std::same_as<T, double>;
+  static constexpr bool computes_in = std::same_as<T, double>;
 
   template <class F, class... Args>
   static constexpr auto lift(F&& kernel, const Args&... args) {
@@ -144,10 +143,10 @@ struct Accurate : Compensated {
         return wide;
       };
       auto wide = kernel(Plain{}, widened(args)...);
-      deny_if_invalid(wide, args...);
+      reject_nonfinite(wide, args...);
       A answer{};
       convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
-      keep_apart(wide.yes(), answer);
+      keep_sign_of_depth(wide.yes(), answer);
       if constexpr (requires {
                       answer.time;
                       A::miss();
@@ -157,7 +156,7 @@ struct Accurate : Compensated {
       return answer;
     } else {
       auto answer = kernel(Compensated{}, args...);
-      deny_if_invalid(answer, args...);
+      reject_nonfinite(answer, args...);
       return answer;
     }
   }

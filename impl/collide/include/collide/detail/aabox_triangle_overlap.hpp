@@ -23,7 +23,7 @@ namespace detail {
 /// center a corner is known to 3 u G, half extents to u G, an edge to 2 u G. Along a cross product, a corner is then
 /// known to 36 u G^2 and the box's reach to 16 u G^2, their difference to 64 u G^2; along the normal, to 700 u G^3.
 template <class T>
-std::optional<bool> surely_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
+std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
   using L = Lanes<double>;
   const L low = wide_lanes(box.min), high = wide_lanes(box.max), zero = L::splat(0.0), half_of = L::splat(0.5);
   const L v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1), v2 = wide_lanes(triangle.v2);
@@ -60,10 +60,10 @@ namespace kernels {
 template <class Tier, class T>
 Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
 #if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T> || looks_first<Tier, T>) {
-    if (const auto sure = detail::surely_overlap(box, triangle)) {
-      if constexpr (looks_first<Tier, T>) return Tier::sure(Decision<T>{*sure});
-      return {*sure};
+  if constexpr (in_lanes<Tier, T> || uses_filter<Tier, T>) {
+    if (const auto decided = detail::filtered_overlap(box, triangle)) {
+      if constexpr (uses_filter<Tier, T>) return Tier::decided_by_filter(Decision<T>{*decided});
+      return {*decided};
     }
   }
 #endif
@@ -98,7 +98,7 @@ Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& trian
         const T b1 = edge[a] * to_low[b], b2 = edge[a] * to_high[b];
         const T a1 = edge[b] * to_low[a], a2 = edge[b] * to_high[a];
         const T of_apex = Tier::difference_of_products(edge[a], to_apex[b], edge[b], to_apex[a]);
-        if (!(smaller(b1, b2) - larger(a1, a2) <= not_negative(of_apex))) return {false};
+        if (!(smaller(b1, b2) - larger(a1, a2) <= positive_part(of_apex))) return {false};
         if (!(larger(b1, b2) - smaller(a1, a2) >= smaller(of_apex, T(0)))) return {false};
       }
     }

@@ -31,7 +31,7 @@ struct Plain : WithCross<Plain> {
   template <class T>
   static constexpr bool lifts = false;
   template <class T>
-  static constexpr bool keeps = true;
+  static constexpr bool computes_in = true;
 
   template <class T>
   static constexpr T dot(const Vec3<T>& a, const Vec3<T>& b) {
@@ -56,7 +56,7 @@ struct Compensated : WithCross<Compensated> {
   template <class T>
   static constexpr bool lifts = false;
   template <class T>
-  static constexpr bool keeps = true;
+  static constexpr bool computes_in = true;
 
   template <class T>
   static constexpr T difference_of_products(const T& a, const T& b, const T& c, const T& d) {
@@ -119,7 +119,7 @@ namespace detail {
 /// digits hold their sums: nothing is rounded. What is left of |a|^2 is the sum of l (h + a), each known to 2 u of
 /// 2^-g.
 template <MachineNumber T>
-T short_of_unit(const Vec3<T>& a) {
+T one_minus_length2(const Vec3<T>& a) {
   constexpr int digits = std::numeric_limits<T>::digits, g = (digits - 2) / 2;
   constexpr T round_to = T(3) * T(std::uint64_t{1} << (digits - 2 - g));  // its neighbours are 2^-g apart
   const auto rounded = [](T x) { return (x + round_to) - round_to; };
@@ -135,9 +135,9 @@ T short_of_unit(const Vec3<T>& a) {
 /// the operands are. So this leaves of it 2^-8 eps, and 1/3 of it times `missing`, which belongs to a length that
 /// depends on an angle, beside the last rounding of each number.
 template <class T>
-Vec3<T> of_length(const Vec3<T>& a, const T& missing = T(0)) {
+Vec3<T> with_corrected_length(const Vec3<T>& a, const T& missing = T(0)) {
   if constexpr (MachineNumber<T>) {
-    return a + a * ((detail::short_of_unit(a) - missing) / T(2));
+    return a + a * ((detail::one_minus_length2(a) - missing) / T(2));
   } else {
     return a;
   }

@@ -23,7 +23,7 @@ Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, 
     const bool apart = !(to_center == Vec3<T>{});
     const Vec3<T> u = unit<Tier>(apart ? to_center : normal);
     const Vec3<T> d = unit<Tier>(velocity);
-    return {of_length<T>(d - u * (T(2) * Tier::dot(d, u)))};
+    return {with_corrected_length<T>(d - u * (T(2) * Tier::dot(d, u)))};
   }
 }
 

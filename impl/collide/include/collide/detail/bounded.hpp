@@ -92,22 +92,22 @@ struct Bounded {
   friend Bounded abs(const Bounded& a) { return {detail::abs(a.value), a.error}; }
 
   /// The sum of two errors within which a comparison is open; NaN where one is.
-  static double open(const Bounded& a, const Bounded& b) { return (a.error + b.error) * slack; }
+  static double combined_error(const Bounded& a, const Bounded& b) { return (a.error + b.error) * slack; }
 
   friend bool operator<(const Bounded& a, const Bounded& b) {
-    const double within = open(a, b);
+    const double within = combined_error(a, b);
     if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
     return a.value < b.value;
   }
   friend bool operator>(const Bounded& a, const Bounded& b) { return b < a; }
   friend bool operator<=(const Bounded& a, const Bounded& b) {
-    const double within = open(a, b);
+    const double within = combined_error(a, b);
     if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
     return a.value <= b.value;
   }
   friend bool operator>=(const Bounded& a, const Bounded& b) { return b <= a; }
   friend bool operator==(const Bounded& a, const Bounded& b) {
-    const double within = open(a, b);
+    const double within = combined_error(a, b);
     if (!(magnitude(b.value - a.value) > within) && within != 0) Doubt::any = true;
     return a.value == b.value;
   }
@@ -116,7 +116,7 @@ struct Bounded {
   friend Bounded larger(const Bounded& a, const Bounded& b) {
     const double of_larger = if_less(a.value, b.value, b.error, a.error);
     return {collide::larger(a.value, b.value),
-            if_less(open(a, b), magnitude(b.value - a.value), of_larger, collide::larger(a.error, b.error))};
+            if_less(combined_error(a, b), magnitude(b.value - a.value), of_larger, collide::larger(a.error, b.error))};
   }
   friend Bounded smaller(const Bounded& a, const Bounded& b) { return -larger(-a, -b); }
 };

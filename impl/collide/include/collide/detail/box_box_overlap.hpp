@@ -22,14 +22,14 @@ namespace detail {
 /// A number of `turn` is known to 3 u sqrt(N), a cosine to 16 u N, a number of a cross product to 46 u N, `between` to
 /// 8 u |q1|^2 L. So the gap of an axis of box 1 is known to 24 u N L, of another to less than 96 u N |q1|^2 L.
 template <class T>
-std::optional<BoxOverlap<T>> sure_overlap(const Box<T>& box1, const Box<T>& box2) {
+std::optional<BoxOverlap<T>> filtered_overlap(const Box<T>& box1, const Box<T>& box2) {
   using L = Lanes<double>;
   const L way = wide_lanes(box2.center) - wide_lanes(box1.center);
   const auto wide = [](const Quaternion<T>& q) { return Quaternion<double>{q.x, q.y, q.z, q.w}; };
   const BoxPairInLanes<double> pair(wide(box1.orientation), wide(box2.orientation), way, wide_lanes(box1.half),
                                     wide_lanes(box2.half));
   const double lengths = sum_of_three(absolute(way) + absolute(pair.half1) + absolute(pair.half2)).first();
-  if (!(pair.is_usual() && lengths >= 0x1p-400 && lengths <= 0x1p400)) return std::nullopt;
+  if (!(pair.is_valid() && lengths >= 0x1p-400 && lengths <= 0x1p400)) return std::nullopt;
   const L bound = L::splat(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1,
           zero = L::splat(0.0);
   unsigned apart = 0, overlap = 0;
@@ -58,13 +58,13 @@ BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint) 
     const bool good = pair.for_each_axis([&](int n, const auto& s) {
       overlaps |= unsigned((s.gap <= detail::Lanes<T>::splat(T(0))).bits() & 7) << 3 * n;
     });
-    if (pair.is_usual() && good) {
+    if (pair.is_valid() && good) {
       const int axis = detail::axis_of_bit(detail::first_bit(~overlaps));
       return {axis < 0, axis};
     }
   }
-  if constexpr (looks_first<Tier, T>) {
-    if (const auto sure = detail::sure_overlap(box1, box2)) return Tier::sure(*sure);
+  if constexpr (uses_filter<Tier, T>) {
+    if (const auto decided = detail::filtered_overlap(box1, box2)) return Tier::decided_by_filter(*decided);
   }
 #endif
   if constexpr (Tier::template lifts<T>) {

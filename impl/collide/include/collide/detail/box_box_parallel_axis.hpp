@@ -21,7 +21,7 @@ ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T 
   } else {
     if (epsilon < T(0)) return {};  // no two axes are that near
     const std::array<T, 4> r =
-        detail::seen_from(detail::moderate(box1.orientation), detail::moderate(box2.orientation));
+        detail::relative_rotation(detail::rescaled(box1.orientation), detail::rescaled(box2.orientation));
     const T most = epsilon * detail::norm2(r);
     if constexpr (MachineNumber<T>) {
       if (!(detail::norm2(r) > T(0))) return {};  // no rotation, or NaN

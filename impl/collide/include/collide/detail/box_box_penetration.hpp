@@ -119,8 +119,9 @@ BoxPenetration<T> contact_of_boxes(const Box<T>& box1, const Box<T>& box2, const
   }
   const int i = (axis - 6) / 3, j = (axis - 6) % 3;
   const CrossAxis<T> cross = pair.cross_axis(i, j);
-  const T by = length(std::array<T, 3>{cross.in1[0], cross.in1[1], T(0)});
-  const CrossAxis<T> unit{{cross.in1[0] / by, cross.in1[1] / by}, {cross.in2[0] / by, cross.in2[1] / by}};
+  const T cross_length = length(std::array<T, 3>{cross.in1[0], cross.in1[1], T(0)});
+  const CrossAxis<T> unit{{cross.in1[0] / cross_length, cross.in1[1] / cross_length},
+                          {cross.in2[0] / cross_length, cross.in2[1] / cross_length}};
   const Vec3<T> normal = axes1[(i + 1) % 3] * unit.in1[0] + axes1[(i + 2) % 3] * unit.in1[1];
   return {least.depth, axis, normal * least.side, to_world(contact_of_edges<Tier>(pair, i, j, unit, least.side))};
 }
@@ -136,7 +137,7 @@ BoxPenetration<T> contact_of_face(const Box<T>& box1, const Box<T>& box2, const 
   const FrameInLanes<T> frame1(lanes(box1.orientation));
   const L side = L::splat(at.side), half_depth = side * L::splat(at.depth / T(2));
   const L sign_bit = L::splat(T(-0.0)), index = L::of(T(0), T(1), T(2), T(3));
-  const std::array<L, 3> axes2 = FrameInLanes<T>::scaled(pair.turn).axes();  // in the frame of box 1, times scale
+  const std::array<L, 3> axes2 = FrameInLanes<T>::scaled(pair.relative).axes();  // in the frame of box 1, times scale
   L along, vertex;
   if (at.axis < 3) {
     along = frame1.axes()[std::size_t(at.axis)];
@@ -153,7 +154,7 @@ BoxPenetration<T> contact_of_face(const Box<T>& box1, const Box<T>& box2, const 
     const L b = axes2[std::size_t(at.axis - 3)] * per_scale;
     vertex = (pair.half1 ^ (b * side & sign_bit)) - b * half_depth;
   }
-  return {at.depth, at.axis, first_three(along * side), first_three(lanes(box1.center) + frame1.out_of(vertex))};
+  return {at.depth, at.axis, to_vec3(along * side), to_vec3(lanes(box1.center) + frame1.out_of(vertex))};
 }
 
 #endif
@@ -175,8 +176,8 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
       all[std::size_t(n)] = s;
       overlaps |= unsigned((s.gap <= zero).bits() & 7) << 3 * n;
     });
-    if (pair.is_usual() && good) {
-      const auto number = [](const L& lanes, int bit) { return detail::four(lanes)[std::size_t(bit % 3)]; };
+    if (pair.is_valid() && good) {
+      const auto number = [](const L& lanes, int bit) { return detail::to_array(lanes)[std::size_t(bit % 3)]; };
       const auto distance = [&](int bit) {
         const auto& s = all[std::size_t(bit / 3)];
         return number(s.gap, bit) / (pair.norm1.first() * detail::sqrt(number(s.length2, bit)));
@@ -190,7 +191,7 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
       };
       const auto face_square = [&](int n) {  // all three of one length
         const auto& s = all[std::size_t(n)];
-        return s.gap * s.gap * every(detail::Pair<T>::splat(T(1)) / first_pair(s.length2));
+        return s.gap * s.gap * broadcast_first(detail::Pair<T>::splat(T(1)) / first_pair(s.length2));
       };
       const L face1 = face_square(0), face2 = face_square(1), family0 = square(2), family1 = square(3),
               family2 = square(4);
@@ -235,10 +236,10 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
     detail::BoxContact<T> least{-1, T(0), T(1)};
     for (int axis = 0; axis < box_box_axes; ++axis) {
       const detail::Separation<T> s = detail::separation(pair, axis);
-      const T by = length_of(axis);
-      if (!(s.gap <= T(0))) return detail::apart(s.gap / by, axis);
-      if (by == T(0)) continue;
-      const T depth = -s.gap / by;
+      const T axis_length = length_of(axis);
+      if (!(s.gap <= T(0))) return detail::apart(s.gap / axis_length, axis);
+      if (axis_length == T(0)) continue;
+      const T depth = -s.gap / axis_length;
       if (least.axis < 0 || depth < least.depth) least = {axis, depth, detail::sign_of(s.toward)};
     }
     return detail::contact_of_boxes<Tier>(box1, box2, pair, least);

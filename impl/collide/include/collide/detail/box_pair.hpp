@@ -20,7 +20,7 @@ namespace detail {
 
 /// conj(a) b: the rotation b seen from the rotation a.
 template <class T>
-std::array<T, 4> seen_from(const std::array<T, 4>& a, const std::array<T, 4>& b) {
+std::array<T, 4> relative_rotation(const std::array<T, 4>& a, const std::array<T, 4>& b) {
   return {(a[3] * b[0] - a[0] * b[3]) - (a[1] * b[2] - a[2] * b[1]),
           (a[3] * b[1] - a[1] * b[3]) - (a[2] * b[0] - a[0] * b[2]),
           (a[3] * b[2] - a[2] * b[3]) - (a[0] * b[1] - a[1] * b[0]),
@@ -44,7 +44,7 @@ T norm2(const std::array<T, 4>& q) {
 
 /// Multiplies two numbers by the same power of two where both are so small that products of them underflow.
 template <class T>
-void raise(T& a, T& b) {
+void scale_up(T& a, T& b) {
   if constexpr (MachineNumber<T>) {
     using detail::abs;
     const T largest = larger(abs(a), abs(b));
@@ -72,16 +72,16 @@ struct BoxPairInLanes;
 /// |q1|^2 |q2|^2 (by |q1|^2 for the centers): each is a polynomial of the input, and nothing is divided.
 template <class T>
 struct BoxPair {
-  std::array<T, 4> turn;                   ///< the rotation of box 2 seen from box 1
+  std::array<T, 4> relative;               ///< the rotation of box 2 seen from box 1
   std::array<std::array<T, 3>, 3> cosine;  ///< axis i of box 1 . axis j of box 2, times |q1|^2 |q2|^2
   std::array<T, 3> between;                ///< center 2 - center 1 along the axes of box 1, times |q1|^2
   std::array<T, 3> half1, half2;
   T norm1, norm2;  ///< |q1|^2, |q2|^2
 
   BoxPair(const Box<T>& box1, const Box<T>& box2) : half1(components(box1.half)), half2(components(box2.half)) {
-    const std::array<T, 4> a = moderate(box1.orientation), b = moderate(box2.orientation);
-    turn = seen_from(a, b);
-    const auto axes1 = scaled_axes(a), columns = scaled_axes(turn);
+    const std::array<T, 4> a = rescaled(box1.orientation), b = rescaled(box2.orientation);
+    relative = relative_rotation(a, b);
+    const auto axes1 = scaled_axes(a), columns = scaled_axes(relative);
     const Vec3<T> d = box2.center - box1.center;
     for (int i = 0; i < 3; ++i) {
       between[i] = axes1[i][0] * d.x + axes1[i][1] * d.y + axes1[i][2] * d.z;
@@ -93,15 +93,15 @@ struct BoxPair {
 
 #if defined(COLLIDE_LANES)
   explicit BoxPair(const BoxPairInLanes<T>& pair)
-      : turn(four(pair.turn)),
-        between(components(first_three(pair.between))),
-        half1(components(first_three(pair.half1))),
-        half2(components(first_three(pair.half2))),
+      : relative(to_array(pair.relative)),
+        between(components(to_vec3(pair.between))),
+        half1(components(to_vec3(pair.half1))),
+        half2(components(to_vec3(pair.half2))),
         norm1(pair.norm1.first()),
         norm2(pair.norm2.first()) {
-    const auto axes2 = FrameInLanes<T>::scaled(pair.turn).axes();
+    const auto axes2 = FrameInLanes<T>::scaled(pair.relative).axes();
     for (std::size_t j = 0; j < 3; ++j) {
-      const std::array<T, 4> axis = four(axes2[j]);
+      const std::array<T, 4> axis = to_array(axes2[j]);
       for (std::size_t i = 0; i < 3; ++i) cosine[i][j] = axis[i];
     }
   }
@@ -109,19 +109,19 @@ struct BoxPair {
 
   /// Of nearly parallel axes the cross product is small: each of its numbers is a sum of products p s of
   /// a small p, whose squares add up to 1 - |cosine|, and a large s, so that none is the difference of
-  /// large ones and all are as exact, relative to the whole, as `turn` is.
+  /// large ones and all are as exact, relative to the whole, as `relative` is.
   CrossAxis<T> cross_axis(int i, int j, bool as_direction = true) const {
-    T w = turn[3];
+    T w = relative[3];
     if (i == j) {
-      T v = turn[i], v1 = turn[(i + 1) % 3], v2 = turn[(i + 2) % 3];
-      if (as_direction) raise(v1, v2), raise(v, w);
+      T v = relative[i], v1 = relative[(i + 1) % 3], v2 = relative[(i + 2) % 3];
+      if (as_direction) scale_up(v1, v2), scale_up(v, w);
       const T two(2);
       return {{two * (w * v1 - v * v2), two * (v * v1 + w * v2)}, {two * (v * v2 + w * v1), two * (w * v2 - v * v1)}};
     }
     const bool next = j == (i + 1) % 3;
-    const T third = next ? turn[3 - i - j] : -turn[3 - i - j];
-    T p = turn[i] - turn[j], s = turn[i] + turn[j], q = w + third, t = w - third;
-    if (as_direction) raise(p, q), raise(s, t);
+    const T third = next ? relative[3 - i - j] : -relative[3 - i - j];
+    T p = relative[i] - relative[j], s = relative[i] + relative[j], q = w + third, t = w - third;
+    if (as_direction) scale_up(p, q), scale_up(s, t);
     const T jj = q * t - p * s, kj = s * q + p * t;  // cosines [j][j] and +-[k][j], k the third axis
     const T ii = q * t + p * s, ik = s * q - p * t;  // cosines [i][i] and +-[i][k]
     if (next) return {{-kj, jj}, {ii, -ik}};
@@ -196,8 +196,8 @@ inline int first_bit(unsigned bits) { return std::countr_zero(bits | 1u << box_b
 template <class T>
 struct BoxPairInLanes {
   using L = Lanes<T>;
-  L turn, between, half1, half2, norm1, norm2;
-  bool are_rotations = true;  ///< whether the quaternions are some
+  L relative, between, half1, half2, norm1, norm2;
+  bool valid_rotations = true;  ///< whether the quaternions are some
 
   BoxPairInLanes(const Box<T>& box1, const Box<T>& box2)
       : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
@@ -208,34 +208,34 @@ struct BoxPairInLanes {
     L a = lanes(q1), b = lanes(q2);
     norm1 = sum_of_four(a * a);
     norm2 = sum_of_four(b * b);
-    const auto are_moderate = [&] { return is_moderate(norm1.first()) && is_moderate(norm2.first()); };
-    if (!are_moderate()) {
-      a = out_of_line(of_moderate_length<T>)(q1), b = out_of_line(of_moderate_length<T>)(q2);
+    const auto are_in_safe_range = [&] { return is_in_safe_range(norm1.first()) && is_in_safe_range(norm2.first()); };
+    if (!are_in_safe_range()) {
+      a = out_of_line(rescaled_lanes<T>)(q1), b = out_of_line(rescaled_lanes<T>)(q2);
       norm1 = sum_of_four(a * a);
       norm2 = sum_of_four(b * b);
-      are_rotations = are_moderate();
+      valid_rotations = are_in_safe_range();
     }
     const L aw = a.template broadcast<3>(), bw = b.template broadcast<3>();
     const L vector = (aw * b - a * bw) - (yzx(a) * zxy(b) - zxy(a) * yzx(b));
-    turn = select(L::first_three(), vector, sum_of_four(a * b));
+    relative = select(L::mask_of_three(), vector, sum_of_four(a * b));
     between = FrameInLanes<T>::scaled(a).into(way);
   }
 
   /// Whether the quaternions are some, and the half extents and the way between the boxes finite.
-  bool is_usual() const { return are_rotations && all_three(are_finite(half1, half2, between)); }
+  bool is_valid() const { return valid_rotations && all_three(are_finite(half1, half2, between)); }
 
   /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether
   /// all of them are good: a cross product so small that products underflow is not.
   template <class Each>
   bool for_each_axis(Each each) const {
-    const auto frame = FrameInLanes<T>::scaled(turn), sizes = frame.magnitudes();
+    const auto frame = FrameInLanes<T>::scaled(relative), sizes = frame.magnitudes();
     const L scale = norm1 * norm2;
     const L toward1 = between * norm2, toward2 = frame.into(between);
     each(0, SeparationsInLanes<T>{absolute(toward1) - (half1 * scale + sizes.out_of(half2)), toward1, norm2 * norm2});
     each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2,
                                   scale * scale});
 
-    const L v = turn, v1 = yzx(turn), v2 = zxy(turn), w = turn.template broadcast<3>();
+    const L v = relative, v1 = yzx(relative), v2 = zxy(relative), w = relative.template broadcast<3>();
     const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
     // Far above what underflows, and the same whatever the quaternions' lengths.
     const L least =

@@ -32,17 +32,18 @@ CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane
       const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0 to 3 and 4 to 7, but for z
       const L height_low = around - reach_z, height_high = around + reach_z;
       const L lowest = smaller(height_low, height_high),
-              by_two = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
-      const L depth = (zero - smaller(by_two, by_two.template shuffled<1, 0, 3, 2>())) / norm, overlap = zero <= depth;
+              pairwise = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
+      const L depth = (zero - smaller(pairwise, pairwise.template shuffled<1, 0, 3, 2>())) / norm,
+              overlap = zero <= depth;
       CornerContacts<T> contacts;
       contacts.depth = depth.first();
-      contacts.normal = first_three((n / norm) & overlap);
+      contacts.normal = to_vec3((n / norm) & overlap);
       const auto& [x, y, z] = frame.axes();
       const L side_x = x * half.template broadcast<0>(), side_y = y * half.template broadcast<1>();
       const L side_z = z * half.template broadcast<2>();
       const L behind_low = (height_low <= zero) & overlap, behind_high = (height_high <= zero) & overlap;
       const auto corner = [&](int i, const L& place, const L& behind) {
-        contacts.corners[i] = {(behind.bits() & 1) != 0, first_three(place & behind)};
+        contacts.corners[i] = {(behind.bits() & 1) != 0, to_vec3(place & behind)};
       };
       const L left = middle - side_x, right = middle + side_x;
       const auto around_z = [&](int i, const L& place, const L& low, const L& high) {

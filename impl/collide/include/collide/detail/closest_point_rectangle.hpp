@@ -29,7 +29,7 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
     if (face1.inside && face2.inside) {
       // Both feet are equally far along the diagonal, and their distances from it may differ by less than squares tell.
       const Vec3<T> out1 = face1.height * face1.apex_weight, out2 = face2.height * face2.apex_weight;
-      const bool first = detail::further_by<Tier>(out1, out2, w - diagonal * face1.base_share) >= T(0);
+      const bool first = detail::distance2_excess<Tier>(out1, out2, w - diagonal * face1.base_share) >= T(0);
       return {v0 + (first ? face1 : face2).from_start(diagonal)};
     }
 
@@ -42,18 +42,18 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
     const Vec3<T> w2 = point - v2;
     if (face1.inside) {
       const detail::EdgeFoot<T> foot2 = foot_on(2), foot3 = foot_on(3);
-      const bool at_v2 = detail::next_further_by<Tier>(foot2, foot3, point - v3) >= T(0);
-      const T by = at_v2 ? detail::further_by<Tier>(face1.from_end(diagonal), foot2.from_start, w2)
-                         : detail::further_by<Tier>(face1.from_start(diagonal), foot3.from_end, w);
-      if (by < T(0)) return at_v2 ? on(2, foot2) : on(3, foot3);
+      const bool at_v2 = detail::next_distance2_excess<Tier>(foot2, foot3, point - v3) >= T(0);
+      const T difference = at_v2 ? detail::distance2_excess<Tier>(face1.from_end(diagonal), foot2.from_start, w2)
+                                 : detail::distance2_excess<Tier>(face1.from_start(diagonal), foot3.from_end, w);
+      if (difference < T(0)) return at_v2 ? on(2, foot2) : on(3, foot3);
       return {v0 + face1.from_start(diagonal)};
     }
     if (face2.inside) {
       const detail::EdgeFoot<T> foot0 = foot_on(0), foot1 = foot_on(1);
-      const bool at_v0 = detail::next_further_by<Tier>(foot0, foot1, point - v1) >= T(0);
-      const T by = at_v0 ? detail::further_by<Tier>(face2.from_start(diagonal), foot0.from_start, w)
-                         : detail::further_by<Tier>(face2.from_end(diagonal), foot1.from_end, w2);
-      if (by < T(0)) return at_v0 ? on(0, foot0) : on(1, foot1);
+      const bool at_v0 = detail::next_distance2_excess<Tier>(foot0, foot1, point - v1) >= T(0);
+      const T difference = at_v0 ? detail::distance2_excess<Tier>(face2.from_start(diagonal), foot0.from_start, w)
+                                 : detail::distance2_excess<Tier>(face2.from_end(diagonal), foot1.from_end, w2);
+      if (difference < T(0)) return at_v0 ? on(0, foot0) : on(1, foot1);
       return {v0 + face2.from_start(diagonal)};
     }
 
@@ -63,8 +63,9 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
     const detail::EdgeFoot<T> ridge = detail::foot_on_edge<Tier>(v0, v2, point);
     const Vec3<T>& from_shared = edge == 0 || edge == 2 ? foot[edge].from_start : foot[edge].from_end;
     const bool at_v0 = edge == 0 || edge == 3;
-    const T by = detail::further_by<Tier>(from_shared, at_v0 ? ridge.from_start : ridge.from_end, at_v0 ? w : w2);
-    return by < T(0) ? ClosestPoint<T>{ridge.on(v0, v2)} : on(edge, foot[edge]);
+    const T difference =
+        detail::distance2_excess<Tier>(from_shared, at_v0 ? ridge.from_start : ridge.from_end, at_v0 ? w : w2);
+    return difference < T(0) ? ClosestPoint<T>{ridge.on(v0, v2)} : on(edge, foot[edge]);
   }
 }
 

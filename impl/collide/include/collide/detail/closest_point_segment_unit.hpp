@@ -15,7 +15,7 @@ namespace kernels {
 
 template <class Tier, class T>
 ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point) {
-  if constexpr (!Tier::template keeps<T>) {
+  if constexpr (!Tier::template computes_in<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto& s, const auto& p) {
           return kernels::closest_point_segment_unit<decltype(arithmetic)>(prepare_segment<decltype(arithmetic)>(s), p);

@@ -15,19 +15,19 @@ namespace collide {
 namespace detail {
 
 /// What `Fast` answers, edge i in lane i; where an argument is not finite, what `shared` does.
-template <class T, class Shared>
+template <class T, class Fallback>
 inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<T>& triangle, const Vec3<T>& point,
-                                                                 const Shared& shared) {
+                                                                 const Fallback& fallback) {
   using L = Lanes<T>;
   const auto [v0, v1, v2] = corner_lanes(triangle);
   const L p = lanes(point), all = v0 + v1 + v2 + p, zero = L::splat(T(0)), one = L::splat(T(1));
-  if (!all_three(are_finite(all))) return shared(triangle, point);
+  if (!all_three(are_finite(all))) return fallback(triangle, point);
   const Columns<T> start = columns(v0, v1, v2, p), end = yzx(start);
   const Columns<T> along = end - start, way = start.template broadcast<3>() - start;
   const L length2 = dot(along, along);
   const L share = smaller(larger(dot(way, along) / length2, zero), one) & (zero < length2);
   const Columns<T> from_start = along * share, from_end = along * (share - (one & (zero < length2)));
-  // How much further the foot on the next edge is, seen from the vertex between them: see next_further_by.
+  // How much further the foot on the next edge is, seen from the vertex between them: see next_distance2_excess.
   const Columns<T> next = yzx(from_start), to_point = yzx(way);
   const L further = dot(next - from_end, (from_end - to_point) + (next - to_point));
   // Whether the second is no nearer than the first, the third than the second, and the first no nearer than the third:
@@ -35,7 +35,7 @@ inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<
   constexpr signed char nearest[] = {2, 2, 1, 2, 2, 0, 1, 0};
   const int edge = nearest[((zero <= further).bits() & 3) | ((further <= zero).bits() & 4)];
   const Columns<T> foot = select(share == one, end, start + from_start);
-  const auto number = [edge](const L& lanes) { return four(lanes)[std::size_t(edge)]; };
+  const auto number = [edge](const L& lanes) { return to_array(lanes)[std::size_t(edge)]; };
   return {{number(foot.x), number(foot.y), number(foot.z)}};
 }
 
@@ -48,7 +48,7 @@ namespace kernels {
 template <class Tier, class T>
 ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
+    const auto fallback = [](const auto&... inputs) {
       return Tier::lift(
           [](auto arithmetic, const auto&... a) {
             return kernels::closest_point_triangle_perimeter<decltype(arithmetic)>(a...);
@@ -57,10 +57,10 @@ ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, co
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::closest_point_triangle_perimeter_in_lanes(triangle, point, detail::out_of_line(shared));
+      return detail::closest_point_triangle_perimeter_in_lanes(triangle, point, detail::out_of_line(fallback));
     }
 #endif
-    return shared(triangle, point);
+    return fallback(triangle, point);
   } else {
     if constexpr (MachineNumber<T>) {
       if (const Vec3<T> all = triangle.v0 + triangle.v1 + triangle.v2 + point; !detail::is_finite(all)) return {all};

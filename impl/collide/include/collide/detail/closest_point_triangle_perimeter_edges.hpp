@@ -16,7 +16,7 @@ namespace kernels {
 
 template <class Tier, class T>
 EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point) {
-  if constexpr (!Tier::template keeps<T>) {
+  if constexpr (!Tier::template computes_in<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto& t, const auto& p) {
           return kernels::closest_point_triangle_perimeter_edges<decltype(arithmetic)>(

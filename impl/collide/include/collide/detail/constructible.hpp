@@ -33,18 +33,18 @@ class Constructible {
   friend Constructible operator+(const Constructible& x, const Constructible& y) {
     if (x.height() < y.height()) return y + x;
     if (x.is_rational()) return Constructible(mpq_class(x.rational_ + y.rational_));
-    if (x.height() > y.height()) return with(x.root(), x.a() + y, x.b());
-    return with(x.root(), x.a() + y.a(), x.b() + y.b());
+    if (x.height() > y.height()) return make_extension(x.root(), x.a() + y, x.b());
+    return make_extension(x.root(), x.a() + y.a(), x.b() + y.b());
   }
   friend Constructible operator*(const Constructible& x, const Constructible& y) {
     if (x.height() < y.height()) return y * x;
     if (x.is_rational()) return Constructible(mpq_class(x.rational_ * y.rational_));
-    if (x.height() > y.height()) return with(x.root(), x.a() * y, x.b() * y);
-    return with(x.root(), x.a() * y.a() + x.b() * y.b() * x.d(), x.a() * y.b() + x.b() * y.a());
+    if (x.height() > y.height()) return make_extension(x.root(), x.a() * y, x.b() * y);
+    return make_extension(x.root(), x.a() * y.a() + x.b() * y.b() * x.d(), x.a() * y.b() + x.b() * y.a());
   }
   friend Constructible operator-(const Constructible& x) {
     if (x.is_rational()) return Constructible(mpq_class(-x.rational_));
-    return with(x.root(), -x.a(), -x.b());
+    return make_extension(x.root(), -x.a(), -x.b());
   }
   friend Constructible operator-(const Constructible& x, const Constructible& y) { return x + -y; }
   /// 1 / x; x is not zero.
@@ -52,7 +52,7 @@ class Constructible {
     if (x.is_rational()) return Constructible(mpq_class(1 / x.rational_));
     const Constructible norm = x.norm();
     if (norm.sign() == 0) return inverse(x.a() + x.a());
-    return with(x.root(), x.a(), -x.b()) * inverse(norm);
+    return make_extension(x.root(), x.a(), -x.b()) * inverse(norm);
   }
 
   /// -1, 0 or 1.
@@ -69,7 +69,7 @@ class Constructible {
   struct Extension;
 
   /// a + b sqrt(d)
-  static inline Constructible with(const std::shared_ptr<const Root>& root, Constructible a, Constructible b);
+  static inline Constructible make_extension(const std::shared_ptr<const Root>& root, Constructible a, Constructible b);
   bool is_rational() const { return extension_ == nullptr; }
   inline std::uint32_t height() const;
   inline const std::shared_ptr<const Root>& root() const;
@@ -92,7 +92,8 @@ struct Constructible::Extension {
   Constructible a, b;
 };
 
-inline Constructible Constructible::with(const std::shared_ptr<const Root>& root, Constructible a, Constructible b) {
+inline Constructible Constructible::make_extension(const std::shared_ptr<const Root>& root, Constructible a,
+                                                   Constructible b) {
   if (b.is_rational() && b.rational_ == 0) return a;
   Constructible x;
   x.extension_ = std::make_shared<const Extension>(Extension{root, std::move(a), std::move(b)});
@@ -112,18 +113,18 @@ class Roots {
   Constructible root_of(const Constructible& square) {
     if (square.is_rational()) {
       if (const auto root = rational_root_of(square.rational_)) return Constructible(*root);
-      for (const auto& earlier : taken_) {
+      for (const auto& earlier : roots_) {
         if (!earlier->square.is_rational()) continue;
         if (const auto times = rational_root_of(mpq_class(square.rational_ / earlier->square.rational_))) {
-          return Constructible::with(earlier, {}, Constructible(*times));
+          return Constructible::make_extension(earlier, {}, Constructible(*times));
         }
       }
     }
-    taken_.push_back(
-        std::make_shared<const Constructible::Root>(Constructible::Root{std::uint32_t(taken_.size() + 1), square}));
-    return Constructible::with(taken_.back(), {}, Constructible(1.0));
+    roots_.push_back(
+        std::make_shared<const Constructible::Root>(Constructible::Root{std::uint32_t(roots_.size() + 1), square}));
+    return Constructible::make_extension(roots_.back(), {}, Constructible(1.0));
   }
-  void clear() { taken_.clear(); }
+  void clear() { roots_.clear(); }
 
  private:
   static std::optional<mpq_class> rational_root_of(const mpq_class& square) {
@@ -132,7 +133,7 @@ class Roots {
     return mpq_class(mpz_class(sqrt(over)), mpz_class(sqrt(under)));
   }
 
-  std::vector<std::shared_ptr<const Constructible::Root>> taken_;
+  std::vector<std::shared_ptr<const Constructible::Root>> roots_;
 };
 
 }  // namespace collide::detail

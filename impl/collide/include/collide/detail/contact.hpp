@@ -20,7 +20,7 @@ Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal)
 
 #if defined(COLLIDE_LANES)
 /// What `impact` stores, as registers: shuffles would take longer.
-inline Impact<float> stored(Lanes<float> time, Lanes<float> location, Lanes<float> normal) {
+inline Impact<float> impact_from_lanes(Lanes<float> time, Lanes<float> location, Lanes<float> normal) {
   using A = Impact<float>;
   static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<float>));
   Impact<float> answer;
@@ -32,7 +32,7 @@ inline Impact<float> stored(Lanes<float> time, Lanes<float> location, Lanes<floa
   _mm_store_ss(&answer.normal.z, _mm_movehl_ps(normal.v, normal.v));
   return answer;
 }
-inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<double> normal) {
+inline Impact<double> impact_from_lanes(TwoDoubles time, Lanes<double> location, Lanes<double> normal) {
   using A = Impact<double>;
   Impact<double> answer;
   char* const numbers = reinterpret_cast<char*>(&answer);
@@ -47,11 +47,11 @@ inline Impact<double> stored(TwoDoubles time, Lanes<double> location, Lanes<doub
 /// A contact where `hit` has all bits in the first lane, whatever the others are where it has none. A time is not
 /// negative.
 template <class P, class L>
-auto impact(const P& hit, const P& time, const L& location, const L& normal) {
+auto impact_where(const P& hit, const P& time, const L& location, const L& normal) {
   using T = decltype(time.first());
-  const P none = and_not(P::first_is(std::numeric_limits<T>::infinity()), hit);
-  const L hits = every(hit);
-  return stored(larger(none, time), location & hits, normal & hits);
+  const P none = and_not(P::first_lane(std::numeric_limits<T>::infinity()), hit);
+  const L hits = broadcast_first(hit);
+  return impact_from_lanes(larger(none, time), location & hits, normal & hits);
 }
 #endif
 
@@ -111,7 +111,7 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
   const Vec3<T> offset = from + velocity * nearest;
   const T chord2 = -Tier::beyond_radius(offset, radius);
   if (!(chord2 >= T(0))) return T(-1);
-  return not_negative(nearest - sqrt(chord2) / sqrt(speed2));
+  return positive_part(nearest - sqrt(chord2) / sqrt(speed2));
 }
 
 /// Whether a ball surely moves away from the front of a plane, or starts wholly behind it; a point is a ball of radius
@@ -119,18 +119,18 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
 ///
 /// A sum of n products is known to n u of the sum of their magnitudes (u = 2^-53), the length of the normal to 3 u of
 /// itself, each product to 2^-1074 where it underflows; 8 u are asked for.
-inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
-                          const Plane<double>& plane) {
+inline bool certainly_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
+                             const Plane<double>& plane) {
   const Vec3<double>& n = plane.normal;
   const auto magnitudes = [&n](const Vec3<double>& v) {
     return detail::abs(n.x * v.x) + detail::abs(n.y * v.y) + detail::abs(n.z * v.z);
   };
-  constexpr double known = 0x1p-50, least = 0x1p-1000;
-  if (Plain::dot(n, velocity) > known * magnitudes(velocity) + least) return true;
+  constexpr double error_bound = 0x1p-50, least = 0x1p-1000;
+  if (Plain::dot(n, velocity) > error_bound * magnitudes(velocity) + least) return true;
   const double length2 = Plain::dot(n, n), reach = radius * detail::sqrt(length2);
   if (!(length2 >= least)) return false;
   const double height = Plain::dot(n, center) + plane.offset;
-  return -height - reach > known * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
+  return -height - reach > error_bound * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
 }
 
 /// Whether a moving point is surely outside of a ball and never comes to it. `from`, seen from the center, and `radius`
@@ -139,17 +139,17 @@ inline bool surely_misses(const Vec3<double>& center, double radius, const Vec3<
 /// Where nothing overflows or underflows a square of a length is known to 5 u of itself, `along` to 5 u of the sum of
 /// its terms' magnitudes, at most sqrt(distance2 speed2): each difference below is known to less than 2^6 u of what it
 /// is compared with, and 2^11 u are asked for.
-inline bool surely_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
+inline bool certainly_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
   const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
   const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;
   const double scale = (distance2 + radius2) * speed2;
-  constexpr double least = 0x1p-800, most = 0x1p800, known = 0x1p-42;
+  constexpr double least = 0x1p-800, most = 0x1p800, error_bound = 0x1p-42;
   if (!(scale >= least && scale <= most && distance2 >= least && distance2 <= most && speed2 >= least &&
         speed2 <= most))
     return false;
-  if (!(distance2 - radius2 > known * (distance2 + radius2))) return false;
-  if (along > known * (detail::abs(x) + detail::abs(y) + detail::abs(z))) return true;  // it moves away
-  return (distance2 - radius2) * speed2 - along * along > known * (scale + along * along);
+  if (!(distance2 - radius2 > error_bound * (distance2 + radius2))) return false;
+  if (along > error_bound * (detail::abs(x) + detail::abs(y) + detail::abs(z))) return true;  // it moves away
+  return (distance2 - radius2) * speed2 - along * along > error_bound * (scale + along * along);
 }
 
 }  // namespace collide::detail

@@ -35,7 +35,7 @@ EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>
 /// are near that vertex, as two feet on edges that meet there may be, this keeps what the difference of the
 /// two squares would lose.
 template <class Tier, class T>
-T further_by(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& w) {
+T distance2_excess(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& w) {
   return Tier::dot(b - a, (a - w) + (b - w));
 }
 
@@ -48,32 +48,32 @@ bool is_finite(const Vec3<T>& v) {
 
 /// How much further the foot on the next edge is than the foot on this one: seen from the vertex between them.
 template <class Tier, class T>
-T next_further_by(const EdgeFoot<T>& foot, const EdgeFoot<T>& next, const Vec3<T>& w) {
-  return further_by<Tier>(foot.from_end, next.from_start, w);
+T next_distance2_excess(const EdgeFoot<T>& foot, const EdgeFoot<T>& next, const Vec3<T>& w) {
+  return distance2_excess<Tier>(foot.from_end, next.from_start, w);
 }
 
 /// Which edge of the triangle, i from v[i] to v[(i + 1) % 3], is the nearest.
 template <class Tier, class T>
 int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 3>& foot, const Vec3<T>& point) {
-  const T by01 = next_further_by<Tier>(foot[0], foot[1], point - v[1]);
-  const T by12 = next_further_by<Tier>(foot[1], foot[2], point - v[2]);
-  const T by20 = next_further_by<Tier>(foot[2], foot[0], point - v[0]);
-  const int nearer = by01 >= T(0) ? 0 : 1;
-  return (nearer == 0 ? by20 <= T(0) : by12 >= T(0)) ? nearer : 2;
+  const T excess01 = next_distance2_excess<Tier>(foot[0], foot[1], point - v[1]);
+  const T excess12 = next_distance2_excess<Tier>(foot[1], foot[2], point - v[2]);
+  const T excess20 = next_distance2_excess<Tier>(foot[2], foot[0], point - v[0]);
+  const int nearer = excess01 >= T(0) ? 0 : 1;
+  return (nearer == 0 ? excess20 <= T(0) : excess12 >= T(0)) ? nearer : 2;
 }
 
 /// Which of the four edges, i from v[i] to v[(i + 1) % 4], is the nearest. Opposite edges have no vertex in
 /// common and are compared from the point.
 template <class Tier, class T>
 int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 4>& foot, const Vec3<T>& point) {
-  std::array<T, 4> distance2, next_by;
+  std::array<T, 4> distance2, next_excess;
   for (int i = 0; i < 4; ++i) {
     const Vec3<T> away = (point - v[i]) - foot[i].from_start;
     distance2[i] = Tier::dot(away, away);
-    next_by[i] = next_further_by<Tier>(foot[i], foot[(i + 1) % 4], point - v[(i + 1) % 4]);
+    next_excess[i] = next_distance2_excess<Tier>(foot[i], foot[(i + 1) % 4], point - v[(i + 1) % 4]);
   }
   const auto as_near = [&](int edge, int other) {
-    return other == (edge + 1) % 4 ? next_by[edge] >= T(0) : next_by[other] <= T(0);
+    return other == (edge + 1) % 4 ? next_excess[edge] >= T(0) : next_excess[other] <= T(0);
   };
   const int even = distance2[0] <= distance2[2] ? 0 : 2, odd = distance2[1] <= distance2[3] ? 1 : 3;
   const bool is_even = as_near(even, odd);

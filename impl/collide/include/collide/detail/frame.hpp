@@ -90,7 +90,7 @@ namespace detail {
 
 /// x, y, z, w of a quaternion, brought to a moderate length by a power of two: nothing is rounded.
 template <class T>
-std::array<T, 4> moderate(const Quaternion<T>& q) {
+std::array<T, 4> rescaled(const Quaternion<T>& q) {
   if constexpr (MachineNumber<T>) {
     using detail::abs;
     const T largest = larger(larger(abs(q.x), abs(q.y)), larger(abs(q.z), abs(q.w)));
@@ -111,13 +111,13 @@ namespace detail {
 
 /// Whether `moderate` may leave a quaternion of that squared length as it is: false for NaN.
 template <class T>
-bool is_moderate(T norm2) {
+bool is_in_safe_range(T norm2) {
   return norm2 >= T(0.00390625) && norm2 <= T(1024);
 }
 /// `moderate`, in lanes.
 template <class T>
-Lanes<T> of_moderate_length(const Quaternion<T>& q) {
-  const auto [x, y, z, w] = moderate(q);
+Lanes<T> rescaled_lanes(const Quaternion<T>& q) {
+  const auto [x, y, z, w] = rescaled(q);
   return Lanes<T>::of(x, y, z, w);
 }
 
@@ -130,21 +130,21 @@ class FrameInLanes {
  public:
   explicit FrameInLanes(const Lanes<T>& q) {
     const Lanes<T> scaled = q * (Lanes<T>::splat(T(2)) / sum_of_four(q * q));
-    const Lanes<T> squares = q * scaled;                        // xx, yy, zz
-    const Lanes<T> products = yzx(q) * zxy(scaled);             // yz, zx, xy
-    const Lanes<T> turns = q.template broadcast<3>() * scaled;  // wx, wy, wz
+    const Lanes<T> squares = q * scaled;                             // xx, yy, zz
+    const Lanes<T> products = yzx(q) * zxy(scaled);                  // yz, zx, xy
+    const Lanes<T> w_products = q.template broadcast<3>() * scaled;  // wx, wy, wz
     main_ = Lanes<T>::splat(T(1)) - (yzx(squares) + zxy(squares));
-    sums_ = products + turns;
-    differences_ = products - turns;
+    sums_ = products + w_products;
+    differences_ = products - w_products;
   }
   /// Of the rotation q / |q|, all numbers times |q|^2, so that nothing is divided.
   static FrameInLanes scaled(const Lanes<T>& q) {
     const Lanes<T> squares = q * q, twice = q + q, w = q.template broadcast<3>();
-    const Lanes<T> products = yzx(q) * zxy(twice), turns = w * twice;
+    const Lanes<T> products = yzx(q) * zxy(twice), w_products = w * twice;
     FrameInLanes frame;
     frame.main_ = (w * w - zxy(squares)) + (squares - yzx(squares));
-    frame.sums_ = products + turns;
-    frame.differences_ = products - turns;
+    frame.sums_ = products + w_products;
+    frame.differences_ = products - w_products;
     return frame;
   }
   /// Every number's magnitude: what it makes of half extents is how far they reach.
@@ -164,7 +164,8 @@ class FrameInLanes {
   /// The columns: the axes in world coordinates.
   std::array<Lanes<T>, 3> axes() const {
     using L = Lanes<T>;
-    const L x = L::only(0), y = L::only(1), z = L::only(2), s = yzx(sums_), d = zxy(differences_);
+    const L x = L::mask_of_lane(0), y = L::mask_of_lane(1), z = L::mask_of_lane(2), s = yzx(sums_),
+            d = zxy(differences_);
     const L mx = main_ & x, my = main_ & y, mz = main_ & z;
     return {mx | (s & y) | (d & z), (d & x) | my | (s & z), (s & x) | (d & y) | mz};
   }

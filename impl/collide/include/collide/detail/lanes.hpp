@@ -46,19 +46,19 @@ struct Lanes<float> {
 
   static Lanes splat(float x) noexcept { return {_mm_set1_ps(x)}; }
   /// x, 0, 0, 0.
-  static Lanes first_is(float x) noexcept { return {_mm_set_ss(x)}; }
+  static Lanes first_lane(float x) noexcept { return {_mm_set_ss(x)}; }
   /// x, y, 0, 0.
   static Lanes two(float x, float y) noexcept { return {_mm_setr_ps(x, y, 0, 0)}; }
   static Lanes of(float x, float y, float z, float w = 0) noexcept { return {_mm_setr_ps(x, y, z, w)}; }
   /// The four numbers that lie from there on.
   static Lanes load(const char* there) noexcept { return {_mm_loadu_ps(reinterpret_cast<const float*>(there))}; }
   /// All bits in every lane, or none.
-  static Lanes when(bool yes) noexcept { return {_mm_castsi128_ps(_mm_set1_epi32(-int(yes)))}; }
+  static Lanes mask(bool yes) noexcept { return {_mm_castsi128_ps(_mm_set1_epi32(-int(yes)))}; }
 
   /// All bits in the first three lanes.
-  static Lanes first_three() noexcept { return {_mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0))}; }
+  static Lanes mask_of_three() noexcept { return {_mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0))}; }
   /// All bits in lane i.
-  static Lanes only(int i) noexcept {
+  static Lanes mask_of_lane(int i) noexcept {
     return {_mm_castsi128_ps(_mm_setr_epi32(-(i == 0), -(i == 1), -(i == 2), -(i == 3)))};
   }
 
@@ -101,7 +101,7 @@ struct TwoDoubles {
   __m128d v;
 
   static TwoDoubles splat(double x) noexcept { return {_mm_set1_pd(x)}; }
-  static TwoDoubles first_is(double x) noexcept { return {_mm_set_sd(x)}; }
+  static TwoDoubles first_lane(double x) noexcept { return {_mm_set_sd(x)}; }
   static TwoDoubles two(double x, double y) noexcept { return {_mm_setr_pd(x, y)}; }
 
   friend TwoDoubles operator+(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_add_pd(a.v, b.v)}; }
@@ -140,15 +140,15 @@ struct Lanes<double> {
     const double* const first = reinterpret_cast<const double*>(there);
     return {{_mm_loadu_pd(first)}, {_mm_loadu_pd(first + 2)}};
   }
-  static Lanes when(bool yes) noexcept {
+  static Lanes mask(bool yes) noexcept {
     const TwoDoubles bits{_mm_castsi128_pd(_mm_set1_epi32(-int(yes)))};
     return {bits, bits};
   }
 
-  static Lanes first_three() noexcept {
+  static Lanes mask_of_three() noexcept {
     return {{_mm_castsi128_pd(_mm_set1_epi32(-1))}, {_mm_castsi128_pd(_mm_setr_epi32(-1, -1, 0, 0))}};
   }
-  static Lanes only(int i) noexcept {
+  static Lanes mask_of_lane(int i) noexcept {
     return {{_mm_castsi128_pd(_mm_setr_epi32(-(i == 0), -(i == 0), -(i == 1), -(i == 1)))},
             {_mm_castsi128_pd(_mm_setr_epi32(-(i == 2), -(i == 2), -(i == 3), -(i == 3)))}};
   }
@@ -208,13 +208,13 @@ inline TwoDoubles swapped(TwoDoubles a) noexcept { return a.shuffled<1, 0>(); }
 inline Lanes<float> swapped_twice(Lanes<float> a) noexcept { return a.shuffled<1, 0, 1, 0>(); }
 inline Lanes<double> swapped_twice(TwoDoubles a) noexcept { return {swapped(a), swapped(a)}; }
 /// x in every lane.
-inline Lanes<float> every(Lanes<float> a) noexcept { return a.broadcast<0>(); }
-inline Lanes<double> every(TwoDoubles a) noexcept { return {a.shuffled<0, 0>(), a.shuffled<0, 0>()}; }
+inline Lanes<float> broadcast_first(Lanes<float> a) noexcept { return a.broadcast<0>(); }
+inline Lanes<double> broadcast_first(TwoDoubles a) noexcept { return {a.shuffled<0, 0>(), a.shuffled<0, 0>()}; }
 /// The first lanes of three pairs.
-inline Lanes<float> firsts(Lanes<float> x, Lanes<float> y, Lanes<float> z) noexcept {
+inline Lanes<float> first_lanes(Lanes<float> x, Lanes<float> y, Lanes<float> z) noexcept {
   return {_mm_movelh_ps(_mm_unpacklo_ps(x.v, y.v), z.v)};
 }
-inline Lanes<double> firsts(TwoDoubles x, TwoDoubles y, TwoDoubles z) noexcept {
+inline Lanes<double> first_lanes(TwoDoubles x, TwoDoubles y, TwoDoubles z) noexcept {
   return {{_mm_unpacklo_pd(x.v, y.v)}, z};
 }
 
@@ -229,7 +229,7 @@ inline Lanes<double> lanes(const Vec3<double>& a) noexcept {
   return {{_mm_loadu_pd(reinterpret_cast<const double*>(&a))}, {_mm_load_sd(&a.z)}};
 }
 template <class T>
-Vec3<T> first_three(const Lanes<T>& a) noexcept {
+Vec3<T> to_vec3(const Lanes<T>& a) noexcept {
   return {a.first(), a.template broadcast<1>().first(), a.template broadcast<2>().first()};
 }
 
@@ -279,7 +279,7 @@ Lanes<double> wide_lanes(const Quaternion<T>& q) noexcept {
   return Lanes<double>::of(q.x, q.y, q.z, q.w);
 }
 template <class T>
-std::array<T, 4> four(const Lanes<T>& a) noexcept {
+std::array<T, 4> to_array(const Lanes<T>& a) noexcept {
   std::array<T, 4> numbers;
   a.store(numbers.data());
   return numbers;
@@ -362,7 +362,7 @@ inline Columns<double> columns(Lanes<double> a, Lanes<double> b, Lanes<double> c
 
 /// The same vector four times.
 template <class T>
-Columns<T> every_column(const Lanes<T>& a) noexcept {
+Columns<T> splat_columns(const Lanes<T>& a) noexcept {
   return {a.template broadcast<0>(), a.template broadcast<1>(), a.template broadcast<2>()};
 }
 
@@ -408,16 +408,16 @@ Pair<T> smallest_of(const Lanes<T>& a) noexcept {
 /// And in every lane.
 template <class T>
 Lanes<T> largest_of_three(const Lanes<T>& a) noexcept {
-  return every(largest_of(a));
+  return broadcast_first(largest_of(a));
 }
 template <class T>
 Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept {
-  return every(smallest_of(a));
+  return broadcast_first(smallest_of(a));
 }
 /// Of a mask's first three lanes only the first that has bits.
 template <class T>
 Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {
-  const Lanes<T> three = mask & Lanes<T>::first_three();
+  const Lanes<T> three = mask & Lanes<T>::mask_of_three();
   const Lanes<T> before_z = three.template shuffled<3, 3, 1, 3>();
   return and_not(three, three.template shuffled<3, 0, 0, 3>() | before_z);
 }

@@ -26,9 +26,9 @@ Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const
     const L normal = select(entry.below, L::splat(T(-1)), L::splat(T(1))) & first_of_three(entry.axis);
     Entry<T> answer;
     answer.inside = inside;
-    answer.location = first_three(entry.at & L::when(entry.enters));
-    answer.time = select(L::when(enters), entry.time, L::splat(std::numeric_limits<T>::infinity())).first();
-    answer.normal = first_three(normal & L::when(enters));
+    answer.location = to_vec3(entry.at & L::mask(entry.enters));
+    answer.time = select(L::mask(enters), entry.time, L::splat(std::numeric_limits<T>::infinity())).first();
+    answer.normal = to_vec3(normal & L::mask(enters));
     return answer;
   }
 #endif

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/detail/past_capsule.hpp>
+#include <collide/detail/moving_ball_capsule.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -20,24 +20,24 @@ namespace detail {
 /// d is known to 6 u |velocity| |d|, and its product with the way from p0 to the point, which is |w| times the distance
 /// of the two lines, to 12 u of the product of three lengths; what it is compared with to 12 u (radius + way)
 /// |velocity| |d|. 2^7 u are asked for.
-inline bool surely_enters_nowhere(const Vec3<double>& point, const Vec3<double>& velocity, const Vec3<double>& p0,
-                                  const Vec3<double>& p1, double radius) {
-  constexpr double known = 0x1p-46, least = 0x1p-900, most = 0x1p900;
+inline bool certainly_misses_capsule(const Vec3<double>& point, const Vec3<double>& velocity, const Vec3<double>& p0,
+                                     const Vec3<double>& p1, double radius) {
+  constexpr double error_bound = 0x1p-46, least = 0x1p-900, most = 0x1p900;
   const Vec3<double> from0 = point - p0, from1 = point - p1, d = p1 - p0;
   const double way2 = Plain::dot(from0, from0), d2 = Plain::dot(d, d), speed2 = Plain::dot(velocity, velocity);
   const auto in_range = [](double x) { return x >= least && x <= most; };
   if (!(in_range(way2) && in_range(d2) && in_range(d2 * speed2) && radius <= 0x1p450)) return false;
   const double sizes = detail::sqrt(way2) + detail::sqrt(d2) + radius;
   const Vec3<double> from_axis = from0 - d * clamped(Plain::dot(from0, d) / d2, 0.0, 1.0);
-  if (detail::sqrt(Plain::dot(from_axis, from_axis)) + known * sizes < radius) return true;
+  if (detail::sqrt(Plain::dot(from_axis, from_axis)) + error_bound * sizes < radius) return true;
   const auto leaves = [&velocity](const Vec3<double>& from) {
     const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z;
-    return x + y + z > known * (detail::abs(x) + detail::abs(y) + detail::abs(z)) + least;
+    return x + y + z > error_bound * (detail::abs(x) + detail::abs(y) + detail::abs(z)) + least;
   };
   if (leaves(from0) && leaves(from1)) return true;
   const Vec3<double> w = Plain::cross(velocity, d);
   const double distance = detail::abs(Plain::dot(from0, w));
-  return distance - radius * detail::sqrt(Plain::dot(w, w)) > known * sizes * detail::sqrt(d2 * speed2);
+  return distance - radius * detail::sqrt(Plain::dot(w, w)) > error_bound * sizes * detail::sqrt(d2 * speed2);
 }
 
 }  // namespace detail
@@ -46,11 +46,11 @@ namespace kernels {
 
 template <class Tier, class T>
 Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule) {
-  if constexpr (looks_first<Tier, T>) {
-    if (detail::surely_enters_nowhere(detail::in_double(point), detail::in_double(velocity),
-                                      detail::in_double(capsule.p0), detail::in_double(capsule.p1),
-                                      double(capsule.radius))) {
-      return Tier::sure(Impact<T>::miss());
+  if constexpr (uses_filter<Tier, T>) {
+    if (detail::certainly_misses_capsule(detail::in_double(point), detail::in_double(velocity),
+                                         detail::in_double(capsule.p0), detail::in_double(capsule.p1),
+                                         double(capsule.radius))) {
+      return Tier::decided_by_filter(Impact<T>::miss());
     }
   }
   if constexpr (Tier::template lifts<T>) {
@@ -58,7 +58,7 @@ Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, co
         [](auto arithmetic, const auto&... a) { return kernels::moving_point_capsule<decltype(arithmetic)>(a...); },
         point, velocity, capsule);
   } else {
-    return detail::past_capsule<Tier>(point, T(0), velocity, capsule);
+    return detail::moving_ball_capsule<Tier>(point, T(0), velocity, capsule);
   }
 }
 

@@ -15,9 +15,9 @@ namespace collide {
 namespace detail {
 
 /// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
-template <class T, class Shared>
+template <class T, class Fallback>
 inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane,
-                                             const Shared& shared) {
+                                             const Fallback& fallback) {
   using L = Lanes<T>;
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
@@ -26,11 +26,12 @@ inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>
   const L sums = sums_of_three(n * along, n * from, n * n, n);
   const P approach = zero - first_pair(sums), height = swapped(first_pair(sums)) + P::splat(plane.offset);
   const P n2 = second_pair(sums), time = height / approach;
-  const L location = from + along * every(time);
+  const L location = from + along * broadcast_first(time);
   const P hit = (zero < approach) & (zero <= height) & (time <= P::splat(limits::max()));
   const P in_range = (P::splat(limits::min() / limits::epsilon()) <= n2) & (n2 <= P::splat(limits::max()));
-  if (!all_three(are_finite(location & every(hit)) & every(in_range))) return shared(point, velocity, plane);
-  return impact(hit, time, location, n / every(sqrt(n2)));
+  if (!all_three(are_finite(location & broadcast_first(hit)) & broadcast_first(in_range)))
+    return fallback(point, velocity, plane);
+  return impact_where(hit, time, location, n / broadcast_first(sqrt(n2)));
 }
 
 }  // namespace detail
@@ -42,23 +43,23 @@ namespace kernels {
 template <class Tier, class T>
 Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
+    const auto fallback = [](const auto&... inputs) {
       return Tier::lift(
           [](auto arithmetic, const auto&... a) { return kernels::moving_point_plane<decltype(arithmetic)>(a...); },
           inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_point_plane_in_lanes(point, velocity, plane, detail::out_of_line(shared));
+      return detail::moving_point_plane_in_lanes(point, velocity, plane, detail::out_of_line(fallback));
     }
 #endif
-    if constexpr (looks_first<Tier, T>) {
-      if (detail::surely_misses(detail::in_double(point), 0.0, detail::in_double(velocity),
-                                {detail::in_double(plane.normal), double(plane.offset)})) {
-        return Tier::sure(Impact<T>::miss());
+    if constexpr (uses_filter<Tier, T>) {
+      if (detail::certainly_misses(detail::in_double(point), 0.0, detail::in_double(velocity),
+                                   {detail::in_double(plane.normal), double(plane.offset)})) {
+        return Tier::decided_by_filter(Impact<T>::miss());
       }
     }
-    return shared(point, velocity, plane);
+    return fallback(point, velocity, plane);
   } else {
     const T approach = -Tier::dot(plane.normal, velocity);
     if (!(approach > T(0))) return Impact<T>::miss();

@@ -14,10 +14,10 @@ namespace kernels {
 
 template <class Tier, class T>
 Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere, bool solid) {
-  if constexpr (looks_first<Tier, T>) {
+  if constexpr (uses_filter<Tier, T>) {
     const Vec3<double> from = detail::in_double(point) - detail::in_double(sphere.center);
-    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius)))
-      return Tier::sure(Impact<T>::miss());
+    if (detail::certainly_misses(from, detail::in_double(velocity), double(sphere.radius)))
+      return Tier::decided_by_filter(Impact<T>::miss());
   }
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
@@ -36,10 +36,10 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
     const Vec3<T> offset = m + velocity * nearest;
     const T chord2 = -Tier::beyond_radius(offset, sphere.radius);
     if (!(chord2 >= T(0)) && !starts_in) return Impact<T>::miss();
-    const T half_chord = sqrt(not_negative(chord2)) / sqrt(speed2);  // in units of time
+    const T half_chord = sqrt(positive_part(chord2)) / sqrt(speed2);  // in units of time
     // Near a tangent the quotient of the textbooks, outside / (nearest + half_chord), loses what the
     // square of the radius loses; this difference loses 1 eps of the way to the closest approach.
-    const T time = not_negative(starts_in ? nearest + half_chord : nearest - half_chord);
+    const T time = positive_part(starts_in ? nearest + half_chord : nearest - half_chord);
     const Vec3<T> way = velocity * time;
     const Vec3<T> away = sphere.radius > T(0) ? m + way : Vec3<T>{};
     return detail::contact(time, point + way, detail::outward<Tier>(away, velocity));

@@ -64,7 +64,7 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
     low = smaller(low, crossing), high = larger(high, crossing);
   }
   if (!(low <= high && high >= T(0))) return T(-1);
-  const T nearest = not_negative(clamped(time, low, high));
+  const T nearest = positive_part(clamped(time, low, high));
   return is_on_triangle<Tier>(velocity * nearest, corner) ? nearest : T(-1);
 }
 
@@ -96,13 +96,13 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 #if defined(COLLIDE_LANES)
 
 /// What moving_point_triangle_in_lanes answers where the sides are known and the normal is not: of a thin triangle.
-template <class T, class Shared>
+template <class T, class Fallback>
 COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                                        const Triangle<T>& triangle, const Shared& shared) {
+                                                        const Triangle<T>& triangle, const Fallback& fallback) {
   using limits = std::numeric_limits<T>;
   const Vec3<T> n = normal_of<Plain>(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
   const T n2 = Plain::dot(n, n);
-  if (!(n2 >= limits::min() / limits::epsilon() && n2 <= limits::max())) return shared(point, velocity, triangle);
+  if (!(n2 >= limits::min() / limits::epsilon() && n2 <= limits::max())) return fallback(point, velocity, triangle);
   const T approach = -Plain::dot(n, velocity), behind = Plain::dot(n, triangle.v0 - point);
   if (!(approach > T(0) && behind <= T(0))) return Impact<T>::miss();
   const T time = -behind / approach;
@@ -130,9 +130,9 @@ COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, co
 ///
 /// What overflows is not sure, or is thin. `least` numbers are added to the squares so that what they bound is far
 /// above whatever underflows.
-template <class T, class Shared>
+template <class T, class Fallback>
 inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity,
-                                                const Triangle<T>& triangle, const Shared& shared) {
+                                                const Triangle<T>& triangle, const Fallback& fallback) {
   using L = Lanes<T>;
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
@@ -150,17 +150,17 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   const P f_and_speed2 = first_pair(squares) + P::two(least_size2, least_speed2), edge1_and_a2 = second_pair(squares);
   const P approach = swapped(beside_f), behind = swapped(beside_edge1);  // n . velocity and n . a
   const P time = behind / approach;
-  const L location = from_point + along * every(time);
+  const L location = from_point + along * broadcast_first(time);
   const P outside = larger(larger(beside_f, beside_edge1), approach - (beside_f + beside_edge1));
   const P e2 = f_and_speed2 + edge1_and_a2, l2 = e2 + swapped(edge1_and_a2), e4 = e2 * e2;
   const P hit = larger(outside, behind) <= P::splat(T(0));
   const T bound2 = T(64 * 64) * u * u * (l2 * l2 * swapped(f_and_speed2)).first();
   const P n2 = nq_x * nq_x + nq_y * nq_y + nq_z * nq_z;
-  const L normal = firsts(nq_x, nq_y, nq_z) / every(sqrt(n2));
-  if (!(bound2 < (outside * outside).first())) return shared(point, velocity, triangle);
+  const L normal = first_lanes(nq_x, nq_y, nq_z) / broadcast_first(sqrt(n2));
+  if (!(bound2 < (outside * outside).first())) return fallback(point, velocity, triangle);
   if (!((hit & e4).first() < T(thinness) * n2.first()))
-    return impact_with_thin_triangle(point, velocity, triangle, shared);
-  return impact(hit, time, location, normal);
+    return impact_with_thin_triangle(point, velocity, triangle, fallback);
+  return impact_where(hit, time, location, normal);
 }
 
 /// Whether the line of motion surely passes an edge on its outer side.
@@ -168,7 +168,7 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
 /// Each volume is a sum of products of three, known to 16 u of the product of the vectors' |x| + |y| + |z|, u = 2^-53,
 /// where nothing underflows.
 template <class T>
-bool surely_passes(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
+bool certainly_misses_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
   using L = Lanes<double>;
   const L from = wide_lanes(point), along = wide_lanes(velocity);
   const L a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from, c = wide_lanes(triangle.v2) - from;
@@ -188,20 +188,21 @@ namespace kernels {
 template <class Tier, class T>
 Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
   if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
+    const auto fallback = [](const auto&... inputs) {
       return Tier::lift(
           [](auto arithmetic, const auto&... a) { return kernels::moving_point_triangle<decltype(arithmetic)>(a...); },
           inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::out_of_line(shared));
+      return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::out_of_line(fallback));
     }
-    if constexpr (looks_first<Tier, T>) {
-      if (detail::surely_passes(point, velocity, triangle)) return Tier::sure(Impact<T>::miss());
+    if constexpr (uses_filter<Tier, T>) {
+      if (detail::certainly_misses_triangle(point, velocity, triangle))
+        return Tier::decided_by_filter(Impact<T>::miss());
     }
 #endif
-    return shared(point, velocity, triangle);
+    return fallback(point, velocity, triangle);
   } else {
     const Vec3<T> edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
     const Vec3<T> n = detail::normal_of<Tier>(edge1, edge2);

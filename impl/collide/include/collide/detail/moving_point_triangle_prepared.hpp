@@ -15,11 +15,11 @@ Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& ve
                                          const PreparedTriangle<T>& prepared) {
   if constexpr (Tier::template lifts<T>) {
     const auto kernel = [&](auto arithmetic, const auto& p, const auto& v, const auto& triangle) {
-      using By = decltype(arithmetic);
-      if constexpr (Tier::template keeps<T>)
-        return kernels::moving_point_triangle_prepared<By>(p, v, prepared);
+      using Arithmetic = decltype(arithmetic);
+      if constexpr (Tier::template computes_in<T>)
+        return kernels::moving_point_triangle_prepared<Arithmetic>(p, v, prepared);
       else
-        return kernels::moving_point_triangle_prepared<By>(p, v, prepare_triangle<By>(triangle));
+        return kernels::moving_point_triangle_prepared<Arithmetic>(p, v, prepare_triangle<Arithmetic>(triangle));
     };
     return Tier::lift(kernel, point, velocity, prepared.triangle);
   } else {

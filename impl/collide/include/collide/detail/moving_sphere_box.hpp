@@ -68,7 +68,7 @@ struct PointPastBox {
       ++axes, last = i;
     }
     if (!(closing > T(0))) return T(-1);
-    if (axes == 1) return not_negative((abs(beyond(last)) - radius) / abs(step[last]));
+    if (axes == 1) return positive_part((abs(beyond(last)) - radius) / abs(step[last]));
     const T nearest = closing / speed2;
     Vec3<T> offset{}, from_box{};
     const auto set = [](Vec3<T>& v, int i, const T& x) { (i == 0 ? v.x : i == 1 ? v.y : v.z) = x; };
@@ -81,7 +81,7 @@ struct PointPastBox {
     if (!(chord2 >= T(0))) return T(-1);
     const T outside = Tier::beyond_radius(from_box, radius);
     if (outside <= T(0)) return T(0);  // rounding put the contact just before this piece
-    return not_negative(nearest - sqrt(chord2 / speed2));
+    return positive_part(nearest - sqrt(chord2 / speed2));
   }
   bool inside() const { return !is_beyond(0) && !is_beyond(1) && !is_beyond(2); }
   /// The face nearest to a point in the box; of those on which it lies, one that it does not leave.

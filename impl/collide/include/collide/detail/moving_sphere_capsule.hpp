@@ -2,7 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/detail/past_capsule.hpp>
+#include <collide/detail/moving_ball_capsule.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -19,7 +19,7 @@ Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity
         [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_capsule<decltype(arithmetic)>(a...); },
         sphere, velocity, capsule);
   } else {
-    return detail::past_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
+    return detail::moving_ball_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
   }
 }
 

@@ -15,9 +15,9 @@ namespace collide {
 namespace detail {
 
 /// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
-template <class T, class Shared>
+template <class T, class Fallback>
 inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane,
-                                              const Shared& shared) {
+                                              const Fallback& fallback) {
   using L = Lanes<T>;
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
@@ -29,11 +29,12 @@ inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec
   const P starts = height <= reach, time = and_not((height - reach) / approach, starts);
   const P down = select(starts, height / length, radius);
   const P hit = (zero <= approach) & (zero - reach <= height) & (starts | ((zero < approach) & (time <= most)));
-  const L normal = n / every(length);
-  const L location = (center + along * every(time)) - normal * every(down);
+  const L normal = n / broadcast_first(length);
+  const L location = (center + along * broadcast_first(time)) - normal * broadcast_first(down);
   const P in_range = (P::splat(limits::min() / limits::epsilon()) <= n2) & (n2 <= most) & (reach <= most);
-  if (!all_three(are_finite(location & every(hit)) & every(in_range))) return shared(sphere, velocity, plane);
-  return impact(hit, time, location, normal);
+  if (!all_three(are_finite(location & broadcast_first(hit)) & broadcast_first(in_range)))
+    return fallback(sphere, velocity, plane);
+  return impact_where(hit, time, location, normal);
 }
 
 }  // namespace detail
@@ -45,23 +46,23 @@ namespace kernels {
 template <class Tier, class T>
 Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
+    const auto fallback = [](const auto&... inputs) {
       return Tier::lift(
           [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_plane<decltype(arithmetic)>(a...); },
           inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, detail::out_of_line(shared));
+      return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, detail::out_of_line(fallback));
     }
 #endif
-    if constexpr (looks_first<Tier, T>) {
-      if (detail::surely_misses(detail::in_double(sphere.center), double(sphere.radius), detail::in_double(velocity),
-                                {detail::in_double(plane.normal), double(plane.offset)})) {
-        return Tier::sure(Impact<T>::miss());
+    if constexpr (uses_filter<Tier, T>) {
+      if (detail::certainly_misses(detail::in_double(sphere.center), double(sphere.radius), detail::in_double(velocity),
+                                   {detail::in_double(plane.normal), double(plane.offset)})) {
+        return Tier::decided_by_filter(Impact<T>::miss());
       }
     }
-    return shared(sphere, velocity, plane);
+    return fallback(sphere, velocity, plane);
   } else {
     Vec3<T> normal = plane.normal;
     T length;

@@ -14,10 +14,10 @@ namespace kernels {
 
 template <class Tier, class T>
 Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) {
-  if constexpr (looks_first<Tier, T>) {
+  if constexpr (uses_filter<Tier, T>) {
     const Vec3<double> from = detail::in_double(sphere.center) - detail::in_double(fixed.center);
-    if (detail::surely_misses(from, detail::in_double(velocity), double(sphere.radius) + double(fixed.radius))) {
-      return Tier::sure(Impact<T>::miss());
+    if (detail::certainly_misses(from, detail::in_double(velocity), double(sphere.radius) + double(fixed.radius))) {
+      return Tier::decided_by_filter(Impact<T>::miss());
     }
   }
   if constexpr (Tier::template lifts<T>) {

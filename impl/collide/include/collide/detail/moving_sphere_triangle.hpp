@@ -48,10 +48,10 @@ struct SpherePastTriangle {
   }
 
   /// Coming from the front or along, and at the start not wholly behind.
-  bool passes_gate() const { return approach >= T(0) && height >= -(radius * n_length); }
+  bool may_hit_front() const { return approach >= T(0) && height >= -(radius * n_length); }
 
   /// n . (edge i x (point - its start)), from either end of the edge: from the nearer it is the more exact.
-  T beside(int i, const Vec3<T>& point, bool from_nearer) const {
+  T edge_side(int i, const Vec3<T>& point, bool from_nearer) const {
     const Vec3<T> w = point - v[i];
     if constexpr (MachineNumber<T>) {
       const Vec3<T> other = point - v[(i + 1) % 3];
@@ -64,7 +64,8 @@ struct SpherePastTriangle {
   /// from the edges.
   bool in_face(const Vec3<T>& point, TrianglePlace<T>& place, bool from_nearer = false) const {
     if (!(n_length > T(0))) return false;
-    const T a = beside(1, point, from_nearer), b = beside(2, point, from_nearer), c = beside(0, point, from_nearer);
+    const T a = edge_side(1, point, from_nearer), b = edge_side(2, point, from_nearer),
+            c = edge_side(0, point, from_nearer);
     if (!(a >= T(0) && b >= T(0) && c >= T(0))) return false;
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
@@ -108,7 +109,7 @@ struct SpherePastTriangle {
   /// The way from an edge to a point, found from w, carries 4 eps of w from `along` and 2 from the
   /// difference. A part of it that is no larger and points inward, where the edge would not be nearest, is
   /// nothing else; nor is a way that is no longer.
-  void take_off_rounding(int i, const Vec3<T>& w, const T& edge2, Vec3<T>& to_point) const {
+  void remove_rounding(int i, const Vec3<T>& w, const T& edge2, Vec3<T>& to_point) const {
     constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
     const T most2 = error * error * Tier::dot(w, w);
     if (Tier::dot(to_point, to_point) <= most2) to_point = Vec3<T>{};
@@ -155,13 +156,13 @@ struct SpherePastTriangle {
     for (int i = 0; i < 3; ++i) {
       if (!by_region || (after_start[i] <= T(0) && before_end[(i + 2) % 3] <= T(0))) consider(at_vertex(i), from[i]);
       if (!(after_start[i] > T(0) && before_end[i] > T(0))) continue;
-      if (by_region && !(beside(i, point, true) <= T(0))) continue;
+      if (by_region && !(edge_side(i, point, true) <= T(0))) continue;
       const T edge2 = Tier::dot(edge[i], edge[i]);
       const bool first_half = after_start[i] < before_end[i];
       const T along = (first_half ? after_start[i] : before_end[i]) / edge2;
       const Vec3<T>& w = first_half ? from[i] : from[(i + 1) % 3];
       Vec3<T> to_point = first_half ? w - edge[i] * along : w + edge[i] * along;
-      if constexpr (MachineNumber<T>) take_off_rounding(i, w, edge2, to_point);
+      if constexpr (MachineNumber<T>) remove_rounding(i, w, edge2, to_point);
       consider(on_edge(i, first_half ? along : T(1) - along), to_point);
     }
     return best2 < std::numeric_limits<T>::infinity();
@@ -212,23 +213,23 @@ struct SpherePastTriangle {
       if (touches && chord2 < T(0)) chord2 = T(0);
       if (!(chord2 >= T(0))) return T(-1);
       // No later than the time of the least distance, which counts where rounding is all that closes in.
-      return smaller(not_negative(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2)), closing / speed2);
+      return smaller(positive_part(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2)), closing / speed2);
     } else {
       const T radius2 = radius * radius * scale2;
       const T chord2 = radius2 * speed2 - Tier::dot(moment, moment);
       if (!(chord2 >= T(0))) return T(-1);
-      return not_negative(Tier::dot(w, w) - radius2) / (closing + sqrt(chord2));
+      return positive_part(Tier::dot(w, w) - radius2) / (closing + sqrt(chord2));
     }
   }
 
-  bool nears_front() const { return n_length > T(0) && approach > T(0) && height > T(0); }
+  bool approaches_face() const { return n_length > T(0) && approach > T(0) && height > T(0); }
   /// When the sphere touches the plane from its front.
-  T face_time() const { return not_negative(height - radius * n_length) / approach; }
+  T face_time() const { return positive_part(height - radius * n_length) / approach; }
 
   /// Where face and edge meet, rounding may leave a contact to neither: at `first` the sphere is then deeper in the
   /// face than it is apart from the boundary at the time of the plane. In that case, true with the latter contact.
   bool passed_between(const T& first, T& time, TrianglePlace<T>& place, Vec3<T>& away) const {
-    if (!nears_front()) return false;
+    if (!approaches_face()) return false;
     const T later = smaller(first, height / approach), left = (height - approach * later) / n_length;
     if (!(left < radius) || !in_face(center + velocity * later, place)) return false;
     time = face_time();
@@ -240,7 +241,7 @@ struct SpherePastTriangle {
   /// The first contact of a sphere that starts apart.
   TriangleImpact<T> moving() const {
     TrianglePlace<T> place;
-    if (nears_front()) {
+    if (approaches_face()) {
       const T time = face_time();
       const Vec3<T> at = center + velocity * time;
       if (in_face(at, place)) {
@@ -286,7 +287,7 @@ struct SpherePastTriangle {
   }
 
   TriangleImpact<T> impact() const {
-    if (!passes_gate()) return TriangleImpact<T>::miss();
+    if (!may_hit_front()) return TriangleImpact<T>::miss();
     if (height > radius * n_length && approach == T(0)) return TriangleImpact<T>::miss();
     if (height > radius * n_length) return moving();  // the whole sphere is in front of the plane
     Vec3<T> away;
@@ -303,7 +304,8 @@ struct SpherePastTriangle {
 #if defined(COLLIDE_LANES)
 
 /// An impact with its weights, stored as registers.
-inline TriangleImpact<float> stored(float time, Lanes<float> location, Lanes<float> normal, Lanes<float> weights) {
+inline TriangleImpact<float> impact_from_lanes(float time, Lanes<float> location, Lanes<float> normal,
+                                               Lanes<float> weights) {
   using A = TriangleImpact<float>;
   static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<float>));
   static_assert(offsetof(A, weights) == offsetof(A, normal) + sizeof(Vec3<float>));
@@ -317,7 +319,8 @@ inline TriangleImpact<float> stored(float time, Lanes<float> location, Lanes<flo
   _mm_store_ss(&answer.weights.z, _mm_movehl_ps(weights.v, weights.v));
   return answer;
 }
-inline TriangleImpact<double> stored(double time, Lanes<double> location, Lanes<double> normal, Lanes<double> weights) {
+inline TriangleImpact<double> impact_from_lanes(double time, Lanes<double> location, Lanes<double> normal,
+                                                Lanes<double> weights) {
   using A = TriangleImpact<double>;
   static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<double>));
   static_assert(offsetof(A, weights) == offsetof(A, normal) + sizeof(Vec3<double>));
@@ -360,9 +363,9 @@ Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const L
 /// along the edge, that is 16 times as much of the part, and more is left open. An edge or a corner counts where the
 /// center is beyond it by 7 times what rounding makes of that: then no direction from there to the center is nothing
 /// but rounding.
-template <class T, class Shared>
+template <class T, class Fallback>
 inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                                         const Triangle<T>& triangle, const Shared& shared) {
+                                                         const Triangle<T>& triangle, const Fallback& fallback) {
   using L = Lanes<T>;
   using limits = std::numeric_limits<T>;
   // Of lengths: products of eight of them stay in range. Of a normal, squared, in units of the edges' squares: below it
@@ -370,7 +373,7 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120),
               most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
   constexpr T shortest = limits::epsilon() * limits::epsilon();
-  constexpr T least2 = least * least, most2 = most * most, known = T(64) * limits::epsilon();
+  constexpr T least2 = least * least, most2 = most * most, error_bound = T(64) * limits::epsilon();
   const L center = lanes(sphere), along = lanes(velocity), zero = L::splat(T(0));
   const CornerLanes<T> t = corner_lanes(triangle);
   const T radius = sphere.radius, radius2 = radius * radius;
@@ -379,21 +382,21 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   };
   L n = cross(t.v1 - t.v0, t.v2 - t.v0), sums = sums_with(n);
   const Columns<T> corner = columns(t.v0, t.v1, t.v2, t.v0), edge = yzx(corner) - corner,
-                   from = every_column(center) - corner;
+                   from = splat_columns(center) - corner;
   const L edge2 = dot(edge, edge), from2 = dot(from, from);
   if (!all_three((L::splat(least2) <= edge2) & (edge2 <= L::splat(most2)) & (from2 <= L::splat(most2)))) {
-    return shared(sphere, velocity, triangle);
+    return fallback(sphere, velocity, triangle);
   }
   const bool thin = is_thin(second_pair(sums).first(), edge2.first(), edge2.template broadcast<2>().first());
   if (thin) {
     n = lanes(out_of_line([](const Triangle<T>& x) { return normal_of<Plain>(x.v1 - x.v0, x.v2 - x.v0); })(triangle));
     sums = sums_with(n);
   }
-  const auto [receding, height, n2, speed2] = four(sums);
+  const auto [receding, height, n2, speed2] = to_array(sums);
   const T both2 = edge2.first() + edge2.template broadcast<2>().first();
   const bool in_range =
       n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
-  if (!in_range) return shared(sphere, velocity, triangle);
+  if (!in_range) return fallback(sphere, velocity, triangle);
   // Behind the plane: overlaps it, or touches it and does not leave.
   const T height2 = height * height, reach2 = radius2 * n2;
   const bool passes = height >= T(0) || height2 < reach2 || (height2 == reach2 && receding == T(0));
@@ -401,7 +404,7 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   const T n_length = detail::sqrt(n2), reach = radius * n_length;
   if (height > reach && receding == T(0)) return TriangleImpact<T>::miss();
 
-  const Columns<T> u = every_column(along), inward = cross(every_column(n), edge);
+  const Columns<T> u = splat_columns(along), inward = cross(splat_columns(n), edge);
   const L beside = dot(inward, from), moves_in = dot(inward, u);
   const T face_time = height > reach ? (reach - height) / receding : T(0);
   if (const L weights = beside + moves_in * L::splat(face_time); all_three(zero <= weights)) {
@@ -409,16 +412,16 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
     const L corners = larger(absolute(t.v0), larger(absolute(t.v1), absolute(t.v2)));
     const L rounding = L::splat(T(16) * limits::epsilon()) * largest_of_three(larger(absolute(center), corners));
     const L low = smaller(t.v0, smaller(t.v1, t.v2)) - rounding, high = larger(t.v0, larger(t.v1, t.v2)) + rounding;
-    if (thin || !all_three((low <= location) & (location <= high))) return shared(sphere, velocity, triangle);
-    return stored(face_time, location, n / L::splat(height < T(0) ? -n_length : n_length),
-                  yzx(weights) / sum_of_three(weights));
+    if (thin || !all_three((low <= location) & (location <= high))) return fallback(sphere, velocity, triangle);
+    return impact_from_lanes(face_time, location, n / L::splat(height < T(0) ? -n_length : n_length),
+                             yzx(weights) / sum_of_three(weights));
   }
 
   // Each line's distances are multiplied by its edge's length.
   const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across),
                    moment = cross(from, u);
   const L r2 = L::splat(radius2), u2 = L::splat(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
-  if (any_of_three(across2 * L::splat(T(256)) < edge2 * u2)) return shared(sphere, velocity, triangle);
+  if (any_of_three(across2 * L::splat(T(256)) < edge2 * u2)) return fallback(sphere, velocity, triangle);
   const L corner_chord2 = r2 * u2 - dot(moment, moment),
           line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
   // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
@@ -433,26 +436,26 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   if (time == limits::infinity()) return TriangleImpact<T>::miss();
 
   // Which feature is nearest then: times that differ by a square do not tell.
-  const T speed = detail::sqrt(speed2), least_way = known * speed * time;
-  const L passed = L::splat(time), moved_along = moves_along * passed, scale = L::splat(known * n_length);
+  const T speed = detail::sqrt(speed2), least_way = error_bound * speed * time;
+  const L passed = L::splat(time), moved_along = moves_along * passed, scale = L::splat(error_bound * n_length);
   const L doubt = scale * (from2 + edge2) + scale * sqrt(edge2) * L::splat(speed * time);
   const L after_start = along_edge + moved_along, after_end = dot(yzx(from), edge) + moved_along;
   const L at_corner = (after_start <= zero) & (zero <= zxy(after_end));
   const L at_edge = (zero < after_start) & (after_end < zero) & (beside + moves_in * passed < zero - doubt);
   const int features = (at_corner | at_edge).bits() & 7, i = features >> 1;
-  if (!(features == 1 || features == 2 || features == 4)) return shared(sphere, velocity, triangle);
+  if (!(features == 1 || features == 2 || features == 4)) return fallback(sphere, velocity, triangle);
   static constexpr std::array<std::array<T, 4>, 4> unit{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}}};
   const auto unit_at = [](int k) { return L::load(reinterpret_cast<const char*>(&unit[k])); };
   const std::array<L, 4> v{t.v0, t.v1, t.v2, t.v0};
-  const T per_edge2 = four((L::splat(T(1)) / edge2) & at_edge)[i],
-          share = smaller(four(after_start)[i] * per_edge2, T(1));
+  const T per_edge2 = to_array((L::splat(T(1)) / edge2) & at_edge)[i],
+          share = smaller(to_array(after_start)[i] * per_edge2, T(1));
   const L e = v[i + 1] - v[i], way = e * L::splat(share), seen = (center + along * passed - v[i]) - way;
   // What rounding left of a part along the edge counts where the rest is small.
   const L away = seen - e * (sum_of_three(seen * e) * L::splat(per_edge2)), away2 = sum_of_three(away * away);
   const T away2_least = limits::min() / limits::epsilon() + least_way * least_way;
-  if (!(away2.first() >= away2_least)) return shared(sphere, velocity, triangle);
-  return stored(time, v[i] + way, away / sqrt(away2),
-                unit_at(i) * L::splat(T(1) - share) + unit_at(i + 1) * L::splat(share));
+  if (!(away2.first() >= away2_least)) return fallback(sphere, velocity, triangle);
+  return impact_from_lanes(time, v[i] + way, away / sqrt(away2),
+                           unit_at(i) * L::splat(T(1) - share) + unit_at(i + 1) * L::splat(share));
 }
 
 #endif
@@ -465,17 +468,17 @@ template <class Tier, class T>
 TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                          const Triangle<T>& triangle) {
   if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
+    const auto fallback = [](const auto&... inputs) {
       return Tier::lift(
           [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_triangle<decltype(arithmetic)>(a...); },
           inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(shared));
+      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(fallback));
     }
 #endif
-    return shared(sphere, velocity, triangle);
+    return fallback(sphere, velocity, triangle);
   } else {
     return detail::SpherePastTriangle<Tier, T>(sphere, velocity, triangle).impact();
   }

@@ -73,7 +73,7 @@ constexpr T clamped(const T& x, const T& low, const T& high) {
 
 /// x, or 0 where it is negative; NaN stays NaN.
 template <class T>
-constexpr T not_negative(const T& x) {
+constexpr T positive_part(const T& x) {
   return larger(x, T(0));
 }
 

@@ -28,7 +28,7 @@ int largest_component(const Vec3<T>& v) {
 
 /// `v` without its component along the axis.
 template <class T>
-Vec3<T> seen_along(int axis, const Vec3<T>& v) {
+Vec3<T> projected_along(int axis, const Vec3<T>& v) {
   return {axis == 0 ? T(0) : v.x, axis == 1 ? T(0) : v.y, axis == 2 ? T(0) : v.z};
 }
 
@@ -49,9 +49,9 @@ bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) 
   bool left = true, right = true;
   for (int i = 0; i < 3; ++i) {
     const std::array<T, 3>&start = from[i], &end = from[(i + 1) % 3];
-    const T turn = Tier::difference_of_products(start[a], end[b], start[b], end[a]);
-    left = left && turn >= T(0);
-    right = right && turn <= T(0);
+    const T orientation = Tier::difference_of_products(start[a], end[b], start[b], end[a]);
+    left = left && orientation >= T(0);
+    right = right && orientation <= T(0);
   }
   if constexpr (MachineNumber<T>) {  // what is not looked at
     if (!(detail::abs(from[0][axis] + from[1][axis] + from[2][axis]) <= std::numeric_limits<T>::max())) return false;
@@ -66,7 +66,7 @@ bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) 
 /// unit roundoff, and the weights to 11 u of all terms' magnitudes over the sum of the sides; 16 u are allowed to be a
 /// quarter of the scalar's epsilon, one unit in the last place of the largest weight.
 template <class T>
-std::optional<Containment<T>> surely(const Triangle<T>& triangle, int axis, const Vec3<T>& point) {
+std::optional<Containment<T>> filtered_containment(const Triangle<T>& triangle, int axis, const Vec3<T>& point) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
     constexpr W u = std::numeric_limits<W>::epsilon() / 2;
@@ -103,10 +103,11 @@ namespace kernels {
 template <class Tier, class T>
 Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
-    if constexpr (looks_first<Tier, T>) {
+    if constexpr (uses_filter<Tier, T>) {
       if (detail::is_finite(normal)) {
         const int along = axis >= 0 && axis <= 2 ? axis : detail::largest_component(normal);
-        if (const auto answer = detail::surely(triangle, along, point)) return Tier::sure(*answer);
+        if (const auto answer = detail::filtered_containment(triangle, along, point))
+          return Tier::decided_by_filter(*answer);
       }
     }
     return Tier::lift(
@@ -120,11 +121,11 @@ Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& nor
     std::array<Vec3<T>, 3> v = detail::corners(triangle);
     if (!detail::is_inside<Tier>(v, along, point)) return {};
 
-    for (Vec3<T>& x : v) x = detail::seen_along(along, x);
-    const Vec3<T> p = detail::seen_along(along, point);
+    for (Vec3<T>& x : v) x = detail::projected_along(along, x);
+    const Vec3<T> p = detail::projected_along(along, point);
     const detail::FaceFoot<T> face = detail::foot_on_face<Tier>(v[1] - v[0], v[2] - v[0], p - v[0]);
     if (face.inside) {
-      const T rest = not_negative(T(1) - face.base_weight - face.apex_weight);
+      const T rest = positive_part(T(1) - face.base_weight - face.apex_weight);
       return {{rest, face.base_weight, face.apex_weight}, true};
     }
     // No area, or on an edge but for rounding: the weights of the nearest edge's ends.

@@ -19,22 +19,22 @@ namespace detail {
 /// Three numbers of a prepared thing, with any number in the fourth lane: `other` has one behind them, `last` before
 /// them.
 template <class Prepared>
-Lanes<float> three_of(const Prepared& prepared, const Vec3<float>& other) {
+Lanes<float> load_three(const Prepared& prepared, const Vec3<float>& other) {
   const char* const whole = reinterpret_cast<const char*>(&prepared);
   return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&other) - whole));
 }
 template <class Prepared>
-Lanes<float> last_three_of(const Prepared& prepared, const Vec3<float>& last) {
+Lanes<float> load_last_three(const Prepared& prepared, const Vec3<float>& last) {
   const char* const whole = reinterpret_cast<const char*>(&prepared);
   return Lanes<float>::load(whole + (reinterpret_cast<const char*>(&last) - whole) - sizeof(float))
       .shuffled<1, 2, 3, 3>();
 }
 template <class Prepared>
-Lanes<double> three_of(const Prepared&, const Vec3<double>& other) {
+Lanes<double> load_three(const Prepared&, const Vec3<double>& other) {
   return lanes(other);
 }
 template <class Prepared>
-Lanes<double> last_three_of(const Prepared&, const Vec3<double>& last) {
+Lanes<double> load_last_three(const Prepared&, const Vec3<double>& last) {
   return lanes(last);
 }
 
@@ -47,17 +47,18 @@ template <class T>
 inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
   using L = Lanes<T>;
   using P = Pair<T>;
-  const L origin = three_of(prepared, prepared.ray.origin), direction = three_of(prepared, prepared.ray.direction);
-  const L inverse = last_three_of(prepared, prepared.inverse);
-  const L low = three_of(box, box.aabox.min), high = last_three_of(box, box.aabox.max);
+  const L origin = load_three(prepared, prepared.ray.origin), direction = load_three(prepared, prepared.ray.direction);
+  const L inverse = load_last_three(prepared, prepared.inverse);
+  const L low = load_three(box, box.aabox.min), high = load_last_three(box, box.aabox.max);
   const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
   // Of two numbers of which one is NaN, the first. No exit is infinite, so that no infinite entry comes before it.
   const L entries = larger(L::splat(T(0)), smaller(to_low, to_high));
   const L exits = smaller(L::splat(std::numeric_limits<T>::max()), larger(to_high, to_low));
   const P time = largest_of(entries), exit = smallest_of(exits);
   const bool hit = time.first() <= exit.first();
-  const L location = smaller(larger(origin + direction * every(time), low), high) & every(time <= exit);
-  return {first_three(location), hit, (int(hit) & int(time.first() == T(0))) != 0};
+  const L location =
+      smaller(larger(origin + direction * broadcast_first(time), low), high) & broadcast_first(time <= exit);
+  return {to_vec3(location), hit, (int(hit) & int(time.first() == T(0))) != 0};
 }
 
 }  // namespace detail
@@ -73,7 +74,7 @@ RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
 #endif
   if constexpr (Tier::template lifts<T>) {
     const auto kernel = [&](auto arithmetic, const auto& r, const auto& b) {
-      if constexpr (Tier::template keeps<T>)
+      if constexpr (Tier::template computes_in<T>)
         return kernels::ray_aabox<decltype(arithmetic)>(ray, box);
       else
         return kernels::ray_aabox<decltype(arithmetic)>(prepare_ray<decltype(arithmetic)>(r),

@@ -68,7 +68,7 @@ struct Expression {
 /// ends.
 class Expressions {
  public:
-  static Expressions& here() {
+  static Expressions& of_this_thread() {
     static thread_local Expressions all;
     return all;
   }
@@ -95,27 +95,27 @@ using ExpressionKind = Expression::Kind;
 /// Bits of the intervals in which a sign is looked for before it is found exactly.
 inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
 
-inline bool proper(const Expression& e) {
+inline bool is_number(const Expression& e) {
   return e.kind != ExpressionKind::invalid && e.kind != ExpressionKind::infinite;
 }
 int sign_of(Expression& e);
 
 inline Expression& leaf_of(double x) {
-  if (x != x) return Expressions::here().make(ExpressionKind::invalid);
+  if (x != x) return Expressions::of_this_thread().make(ExpressionKind::invalid);
   if (std::isinf(x)) {
-    Expression& e = Expressions::here().make(ExpressionKind::infinite);
+    Expression& e = Expressions::of_this_thread().make(ExpressionKind::infinite);
     e.leaf = x;
     return e;
   }
-  Expression& e = Expressions::here().make(ExpressionKind::leaf);
+  Expression& e = Expressions::of_this_thread().make(ExpressionKind::leaf);
   e.leaf = x;
   e.known_sign = x > 0 ? 1 : x < 0 ? -1 : 0;
   return e;
 }
 
 inline Expression& binary(ExpressionKind kind, Expression& a, Expression& b) {
-  Expressions& all = Expressions::here();
-  if (!proper(a) || !proper(b)) return all.make(ExpressionKind::invalid);
+  Expressions& all = Expressions::of_this_thread();
+  if (!is_number(a) || !is_number(b)) return all.make(ExpressionKind::invalid);
   const bool sum = kind == ExpressionKind::sum, difference = kind == ExpressionKind::difference;
   if ((sum || difference) && b.known_sign == 0) return a;
   if (sum && a.known_sign == 0) return b;
@@ -138,9 +138,9 @@ inline Expression& binary(ExpressionKind kind, Expression& a, Expression& b) {
 }
 
 inline Expression& root_of(Expression& a) {
-  Expressions& all = Expressions::here();
+  Expressions& all = Expressions::of_this_thread();
   if (a.kind == ExpressionKind::infinite && a.leaf > 0) return a;
-  if (!proper(a)) return all.make(ExpressionKind::invalid);
+  if (!is_number(a)) return all.make(ExpressionKind::invalid);
   const int sign = sign_of(a);
   if (sign == 0) return a;
   if (sign < 0) return all.make(ExpressionKind::invalid);
@@ -204,15 +204,15 @@ inline void evaluate(Expression& e, mpfr_prec_t precision) {
 }
 
 /// Of a proper expression.
-inline const Constructible& exactly(Expression& e) {
+inline const Constructible& exact_value(Expression& e) {
   if (e.exact) return *e.exact;
   const auto found = [&]() -> Constructible {
     switch (e.kind) {
-      case ExpressionKind::sum: return exactly(*e.a) + exactly(*e.b);
-      case ExpressionKind::difference: return exactly(*e.a) - exactly(*e.b);
-      case ExpressionKind::product: return exactly(*e.a) * exactly(*e.b);
-      case ExpressionKind::quotient: return exactly(*e.a) * inverse(exactly(*e.b));
-      case ExpressionKind::root: return Expressions::here().roots().root_of(exactly(*e.a));
+      case ExpressionKind::sum: return exact_value(*e.a) + exact_value(*e.b);
+      case ExpressionKind::difference: return exact_value(*e.a) - exact_value(*e.b);
+      case ExpressionKind::product: return exact_value(*e.a) * exact_value(*e.b);
+      case ExpressionKind::quotient: return exact_value(*e.a) * inverse(exact_value(*e.b));
+      case ExpressionKind::root: return Expressions::of_this_thread().roots().root_of(exact_value(*e.a));
       default: return Constructible(e.leaf);
     }
   };
@@ -230,7 +230,7 @@ inline int sign_of(Expression& e) {
     const int sign = e.value.sign();
     if (sign != 2) return e.known_sign = std::int8_t(sign);
   }
-  return e.known_sign = std::int8_t(exactly(e).sign());
+  return e.known_sign = std::int8_t(exact_value(e).sign());
 }
 
 }  // namespace collide::detail

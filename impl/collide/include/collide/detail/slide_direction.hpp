@@ -20,11 +20,11 @@ Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T
   } else {
     const Vec3<T> to_center = (sphere.center - location) + velocity * time;
     const Vec3<T> d = unit<Tier>(velocity);
-    if (to_center == Vec3<T>{}) return {of_length(d)};
+    if (to_center == Vec3<T>{}) return {with_corrected_length(d)};
     const Vec3<T> u = unit<Tier>(to_center), slid = Tier::cross(u, Tier::cross(d, u));
     if constexpr (MachineNumber<T>) {
       const T cosine = Tier::dot(d, u), cosine2 = cosine * cosine;
-      return {cosine2 <= T(0.25) ? of_length(slid, cosine2) : slid};
+      return {cosine2 <= T(0.25) ? with_corrected_length(slid, cosine2) : slid};
     }
     return {slid};
   }

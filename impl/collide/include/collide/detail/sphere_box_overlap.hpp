@@ -29,7 +29,7 @@ Lanes<T> beyond_ball(const Lanes<T>& seen, const Lanes<T>& q, const Lanes<T>& ha
 /// in the frame to 20 u S and its excess to 21 u S, the sum of the squares to 2 sqrt(3) 21 u S^2 + 3 u S^2, the
 /// difference to 80 u S^2 + 2 u r^2. What underflows is far less where S^2 + r^2 and the quaternion are not tiny.
 template <class T>
-std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Box<T>& box) {
+std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Box<T>& box) {
   using L = Lanes<double>;
   const L seen = wide_lanes(sphere.center) - wide_lanes(box.center), half = wide_lanes(box.half);
   const L q = wide_lanes(box.orientation), radius = L::splat(sphere.radius);
@@ -59,8 +59,9 @@ Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) {
     const L beyond = detail::beyond_ball(center - middle, q, half, radius);
     return {all_three((beyond <= L::splat(T(0))) & are_finite(center, middle, half, q, radius))};
   }
-  if constexpr (looks_first<Tier, T>) {
-    if (const auto sure = detail::surely_overlap(sphere, box)) return Tier::sure(Decision<T>{*sure});
+  if constexpr (uses_filter<Tier, T>) {
+    if (const auto decided = detail::filtered_overlap(sphere, box))
+      return Tier::decided_by_filter(Decision<T>{*decided});
   }
 #endif
   if constexpr (Tier::template lifts<T>) {

@@ -15,34 +15,35 @@ namespace collide {
 namespace detail {
 
 /// What `Fast` answers; where the square of the distance says nothing about it, what `shared` does.
-template <class T, class Shared>
+template <class T, class Fallback>
 inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, const Box<T>& box,
-                                                      const Shared& shared) {
+                                                      const Fallback& fallback) {
   using L = Lanes<T>;
   using P = Pair<T>;
   using limits = std::numeric_limits<T>;
   const L center = lanes(sphere.center), middle = lanes(box.center), half = lanes(box.half);
   L q = lanes(box.orientation), norm_squared = sum_of_four(q * q);
-  if (!is_moderate(norm_squared.first())) {
-    q = out_of_line(of_moderate_length<T>)(box.orientation), norm_squared = sum_of_four(q * q);
-    if (!is_moderate(norm_squared.first())) return shared(sphere, box);
+  if (!is_in_safe_range(norm_squared.first())) {
+    q = out_of_line(rescaled_lanes<T>)(box.orientation), norm_squared = sum_of_four(q * q);
+    if (!is_in_safe_range(norm_squared.first())) return fallback(sphere, box);
   }
-  const P radius = P::splat(sphere.radius), zero = P::splat(T(0)), one = P::first_is(T(1));
+  const P radius = P::splat(sphere.radius), zero = P::splat(T(0)), one = P::first_lane(T(1));
   const P no_radius = radius * zero;  // or NaN
   // The rotation times |q|^2, which is divided out beside the rotating.
   const auto frame = FrameInLanes<T>::scaled(q);
-  const L inverse = every(one / first_pair(norm_squared));
+  const L inverse = broadcast_first(one / first_pair(norm_squared));
   // NaN where an argument is not finite.
-  const L local = frame.into(center - middle) * inverse, away = excess(local, half) + half * every(no_radius);
+  const L local = frame.into(center - middle) * inverse, away = excess(local, half) + half * broadcast_first(no_radius);
   const P distance2 = first_pair(sum_of_three(away * away)), is_outside = zero < distance2;
   const P in_range =
       (P::splat(limits::min() / limits::epsilon()) <= distance2) & (distance2 <= P::splat(limits::max() / T(16)));
-  if (!holds_or_all_zero(in_range, away)) return shared(sphere, box);
+  if (!holds_or_all_zero(in_range, away)) return fallback(sphere, box);
 
   const P distance = sqrt(distance2);
   const auto answer = [&](const P& depth, const L& way, const P& per_way, const P& to_contact) COLLIDE_INLINE {
-    const L overlap = every(zero <= depth), normal = way * every(per_way), contact = center - way * every(to_contact);
-    return Penetration<T>{depth.first(), first_three(normal & overlap), first_three(contact & overlap)};
+    const L overlap = broadcast_first(zero <= depth), normal = way * broadcast_first(per_way),
+            contact = center - way * broadcast_first(to_contact);
+    return Penetration<T>{depth.first(), to_vec3(normal & overlap), to_vec3(contact & overlap)};
   };
   if constexpr (std::same_as<T, double>) {  // in two registers what only the inside needs costs more than a wrong guess
     if (distance2.first() > T(0))
@@ -50,7 +51,7 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   }
   const L to_face = half - absolute(local), to_nearest_face = smallest_of_three(to_face);
   const L side = L::splat(T(1)) ^ (local & L::splat(T(-0.0)));
-  const L face = and_not(first_of_three(to_face == to_nearest_face) & side, every(is_outside));
+  const L face = and_not(first_of_three(to_face == to_nearest_face) & side, broadcast_first(is_outside));
   const L way =
       frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
   return answer(radius - distance + and_not(first_pair(to_nearest_face), is_outside), way,
@@ -66,17 +67,17 @@ namespace kernels {
 template <class Tier, class T>
 Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
-    const auto shared = [](const auto&... inputs) {
+    const auto fallback = [](const auto&... inputs) {
       return Tier::lift(
           [](auto arithmetic, const auto&... a) { return kernels::sphere_box_penetration<decltype(arithmetic)>(a...); },
           inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::sphere_box_penetration_in_lanes(sphere, box, detail::out_of_line(shared));
+      return detail::sphere_box_penetration_in_lanes(sphere, box, detail::out_of_line(fallback));
     }
 #endif
-    return shared(sphere, box);
+    return fallback(sphere, box);
   } else {
     const Axes<T> axes = axes_of(box.orientation);
     const std::array<T, 3> half = components(box.half);

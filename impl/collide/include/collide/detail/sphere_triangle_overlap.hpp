@@ -61,7 +61,7 @@ struct SphereFromTriangle {
 /// of each other's lengths; where edge and height are no shorter than S / 64, the weights by 2^-29, the squared
 /// distance from the plane by 2^12 u S^2.
 template <class T>
-std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle) {
+std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle) {
   using L = Lanes<double>;
   const L center = wide_lanes(sphere.center), v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1),
           v2 = wide_lanes(triangle.v2);
@@ -71,7 +71,7 @@ std::optional<bool> surely_overlap(const Sphere<T>& sphere, const Triangle<T>& t
   if (!(scale2 >= 0x1p-800 && scale2 <= 0x1p800)) return std::nullopt;
   const L beyond = seen.distances2 - L::splat(r * r), bound = L::splat(0x1p-45 * scale2), zero = L::splat(0.0),
           one = L::splat(1.0);
-  if (((beyond < zero - bound) & (seen.inside | L::first_three())).bits() != 0) return true;
+  if (((beyond < zero - bound) & (seen.inside | L::mask_of_three())).bits() != 0) return true;
   const L margin = L::splat(0x1p-20);
   const L outside = (seen.apex_weight < zero - margin) | (seen.base_weight < zero - margin) |
                     (one + margin < seen.base_weight + seen.apex_weight) |
@@ -96,11 +96,12 @@ Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& 
     const L v0 = lanes(triangle.v0), v1 = lanes(triangle.v1), v2 = lanes(triangle.v2), center = lanes(sphere.center);
     const L radius = L::splat(sphere.radius), finite = are_finite(v0, v1, v2, center, radius);
     const detail::SphereFromTriangle<T> seen(center, v0, v1, v2);
-    const L reaches = (seen.distances2 - radius * radius <= L::splat(T(0))) & (seen.inside | L::first_three());
+    const L reaches = (seen.distances2 - radius * radius <= L::splat(T(0))) & (seen.inside | L::mask_of_three());
     return {all_three(finite) && reaches.bits() != 0};
   }
-  if constexpr (looks_first<Tier, T>) {
-    if (const auto sure = detail::surely_overlap(sphere, triangle)) return Tier::sure(Decision<T>{*sure});
+  if constexpr (uses_filter<Tier, T>) {
+    if (const auto decided = detail::filtered_overlap(sphere, triangle))
+      return Tier::decided_by_filter(Decision<T>{*decided});
   }
 #endif
   if constexpr (Tier::template lifts<T>) {

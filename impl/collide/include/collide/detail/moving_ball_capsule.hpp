@@ -16,7 +16,8 @@ namespace collide::detail {
 /// The center meets the capsule with both radii. It enters the endless tube around the axis between its ends,
 /// or the ball around the end on whose side it is in the tube.
 template <class Tier, class T>
-Impact<T> past_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity, const Capsule<T>& capsule) {
+Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity,
+                              const Capsule<T>& capsule) {
   const T reach = radius + capsule.radius;
   const Vec3<T> from_p0 = center - capsule.p0, from_p1 = center - capsule.p1;
   const Vec3<T> between = capsule.p1 - capsule.p0;
