@@ -1,5 +1,5 @@
-# Makes the target collide::certified: collide::collide with GMP and MPFR. Where one of them is missing there is no
-# target, and collide_certified_MISSING says why.
+# Defines the target collide::certified: collide::collide with GMP and MPFR. If one of them is missing, the target is not
+# defined and collide_certified_MISSING gives the reason.
 
 if(TARGET collide::certified)
   return()
@@ -18,7 +18,7 @@ string(REGEX REPLACE "; $" "" collide_certified_MISSING "${collide_certified_MIS
 
 if(collide_certified_MISSING STREQUAL "")
   get_target_property(imported collide::collide IMPORTED)
-  if(imported)  # by find_package: seen where collide::collide is seen
+  if(imported)  # by find_package: visible in the same scope as collide::collide
     add_library(collide::certified INTERFACE IMPORTED)
   else()
     add_library(collide::certified INTERFACE IMPORTED GLOBAL)

@@ -1,7 +1,8 @@
-/// What the queries return: a small closed set of kinds, each one plain struct.
+/// The answers of the queries: a small closed set of plain structs.
 ///
-/// Every answer has its decision in `yes()`: a hit, an overlap, a point inside; touching is yes. A query that always
-/// has an answer (a nearest point) always says yes. The numbers of an answer hold only where its comment says so.
+/// `yes()` gives the decision of an answer: a hit, an overlap, a point inside. Touching is yes. A query that always has
+/// an answer, such as a closest point, always says yes. The other numbers of an answer are meaningful only where their
+/// comments say so.
 #pragma once
 
 #include <array>
@@ -21,13 +22,13 @@ struct Decision {
   static constexpr auto members() { return std::tuple<>(); }
 };
 
-// Of a decision with a place the place is first: in float such an answer comes back in two registers, and a place
-// behind the flags would lie in both.
+// Answers with a location store it before the flags: an answer in float is then returned in two registers, and the
+// location does not straddle them.
 
-/// Whether a point lies in a triangle, seen along an axis.
+/// Whether a point lies in a triangle, both projected along an axis.
 template <class T>
 struct Containment {
-  Vec3<T> weights{};  ///< x, y, z are the weights of v0, v1, v2; their sum is 1; zero outside
+  Vec3<T> weights{};  ///< barycentric: weights of v0, v1, v2 with sum 1; zero outside
   bool decision = false;
 
   [[nodiscard]] constexpr bool yes() const { return decision; }
@@ -38,9 +39,9 @@ struct Containment {
 /// Whether a ray meets a solid, and where.
 template <class T>
 struct RayHit {
-  Vec3<T> location{};  ///< where the ray enters, its origin for a start inside; zero for a miss
+  Vec3<T> location{};  ///< the entry point, or the origin if that lies inside; zero for a miss
   bool decision = false;
-  bool inside = false;  ///< the ray starts in the solid
+  bool inside = false;  ///< the ray's origin lies in the solid
 
   [[nodiscard]] constexpr bool yes() const { return decision; }
   static constexpr auto decision_member() { return &RayHit::decision; }
@@ -50,11 +51,11 @@ struct RayHit {
   }
 };
 
-/// Whether two boxes overlap, and what keeps them apart.
+/// Whether two boxes overlap and, if not, an axis that separates them.
 template <class T>
 struct BoxOverlap {
   bool decision = false;
-  int axis = -1;  ///< an axis 0..14 that separates them, the hint for the next time; -1 where they overlap
+  int axis = -1;  ///< a separating axis, 0..14, useful as the next call's hint; -1: they overlap
 
   [[nodiscard]] constexpr bool yes() const { return decision; }
   static constexpr auto decision_member() { return &BoxOverlap::decision; }
@@ -65,7 +66,7 @@ struct BoxOverlap {
 template <class T>
 struct ParallelAxes {
   bool decision = false;
-  int axis1 = -1, axis2 = -1;  ///< 0..2, of box 1 and of box 2; -1 where none are
+  int axis1 = -1, axis2 = -1;  ///< axis of box 1 and of box 2, 0..2; -1 if none are parallel
 
   [[nodiscard]] constexpr bool yes() const { return decision; }
   static constexpr auto decision_member() { return &ParallelAxes::decision; }
@@ -75,12 +76,12 @@ struct ParallelAxes {
   }
 };
 
-/// The first contact of a moving thing with a fixed one.
+/// The first contact of a moving shape with a fixed one.
 template <class T>
 struct Impact {
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
-  Vec3<T> location{};                           ///< contact on the fixed object; zero for a miss
-  Vec3<T> normal{};                             ///< unit, from the fixed object to the moving one; zero for a miss
+  Vec3<T> location{};                           ///< the contact point on the fixed shape; zero for a miss
+  Vec3<T> normal{};                             ///< unit, from the fixed shape to the moving one; zero for a miss
 
   static constexpr Impact miss() { return {}; }
   [[nodiscard]] constexpr bool yes() const { return time < std::numeric_limits<T>::infinity(); }
@@ -90,13 +91,13 @@ struct Impact {
   }
 };
 
-/// The first contact of a moving thing with a triangle.
+/// The first contact of a moving shape with a triangle.
 template <class T>
 struct TriangleImpact {
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
-  Vec3<T> location{};                           ///< contact on the triangle; zero for a miss
-  Vec3<T> normal{};                             ///< unit, from the triangle to the moving thing; zero for a miss
-  Vec3<T> weights{};                            ///< location = x v0 + y v1 + z v2, x + y + z = 1; zero for a miss
+  Vec3<T> location{};                           ///< the contact point on the triangle; zero for a miss
+  Vec3<T> normal{};                             ///< unit, from the triangle to the moving shape; zero for a miss
+  Vec3<T> weights{};  ///< barycentric: location = x v0 + y v1 + z v2, x + y + z = 1; zero for a miss
 
   static constexpr TriangleImpact miss() { return {}; }
   [[nodiscard]] constexpr bool yes() const { return time < std::numeric_limits<T>::infinity(); }
@@ -108,11 +109,11 @@ struct TriangleImpact {
   }
 };
 
-/// The first contact of a moving point with a solid that it must enter from outside.
+/// The entry of a moving point into a solid, from outside.
 template <class T>
 struct Entry {
-  bool inside = false;                          ///< starts in the solid: a miss
-  Vec3<T> location{};                           ///< where it enters; the start, for a start inside; else zero
+  bool inside = false;  ///< the point starts in the solid, which is a miss
+  Vec3<T> location{};   ///< the entry point; the start if that lies inside; zero for another miss
   T time = std::numeric_limits<T>::infinity();  ///< displacement = velocity * time; +infinity: a miss
   Vec3<T> normal{};                             ///< unit, outward; zero for a miss
 
@@ -125,7 +126,7 @@ struct Entry {
   }
 };
 
-/// One point of the fixed object, nearest to the given one.
+/// The point of a shape closest to a given point.
 template <class T>
 struct ClosestPoint {
   Vec3<T> point{};
@@ -134,7 +135,7 @@ struct ClosestPoint {
   static constexpr auto members() { return std::tuple(member("point", &ClosestPoint::point, Role::position)); }
 };
 
-/// The point of a triangle's perimeter nearest to the given one, and the edge that it lies on.
+/// The point of a triangle's perimeter closest to a given point, and its edge.
 template <class T>
 struct EdgePoint {
   Vec3<T> point{};
@@ -147,11 +148,11 @@ struct EdgePoint {
   }
 };
 
-/// The nearest points of two fixed objects.
+/// The closest points of two shapes.
 template <class T>
 struct ClosestPoints {
-  Vec3<T> point1{};  ///< of the first
-  Vec3<T> point2{};  ///< of the second
+  Vec3<T> point1{};  ///< on the first shape
+  Vec3<T> point2{};  ///< on the second shape
 
   [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() {
@@ -160,12 +161,12 @@ struct ClosestPoints {
   }
 };
 
-/// How deep two fixed objects overlap, with one contact.
+/// The penetration depth of two shapes, with one contact point.
 template <class T>
 struct Penetration {
-  T depth{};          ///< length; 0 when touching, negative when apart
-  Vec3<T> normal{};   ///< unit, from the first object into the second; zero when apart
-  Vec3<T> contact{};  ///< zero when apart
+  T depth{};          ///< length; 0: touching; negative: apart
+  Vec3<T> normal{};   ///< unit, from the first shape into the second (of a plane: its normal); zero when apart
+  Vec3<T> contact{};  ///< the contact point that the query defines; zero when apart
 
   [[nodiscard]] constexpr bool yes() const { return depth >= T(0); }
   static constexpr auto members() {
@@ -175,13 +176,13 @@ struct Penetration {
   }
 };
 
-/// How deep two boxes overlap, or how far they are apart, along one of fifteen axes.
+/// The penetration depth of two boxes, or their separation along one of the fifteen axes.
 template <class T>
 struct BoxPenetration {
-  T depth{};          ///< length; 0 when touching; apart: minus the separation along `axis`
-  int axis = 0;       ///< 0..14, along which depth is measured; the hint for the next time
+  T depth{};          ///< length; 0: touching; negative: minus the separation along `axis`
+  int axis = 0;       ///< 0..14, along which the depth is measured; useful as the next call's hint
   Vec3<T> normal{};   ///< unit, from box 1 into box 2; zero when apart
-  Vec3<T> contact{};  ///< zero when apart
+  Vec3<T> contact{};  ///< the contact point that the query defines; zero when apart
 
   [[nodiscard]] constexpr bool yes() const { return depth >= T(0); }
   static constexpr auto members() {
@@ -192,25 +193,25 @@ struct BoxPenetration {
   }
 };
 
-/// A corner of a box that may lie behind a plane.
+/// A corner of a box, which may be a contact with a plane.
 template <class T>
 struct Corner {
-  /// bool; of a number type that can be uncertain, that type with the values 0 and 1.
+  /// bool for floating-point T. For a number type with uncertain values it is that type, with the values 0 and 1.
   using Flag = std::conditional_t<std::is_floating_point_v<T>, bool, T>;
 
-  Flag behind{};    ///< on the plane or behind it: a contact
-  Vec3<T> point{};  ///< zero in front
+  Flag behind{};    ///< true: on the plane or behind it, a contact
+  Vec3<T> point{};  ///< the corner; zero if it is not a contact
 
   static constexpr auto members() {
     return std::tuple(member("behind", &Corner::behind, Role::flag), member("point", &Corner::point, Role::position));
   }
 };
 
-/// How deep a box reaches behind a plane, with every corner that does.
+/// The depth of a box behind a plane, with all corners that are contacts.
 template <class T>
 struct CornerContacts {
-  T depth{};         ///< of the deepest corner; 0 when touching, negative when apart
-  Vec3<T> normal{};  ///< unit, the plane's; zero when apart
+  T depth{};         ///< depth of the deepest corner; 0: touching; negative: apart
+  Vec3<T> normal{};  ///< the plane's unit normal; zero when apart
   /// Corner i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k.
   std::array<Corner<T>, 8> corners{};
 
@@ -222,7 +223,7 @@ struct CornerContacts {
   }
 };
 
-/// A number that always exists.
+/// A single number.
 template <class T>
 struct Measure {
   T value{};
@@ -231,14 +232,14 @@ struct Measure {
   static constexpr auto members() { return std::tuple(member("value", &Measure::value, Role::depth)); }
 };
 
-/// What the tools for pairs of boxes share: computed once for a pair.
+/// The values that the queries about pairs of boxes share, computed once for a pair.
 template <class T>
 struct BoxBoxInfo {
-  Vec3<T> half1{}, half2{};             ///< half extents: from each center to a corner, in its own frame
+  Vec3<T> half1{}, half2{};             ///< the half extents of both boxes
   Vec3<T> between{};                    ///< center 2 - center 1
-  std::array<Vec3<T>, 3> cosine{};      ///< cosine[i].x, .y, .z: axis i of box 1 . axis 0, 1, 2 of box 2
-  std::array<Vec3<T>, 3> abs_cosine{};  ///< their absolute values
-  Vec3<T> between1{}, between2{};       ///< `between` along the axes of box 1, of box 2
+  std::array<Vec3<T>, 3> cosine{};      ///< cosine[i].x, .y, .z: axis i of box 1 . axes 0, 1, 2 of box 2
+  std::array<Vec3<T>, 3> abs_cosine{};  ///< the absolute values of `cosine`
+  Vec3<T> between1{}, between2{};       ///< `between` in the frame of box 1 and of box 2
 
   [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() {
@@ -251,7 +252,7 @@ struct BoxBoxInfo {
   }
 };
 
-/// A direction after a response to a contact: at most unit length.
+/// A direction: a unit vector, or a shorter one where the query says so.
 template <class T>
 struct Direction {
   Vec3<T> direction{};

@@ -1,4 +1,4 @@
-/// The direction in which a sphere leaves a contact.
+/// The direction of a moving sphere after a bounce.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -9,15 +9,15 @@
 
 namespace collide {
 
-/// The direction of `velocity`, reflected at the contact of a moving sphere.
-///
-/// With u the vector from `location` to the sphere's center at `time`, or `normal` where that is
-/// exactly zero, and d = velocity / |velocity|:
+/// The direction of `velocity`, reflected at the contact of a moving sphere. `time`, `location` and `normal` are those
+/// of the impact. With u the vector from `location` to the sphere's center at `time` (or `normal` if that vector is
+/// exactly zero), and d = velocity / |velocity|:
 ///
 /// 1. direction == d - 2 (d . u) u / |u|^2
 /// 2. |direction| == 1, or 0 for zero velocity
 ///
-/// The sphere's radius and the lengths of u, normal and velocity play no part.
+/// The sphere's radius and the lengths of u, normal and velocity do not matter. Units: none. Never fails. Non-finite
+/// input: an unspecified direction. Source: mirror reflection in the plane perpendicular to u.
 template <class Tier = Fast, class T>
 [[nodiscard]] Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
                                             const Vec3<T>& location,
@@ -27,10 +27,10 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order: the vector to the center carries 3 eps of the positions and of velocity * time; unit
-/// vectors 4 eps, the dot product 3, the reflection 3: what they turn the direction is explained by moving the location
-/// and the velocity by as much. Nothing explains a length other than 1: with_corrected_length() leaves its last
-/// rounding.
+/// First order. The vector to the center has an error of 3 eps of the positions and of velocity * time, unit vectors
+/// 4 eps, the dot product 3 eps, the reflection 3 eps. These errors rotate the direction; moving the location and the
+/// velocity accounts for that. No perturbation accounts for a length other than 1: with_corrected_length() corrects the
+/// length up to its last rounding.
 template <class Tier = Fast, class T = double>
 constexpr Contract bounce_direction() {
   return Tier::template contract<T>({.backward = 32, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});

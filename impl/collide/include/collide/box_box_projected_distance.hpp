@@ -1,4 +1,4 @@
-/// How far two boxes lie apart along one of their axes.
+/// The signed distance of two boxes along one of their axes.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -9,20 +9,21 @@
 
 namespace collide {
 
-/// The gap between the projections of two boxes onto axis L (0..14, see box_box_overlap), times |L|;
-/// negative where they overlap. With D = center 2 - center 1:
+/// The gap between the projections of two boxes onto axis L (0..14, see box_box_overlap), times |L|; negative where the
+/// projections overlap, 0 where they touch. With D = center 2 - center 1:
 ///
 /// 1. value == |D . L| - R1 - R2, Ri = sum over the axes k of box i of half[k] |axis k . L|
-/// 2. |L| == 1 for axes 0..5 and the sine of the angle between the two axes for 6..14
+/// 2. |L| == 1 for axes 0..5, and the sine of the angle between the two axes for 6..14
 ///
-/// A length times |L|. An axis that does not exist has NaN. Source: Gottschalk, Lin, Manocha, OBBTree, 1996.
+/// Units: a length times |L|. Never fails. The value is NaN for an axis outside 0..14. Non-finite input: unspecified.
+/// Source: Gottschalk, Lin, Manocha, OBBTree, 1996.
 template <class Tier = Fast, class T>
 [[nodiscard]] Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2,
                                                     int axis) noexcept(Tier::never_throws) {
   return kernels::box_box_projected_distance<Tier>(box1, box2, axis);
 }
 
-/// The same from what the tools for pairs of boxes share.
+/// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
 [[nodiscard]] Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) noexcept(Tier::never_throws) {
   return kernels::box_box_projected_distance<Tier>(info, axis);
@@ -30,8 +31,8 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order: as box_box_overlap, and the division by |q1|^4 |q2|^2 with 12 eps of the gap, which the
-/// lengths along the axis explain.
+/// First order: as box_box_overlap. The division by |q1|^4 |q2|^2 adds 12 eps of the gap, for which changing the
+/// lengths along the axis accounts.
 template <class Tier = Fast, class T = double>
 constexpr Contract box_box_projected_distance() {
   return Tier::template contract<T>({.backward = 80, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});

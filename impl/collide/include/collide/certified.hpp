@@ -1,9 +1,9 @@
-/// The certified tier: every decision is the exact one, for all finite inputs, and every number lies within
-/// two units in the last place of the exact one. Needs MPFR and GMP (target collide::certified).
+/// The tier `Certified`: every decision is exact for all finite inputs, and every number lies within two units in the
+/// last place of the exact one. Needs MPFR and GMP (target collide::certified).
 ///
-/// The kernel of a query is computed up to three times: in doubles with error bounds (bounded.hpp), in
-/// double-words with error bounds, in exact real numbers (real.hpp). A computation counts when no
-/// comparison was in doubt and each number of the answer is known well enough; the last one always is.
+/// The kernel of a query runs in up to three stages: in doubles with error bounds (bounded.hpp), in double-words with
+/// error bounds, and in exact real numbers (real.hpp). A stage's answer is used if no comparison was in doubt and every
+/// number is accurate enough. The last stage always succeeds.
 #pragma once
 
 #if defined(__SSE2__)
@@ -24,8 +24,9 @@
 #include <collide/detail/real.hpp>
 #include <collide/tiers.hpp>
 
-// Numbers with bounds are worth their speed where a whole kernel becomes one piece of code: the compiler then sees
-// which are exact. Sanitizers would check each operation of it by itself, and compile for very long.
+// Arithmetic with bounds is fast only if the whole kernel is inlined into one function: the compiler then sees which
+// numbers are exact and drops their error terms. Under a sanitizer this is turned off: it instruments each operation,
+// and compilation would take very long.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(COLLIDE_SANITIZED)
 #define COLLIDE_FLATTEN [[gnu::noinline, gnu::flatten]]
 #else
@@ -36,20 +37,22 @@
 
 namespace collide {
 
-/// How many answers each stage gave.
+/// The number of answers that each stage gave.
 struct StageCounts {
   std::uint64_t filter = 0;    ///< doubles with error bounds
   std::uint64_t extended = 0;  ///< double-words with error bounds
   std::uint64_t exact = 0;     ///< exact real numbers
-  std::uint64_t invalid = 0;   ///< an input that is not finite: answered by the fast tier
+  std::uint64_t invalid = 0;   ///< input that is not finite: answered in plain arithmetic
 };
 
 namespace detail {
 
-// A compiler knows nothing of the machine's flags and moves arithmetic past their clearing and reading, unless it must
-// have the operands again after the one and the results before the other.
+// The processor's floating-point flags are read after the arithmetic that sets them. A compiler does not know this
+// dependence and may move arithmetic across the clearing and the reading of the flags. Two optimization barriers
+// prevent that: `make_opaque` forces operands to be loaded after the clearing, `force_evaluation` forces results to be
+// computed before the reading.
 
-/// The compiler cannot know the numbers of `x` from before.
+/// Optimization barrier: the compiler must assume that the numbers of `x` may have changed here.
 template <class X>
 void make_opaque(const X& x) {
 #if defined(__GNUC__)
@@ -59,7 +62,7 @@ void make_opaque(const X& x) {
 #endif
 }
 
-/// `x`, and whatever is in memory, is computed before what follows.
+/// Optimization barrier: `x`, and everything stored to memory, is computed before this point.
 inline void force_evaluation(double x) {
 #if defined(__GNUC__) && defined(__SSE2__)
   asm volatile("" : : "x"(x) : "memory");
@@ -80,8 +83,8 @@ inline void force_evaluation(int x) {
 #endif
 }
 
-/// Whether any operation from the construction up to the answer overflowed or underflowed: then the bounds mean
-/// nothing.
+/// Tells whether an operation overflowed or underflowed between the construction and the completed answer. If one did,
+/// the error bounds are invalid.
 class RangeFlags {
  public:
   template <class... Args>
@@ -118,8 +121,8 @@ class RangeFlags {
 #endif
 };
 
-/// The operations of a kernel in more digits, without bounds: those of Bounded hold for them too, times the
-/// ratio of the unit roundoffs. `M` is the machine's long double where that has 64 digits, or a double-word.
+/// A number of higher precision without error bounds. The error bounds of Bounded hold for the same operations in this
+/// type, multiplied by the ratio of the unit roundoffs. `M` is long double where that has 64 bits, or a double-word.
 template <class Scalar, class M>
 struct HighPrecision {
   M value{};
@@ -160,8 +163,8 @@ struct HighPrecision {
 };
 
 inline constexpr bool has_long_double = std::numeric_limits<long double>::digits == 64;
-inline constexpr double long_double_ratio = 0x1p-11;  // 2^-64 against 2^-53
-inline constexpr double double_word_ratio = 0x1p-46;  // 2^-99 against 2^-53
+inline constexpr double long_double_ratio = 0x1p-11;  // unit roundoff 2^-64 against 2^-53
+inline constexpr double double_word_ratio = 0x1p-46;  // unit roundoff 2^-99 against 2^-53
 inline double rounded(long double x) { return double(x); }
 inline double rounded(const DoubleWord<double>& x) { return x.high; }
 
@@ -172,7 +175,7 @@ struct AnswerOver<S<T>> {
   using Scalar = T;
 };
 
-/// The argument in numbers of type N.
+/// The argument converted to numbers of type N.
 template <class N, class Argument>
 auto widened(const Argument& argument) {
   Rebound<Argument, N> wide{};
@@ -180,7 +183,7 @@ auto widened(const Argument& argument) {
   return wide;
 }
 
-/// A time beyond the largest finite scalar is a miss.
+/// Turns an impact at a time beyond the largest finite scalar into a miss.
 template <class N, class A>
 void miss_beyond_range(A& answer) {
   if constexpr (requires {
@@ -193,8 +196,8 @@ void miss_beyond_range(A& answer) {
   }
 }
 
-/// The largest distance that one number of a member may have from the exact one: half a unit in the last
-/// place of the member's largest number, which leaves another half for rounding.
+/// The largest allowed error of a number before rounding: half a unit in the last place of the largest number of its
+/// member. The final rounding takes at most another half.
 template <class T>
 double allowed_error(double largest) {
   constexpr double least = std::numeric_limits<T>::min();
@@ -204,12 +207,12 @@ double allowed_error(double largest) {
 inline double leading_part(double value) { return value; }
 inline double leading_part(const DoubleWord<double>& value) { return value.high; }
 
-/// How well the numbers of a quantity or an answer are known: well enough as they are, if they are computed again in
-/// long doubles, in double-words, or not even then.
+/// Whether the numbers of a quantity or an answer are accurate enough: as computed, or after a second computation in
+/// long double or in double-words, or not even then.
 enum class Accuracy { insufficient, needs_double_words, needs_long_double, sufficient };
 
-/// Of one quantity (a time, a point, a vector) over Bounded or WideBounded, for T. Infinities and what is exactly a T
-/// are known.
+/// The accuracy of one quantity (a time, a point, a vector) over Bounded or WideBounded, for results in T. An infinity,
+/// and an exact number that T represents, is sufficient.
 template <class T, class Quantity>
 Accuracy accuracy_of_quantity(const Quantity& quantity) {
   double largest = 0, error = 0;
@@ -233,7 +236,7 @@ Accuracy accuracy_of_quantity(const Quantity& quantity) {
   return needed * double_word_ratio <= most ? Accuracy::needs_double_words : Accuracy::insufficient;
 }
 
-/// Of a whole answer. A member without a role of its own consists of several quantities.
+/// The accuracy of a whole answer. A member without a role of its own consists of several quantities.
 template <class T, class A>
 Accuracy accuracy_of(const A& answer, Role role = Role::inherited) {
   if constexpr (Listed<A> || requires { answer.begin(); }) {
@@ -254,9 +257,9 @@ Accuracy accuracy_of(const A& answer, Role role = Role::inherited) {
 
 }  // namespace detail
 
-/// Every decision exact over all finite inputs, every number within two units in the last place of its
-/// scalar (of a vector: of its largest number). The machine must round to nearest. Where memory runs out a query throws
-/// std::bad_alloc, or GMP ends the program.
+/// The tier `Certified`. For all finite inputs each decision is exact, and each number lies within two units in the
+/// last place of the exact one (of a vector: units of its largest number). The processor must round to nearest. If
+/// memory runs out, a query throws std::bad_alloc or GMP terminates the program.
 struct Certified : Plain {
   static constexpr bool never_throws = false;
   template <class T>
@@ -264,19 +267,19 @@ struct Certified : Plain {
   template <class T>
   static constexpr bool computes_in = false;
 
-  /// The same for every query and scalar, without a bound of magnitudes.
+  /// The same contract for every query and scalar, without limits on magnitudes.
   template <class T>
   static constexpr Contract contract(const Contract&) {
     return {.forward = 2, .exact_decisions = true, .unit = 4};
   }
 
-  /// How many answers each stage gave on this thread.
+  /// The number of answers that each stage gave on this thread.
   static StageCounts& counts() {
     static constinit thread_local StageCounts all;
     return all;
   }
 
-  /// An answer that is known by a query's own bound on its error in doubles.
+  /// Counts and returns an answer that a query's own filter decided.
   template <class A>
   static A decided_by_filter(const A& answer) {
     ++counts().filter;
@@ -315,7 +318,7 @@ struct Certified : Plain {
       keep_sign_of_depth(yes, answer);
       return true;
     }
-    if constexpr (std::same_as<T, double>) {  // every decision is known: only more digits are wanted
+    if constexpr (std::same_as<T, double>) {  // every decision is certain: only more digits are needed
       if constexpr (detail::has_long_double) {
         if (accuracy == detail::Accuracy::needs_long_double) {
           in_long_double<T>(yes, answer, kernel, args...);

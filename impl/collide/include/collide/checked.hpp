@@ -1,4 +1,4 @@
-/// Shapes that keep their rules: checked where they enter, plain structs from then on.
+/// Validation of shapes: `checked(shape)` throws where a shape breaks a rule. The queries themselves check nothing.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace collide {
 
-/// Which number of a shape breaks a rule: "box", "half", "y".
+/// The path of a field within a shape: "box", "half", "y".
 class FieldPath {
  public:
   constexpr FieldPath() = default;
@@ -24,7 +24,7 @@ class FieldPath {
 
   static constexpr std::size_t deepest = 8;
 
-  /// The path with one name more; an empty name changes nothing. At most `deepest` names.
+  /// The path extended by one name; an empty name changes nothing. A path holds at most `deepest` names.
   constexpr FieldPath below(std::string_view name) const noexcept {
     FieldPath longer = *this;
     if (!name.empty()) longer.names_[longer.size_++] = name;
@@ -42,11 +42,11 @@ class FieldPath {
   std::size_t size_ = 0;
 };
 
-/// A rule that does not hold.
+/// A field whose value breaks a rule.
 struct BrokenRule {
   FieldPath field;
-  double value;           ///< what the field is
-  std::string_view rule;  ///< what it must be
+  double value;           ///< the value of the field
+  std::string_view rule;  ///< what the value must be
 
   /// "sphere.radius is -1: it must be not negative"
   std::string text() const {
@@ -97,7 +97,7 @@ constexpr bool finite(T x) noexcept {
 
 constexpr std::array<std::string_view, 10> index_names = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
 
-/// How many names the longest path within S has.
+/// The number of names in the longest path within S.
 template <class S>
 constexpr std::size_t depth() noexcept {
   if constexpr (Listed<S>) {
@@ -114,9 +114,9 @@ constexpr std::size_t depth() noexcept {
   }
 }
 
-/// What a field must be by its role alone, after what is within it.
+/// Checks a field against the rule of its role, or against its shape's own rule; its members are checked before.
 template <class S>
-constexpr std::optional<BrokenRule> broken_by_itself(const S& s, const FieldPath& path, Role role) noexcept {
+constexpr std::optional<BrokenRule> broken_own_rule(const S& s, const FieldPath& path, Role role) noexcept {
   if constexpr (MachineNumber<S>) {
     if (!finite(s)) return BrokenRule{path, double(s), "finite"};
     if (role == Role::size && s < S(0)) return BrokenRule{path, double(s), "not negative"};
@@ -139,16 +139,16 @@ constexpr std::optional<BrokenRule> broken_within(const S& s, const FieldPath& p
     static_assert(std::tuple_size_v<S> <= index_names.size());
     for (std::size_t i = 0; i < s.size() && !found; ++i) found = broken_within(s[i], path.below(index_names[i]), role);
   }
-  return found ? found : broken_by_itself(s, path, role);
+  return found ? found : broken_own_rule(s, path, role);
 }
 
 }  // namespace detail
 
-/// The first rule that a shape breaks, or a whole struct of inputs: every number finite, sizes not
-/// negative, directions and quaternions not zero, the corners of an axis-aligned box in order. A number
-/// comes before the shape that holds it.
+/// The first rule that a shape, or a struct of inputs, breaks; nullopt if there is none. The rules: every number is
+/// finite, sizes are not negative, directions and quaternions are not zero, and min <= max in an axis-aligned box.
+/// Members are checked before the shape that contains them.
 ///
-/// `name` is what the field's path begins with.
+/// `name` is the first part of the field's path.
 template <Listed S>
 constexpr std::optional<BrokenRule> broken_rule(const S& s, std::string_view name = detail::name_of_shape<S>) noexcept {
   static_assert(1 + detail::depth<S>() + 1 <= FieldPath::deepest,
@@ -156,16 +156,16 @@ constexpr std::optional<BrokenRule> broken_rule(const S& s, std::string_view nam
   return detail::broken_within(s, FieldPath(name), Role::inherited);
 }
 
-/// The shape itself. Throws std::invalid_argument with one line that names the field, its value and the
-/// rule that it breaks; in a constant expression a broken rule does not compile.
+/// Returns the shape itself. Throws std::invalid_argument if a rule is broken; the message is one line with the field,
+/// its value and the rule. In a constant expression a broken rule does not compile.
 ///
-/// The queries themselves check nothing: build the structs directly where the numbers are known to be right.
+/// The queries check nothing: build the structs directly where the numbers are known to be valid.
 template <Listed S>
 constexpr S checked(const S& s, std::string_view name = detail::name_of_shape<S>) {
   if (const auto broken = broken_rule(s, name)) throw std::invalid_argument(broken->text());
   return s;
 }
-/// A vector that must not be zero: checked_direction(v, "velocity").
+/// Returns the vector; throws std::invalid_argument if it is zero or not finite: checked_direction(v, "velocity").
 template <MachineNumber T>
 constexpr Vec3<T> checked_direction(const Vec3<T>& v, std::string_view name = "direction") {
   if (const auto broken = detail::broken_within(v, FieldPath(name), Role::direction)) {

@@ -1,4 +1,4 @@
-/// The nearest points of two lines.
+/// The closest points of two lines.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -9,15 +9,15 @@
 
 namespace collide {
 
-/// The point of `line1` nearest to `line2`, and the point of `line2` nearest to it. Of parallel lines:
-/// line1.point, and the point of `line2` nearest to that.
+/// The point of `line1` closest to `line2`, and the point of `line2` closest to it. For parallel lines point1 is
+/// line1.point, and point2 is the point of `line2` closest to that. Lines that intersect meet in both points.
 ///
-/// 1. point2 - point1 is at right angles to either direction
+/// 1. point2 - point1 is perpendicular to both directions
 ///
-/// Units: lengths; the lengths of the directions play no part. Never fails. Source: the plane through line 2
-/// along the common normal meets line 1 (Goldman, Intersection of Two Lines in Three-Space, Graphics Gems,
-/// 1990); line 2's point is the foot of the perpendicular from there, so that the two belong together also
-/// where the lines are nearly parallel.
+/// Units: lengths; the lengths of the directions do not matter. Never fails. Non-finite input: unspecified points.
+/// Source: the plane that contains line 2 and the common normal intersects line 1 (Goldman, Intersection of Two Lines
+/// in Three-Space, Graphics Gems, 1990). The point of line 2 is the foot of the perpendicular from there, so the two
+/// points belong together for nearly parallel lines too.
 template <class Tier = Fast, class T>
 [[nodiscard]] ClosestPoints<T> closest_points_lines(const Line<T>& line1,
                                                     const Line<T>& line2) noexcept(Tier::never_throws) {
@@ -26,10 +26,11 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: the common normal carries 3 eps of |direction1| |direction2|,
-/// which turning the lines by 3 eps explains; the share along line 1 carries 10 eps of the lines'
-/// distance across line 2 (at most 4 G), which moving line 2 explains; its division, product and sum 3 eps,
-/// a turn of both lines; the foot on line 2 another 8 eps of the way along it, a turn again.
+/// First order. The common normal has an error of 3 eps of |direction1| |direction2|; rotating the lines by 3 eps
+/// accounts for it. The parameter along line 1 has an error of 10 eps of the distance of the lines, measured across
+/// line 2 (at most 4 G); moving line 2 accounts for it. Its division, product and sum have an error of 3 eps; rotating
+/// both lines accounts for it. The foot on line 2 has an error of another 8 eps of the distance along it; again a
+/// rotation accounts for it.
 template <class Tier = Fast, class T = double>
 constexpr Contract closest_points_lines() {
   return Tier::template contract<T>({.backward = 64, .lowest = lowest_for<T>(4), .highest = highest_for<T>(4)});

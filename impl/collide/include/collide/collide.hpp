@@ -1,4 +1,4 @@
-/// Everything but the tier Certified, which needs GMP and MPFR (certified.hpp).
+/// All of collide except the tier `Certified`, which needs GMP and MPFR (certified.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

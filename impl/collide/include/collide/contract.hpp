@@ -1,42 +1,51 @@
-/// What an implementation promises for a query. Each query has its promise beside its function:
+/// The accuracy that an implementation promises for a query. Each query has its contract beside its declaration:
 /// `contracts::moving_sphere_plane<Accurate, float>()`.
+///
+/// The derivations beside the contracts use these terms:
+///
+/// - `eps` is the unit roundoff of the scalar: 2^-24 for float, 2^-53 for double. It is half of
+///   std::numeric_limits<T>::epsilon().
+/// - "A value has an error of k eps of X" means: the computed value differs from the exact one by at most k eps |X|.
+/// - "First order" means: terms in eps^2 are left out. Every bound is rounded up to cover them.
+/// - "Moving the point accounts for an error" means: the computed value is the exact value for a point moved by as
+///   much. Such an error counts in `backward`.
+/// - G is the largest magnitude among the positions of the input.
 #pragma once
 
 #include <limits>
 
 namespace collide {
 
-/// A promise; infinity promises nothing. `epsilon` is the unit roundoff of the implementation's
-/// scalar: 2^-24 for float, 2^-53 for double.
+/// The bounds that an implementation promises; infinity promises nothing.
 ///
-/// The tiers of this library promise one thing more, which is about operations and not about answers: where no
-/// operation of a query's kernel rounds, the decision, touches included, and all numbers are the exact ones.
+/// The tiers of this library also promise: where no operation of a query's kernel rounds, the decision (touches
+/// included) and all numbers are exact.
 struct Contract {
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// The answer is, to one unit in the last place of each number, an exact answer for some input
-  /// whose numbers differ by at most `backward * epsilon * (largest magnitude in the same group)`.
+  /// Each answer is an exact answer, up to one unit in the last place of each number, for some input whose numbers
+  /// differ from the given ones by at most `backward * eps * (largest magnitude in the same group)`. A group is all
+  /// numbers of one role (members.hpp).
   double backward = none;
   /// Each number of the answer lies within this many units in the last place of an exact one.
   double forward = none;
-  /// The yes or no is the exact one.
+  /// The decision (yes or no) is exact.
   bool exact_decisions = false;
-  /// Returned unit vectors have a length within `unit * epsilon` of 1.
+  /// The length of each returned unit vector lies within `unit * eps` of 1.
   double unit = none;
-  /// The promise covers inputs where the largest magnitude of each group (positions, velocities, sizes,
-  /// directions, rotations, times, offsets) is zero or lies in [2^lowest, 2^highest]; the largest number of each
-  /// direction and of each rotation lies there by itself.
+  /// The domain of the contract: in each group the largest magnitude is zero or lies in [2^lowest, 2^highest]. For
+  /// directions and rotations, the largest number of each single one must lie in that range.
   int lowest = -1100;
   int highest = 1100;
 };
 
-/// The largest power of two whose `degree`-fold product is finite in T, with room for a few sums.
+/// The exponent of the largest power of two whose `degree`-fold product is finite in T, with room for a few sums.
 template <class T>
 constexpr int highest_for(int degree) {
   return (std::numeric_limits<T>::max_exponent - 5) / degree;
 }
-/// The least power of two whose `degree`-fold product, and its rounding error, and the error's own
-/// rounding, are normal numbers of T.
+/// The exponent of the least power of two whose `degree`-fold product is a normal number of T, as are its rounding
+/// error and the rounding error of that error.
 template <class T>
 constexpr int lowest_for(int degree) {
   return (std::numeric_limits<T>::min_exponent + 2 * std::numeric_limits<T>::digits) / degree;

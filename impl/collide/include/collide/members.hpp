@@ -1,7 +1,8 @@
-/// The members of a plain struct, listed once: serialization, checks and drawings can be derived from the list.
+/// The members of a plain struct, listed once: serialization, checks and drawing code can use the list.
 ///
-/// A listed struct has `static constexpr auto members()`, a tuple of `member(name, pointer, role)` in the order of
-/// declaration. A number without a role of its own (the x of a vector) takes the role of the member that holds it.
+/// A listed struct has `static constexpr auto members()`, which returns a tuple of `member(name, pointer, role)` in
+/// declaration order. A number without its own role (such as the x of a vector) takes the role of the member that
+/// contains it.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace collide {
 
-/// What a number stands for. The numbers of an input that have one role form a group: a contract measures an error by
-/// the largest number of its group (contract.hpp).
+/// The meaning of a number. All numbers of an input with the same role form a group; a contract measures an error
+/// relative to the largest number of its group (contract.hpp).
 enum class Role {
   inherited,  ///< the role of the enclosing member
   position,   ///< length, from the origin
@@ -21,8 +22,8 @@ enum class Role {
   rotation,   ///< a quaternion x, y, z, w of any length, not zero
   time,       ///< displacement = velocity * time
   offset,     ///< of a plane: the length of its normal times a length, signed
-  normal,     ///< a unit vector
-  depth,      ///< length, negative when apart
+  normal,     ///< part of a unit vector
+  depth,      ///< length, negative when the shapes are apart
   weight,     ///< dimensionless, barycentric
   flag,       ///< true or false
   index,      ///< a small integer

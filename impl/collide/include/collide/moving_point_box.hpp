@@ -1,4 +1,4 @@
-/// When and where a moving point enters a box.
+/// The time and place at which a moving point enters a box.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,14 +11,16 @@ namespace collide {
 
 /// The entry of `point`, moving by `velocity` per unit of time, into the solid `box`.
 ///
-/// A start strictly inside is a miss. A start on the surface is a contact at time 0 unless the point
-/// leaves: unless velocity points away from every face on which it lies. From outside, touching counts.
+/// A start strictly inside is a miss. A start on the surface is a contact at time 0 unless the point leaves, that is
+/// unless velocity points away from every face on which the start lies. From outside, touching is a hit. A box with a
+/// half extent of 0 has no inside.
 ///
 /// 1. location == point + velocity * time (exactly, in real numbers), on the surface of the box
-/// 2. normal is an outward normal of a face on which location lies
+/// 2. normal is the outward unit normal of a face on which location lies
 ///
-/// Source: in the box's frame, the face planes in front of the start, the last one reached (Woo, Fast
-/// Ray-Box Intersection, in Graphics Gems, 1990).
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: in the box's
+/// frame, of the face planes that the start is in front of, the one reached last (Woo, Fast Ray-Box Intersection, in
+/// Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity,
                                          const Box<T>& box) noexcept(Tier::never_throws) {
@@ -27,9 +29,9 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: an axis carries 16 eps (7 in each product of the quaternion, at
-/// most two of them, and the sums), so a coordinate in the box frame 19 eps of the distance, which is at
-/// most 4 G; the way to the face and back to the world adds 12 eps of 4 G at most.
+/// First order. An axis has an error of 16 eps (7 in each product of the quaternion, at most two of them, and the
+/// sums). So a coordinate in the box's frame has an error of 19 eps of the distance, which is at most 4 G. The motion
+/// to the face and the transformation to the world add at most 12 eps of 4 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_box() {
   return Tier::template contract<T>(

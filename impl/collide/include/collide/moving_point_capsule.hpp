@@ -1,4 +1,4 @@
-/// When and where a moving point enters a capsule.
+/// The time and place at which a moving point enters a capsule.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,16 +11,17 @@ namespace collide {
 
 /// The entry of `point`, moving by `velocity` per unit of time, into the solid `capsule`.
 ///
-/// A start strictly inside is a miss. A start on the surface is a contact at time 0 unless the point
-/// leaves: unless the normal there . velocity > 0. From outside, touching counts. A capsule of radius 0 is
-/// a segment, all of it surface.
+/// A start strictly inside is a miss. A start on the surface is a contact at time 0 unless the point leaves, that is
+/// unless normal . velocity > 0 there. From outside, touching is a hit. A capsule of radius 0 is a segment, and all its
+/// points are on its surface. A capsule with p0 == p1 is a ball.
 ///
 /// 1. location == point + velocity * time (exactly, in real numbers), at the distance radius from the axis
-/// 2. normal points from the axis to location; for radius 0 it is at a right angle to the axis, and not along the
-/// motion
+/// 2. normal points from the axis to location; for radius 0 it is perpendicular to the axis, with
+///    normal . velocity <= 0
 ///
-/// Source: in the plane across the axis the endless tube is a circle; where the point enters it beyond an
-/// end, the ball around that end counts.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: in the plane
+/// perpendicular to the axis the infinite cylinder is a circle; if the point enters the cylinder beyond an end, the
+/// ball at that end decides.
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity,
                                              const Capsule<T>& capsule) noexcept(Tier::never_throws) {
@@ -29,9 +30,9 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: the axis carries 4 eps, a coordinate along it 8 eps of a distance of
-/// at most 4 G, what is left beside it 10 eps; the closest approach 9 eps of the same distance, its square
-/// and the radius 4 eps more; the way back along the axis 9 eps of 2 G.
+/// First order. The axis has an error of 4 eps. The coordinate along it has an error of 8 eps of a distance of at most
+/// 4 G, the rest perpendicular to it 10 eps. The closest approach has an error of 9 eps of the same distance, its
+/// square and the radius 4 eps more. The position along the axis adds 9 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_capsule() {
   return Tier::template contract<T>(

@@ -1,4 +1,4 @@
-/// When and where a moving point meets a sphere.
+/// The time and place at which a moving point hits a sphere.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,17 +11,18 @@ namespace collide {
 
 /// The first contact of `point`, moving by `velocity` per unit of time, with `sphere`.
 ///
-/// Solid: a start inside or on the surface is a contact at time 0, located at the point, the normal
-/// from the center. Not solid: such a start gives the exit, the last time at which the point is on
-/// the surface. From outside: the entry; touching counts. Zero velocity is a miss, but for a solid
-/// start inside.
+/// With `solid`, a start inside or on the surface is a contact at time 0 at the point itself; the normal points from
+/// the center to the point. Without `solid`, such a start gives the exit: the last time at which the point is on the
+/// surface. From outside the contact is the entry; a tangent is a hit. Zero velocity is a miss, except for a start
+/// inside with `solid`.
 ///
-/// 1. |location - center| == radius, but for a solid start inside
-/// 2. normal == (location - center) / |location - center|; at the center, of a solid or a sphere of radius 0, it is
-///    against the motion
+/// 1. |location - center| == radius, except for a start inside with `solid`
+/// 2. normal == (location - center) / |location - center|; if location == center (a solid, or radius 0) it is opposite
+///    to velocity (any unit vector if that is zero)
 ///
-/// Source: the discriminant as the distance of the center from the line of motion (Haines, Guenther,
-/// Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, 2019).
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the discriminant
+/// computed from the distance between the center and the line of motion (Haines, Guenther, Akenine-Moeller, Precision
+/// Improvements for Ray/Sphere Intersection, 2019).
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                                             bool solid) noexcept(Tier::never_throws) {
@@ -30,9 +31,8 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: center to point is known to 2 eps G per axis; the closest
-/// approach carries 9 eps of that distance (at most 4 G), its square and the radius 4 eps more; the
-/// location 2 eps of 4 G.
+/// First order. The vector from center to point has an error of 2 eps of G per axis. The closest approach has an error
+/// of 9 eps of that distance (at most 4 G), its square and the radius 4 eps more, the location 2 eps of 4 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_sphere() {
   return Tier::template contract<T>(

@@ -1,4 +1,4 @@
-/// When and where a moving point meets a one-sided triangle that is asked about many times.
+/// The time and place at which a moving point hits a one-sided triangle, for a prepared triangle.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -10,13 +10,15 @@
 
 namespace collide {
 
-/// What `moving_point_triangle` answers, from a triangle whose normal and edges are known.
+/// The same as `moving_point_triangle`, for a triangle whose edges and normal were computed before
+/// (`prepare_triangle`).
 ///
 /// 1. location == point + velocity * time (exactly, in real numbers)
 /// 2. normal == n / |n|
 ///
-/// Source: Cramer's rule in the edges' frame, with the edges' cross product known (Moeller, Trumbore, Fast,
-/// Minimum Storage Ray/Triangle Intersection, 1997).
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: Cramer's rule in
+/// the frame of the edges, with their cross product known (Moeller, Trumbore, Fast, Minimum Storage Ray/Triangle
+/// Intersection, 1997).
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_point_triangle_prepared(
     const Vec3<T>& point, const Vec3<T>& velocity, const PreparedTriangle<T>& prepared) noexcept(Tier::never_throws) {
@@ -25,10 +27,10 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: edges and the way from v0 are known to 1 eps of 2 G; the normal and
-/// the moment carry 3 eps more in each product, the dot products 3 eps: corners and point move by at most
-/// 2 + 3 + 3 eps of 2 G for the plane, and again for the edges, and the third edge 3 eps of the sum; the
-/// location adds 2 eps of 2 G. The velocity takes 3 eps of its own.
+/// First order. The edges and the vector from v0 to the point have an error of 1 eps of 2 G. The normal and the moment
+/// add 3 eps in each product, the dot products 3 eps. Moving the corners and the point by at most 2 + 3 + 3 eps of 2 G
+/// accounts for these, once for the plane and once for the edges; the third edge takes 3 eps of the sum. The location
+/// adds 2 eps of 2 G. The velocity takes 3 eps of its own.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_triangle_prepared() {
   return Tier::template contract<T>(

@@ -1,4 +1,4 @@
-/// When and where a moving sphere meets a capsule.
+/// The time and place at which a moving sphere hits a capsule.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,17 +11,18 @@ namespace collide {
 
 /// The first contact of `sphere`, moving by `velocity` per unit of time, with the solid `capsule`.
 ///
-/// An overlap at the start is a contact at time 0; so is a touch at the start unless the sphere
-/// leaves. A sphere of radius 0 whose center starts strictly inside never comes from outside: a miss.
-/// Location is the point of the capsule nearest to the center at that time or, for a center inside the
-/// capsule, the nearest point of its surface.
+/// An overlap at the start is a contact at time 0. A touch at the start is a contact at time 0 unless the sphere moves
+/// away. A sphere of radius 0 whose center starts strictly inside is a miss: it does not come from outside. The
+/// location is the point of the capsule closest to the center at the time of contact or, for a center inside the
+/// capsule, the closest point of its surface. A capsule of radius 0 is a segment; with p0 == p1 it is a ball.
 ///
-/// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from the capsule's axis to the center; for a center on the axis it is at a right angle to it, and
-///    not along the motion
+/// 1. |center + velocity * time - location| == radius, except for an overlap at the start
+/// 2. normal points from the capsule's axis to the center; for a center on the axis it is perpendicular to the axis,
+///    with normal . velocity <= 0
 ///
-/// Source: the center meets a capsule with both radii. In the plane across the axis the endless tube is a
-/// circle; where the center enters it beyond an end, the ball around that end counts.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the center moves
+/// as a point against a capsule with the sum of the radii. In the plane perpendicular to the axis the infinite cylinder
+/// is a circle; if the center enters the cylinder beyond an end, the ball at that end decides.
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                               const Capsule<T>& capsule) noexcept(Tier::never_throws) {
@@ -30,9 +31,9 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: the axis carries 4 eps, a coordinate along it 8 eps of a distance of
-/// at most 4 G, what is left beside it 10 eps; the closest approach 9 eps of the same distance, its square
-/// and the sum of the radii 5 eps more; the way back along the axis 9 eps of 2 G.
+/// First order. The axis has an error of 4 eps. The coordinate along it has an error of 8 eps of a distance of at most
+/// 4 G, the rest perpendicular to it 10 eps. The closest approach has an error of 9 eps of the same distance, its
+/// square and the sum of the radii 5 eps more. The position along the axis adds 9 eps of 2 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_capsule() {
   return Tier::template contract<T>(

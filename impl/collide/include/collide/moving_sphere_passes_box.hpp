@@ -9,15 +9,16 @@
 
 namespace collide {
 
-/// Whether `sphere`, moving by `velocity` per unit of time, touches or overlaps the solid `box` at some time
-/// from 0 to `limit`, both included; `limit` may be +infinity. A touch at the start counts, also of a
-/// sphere that leaves.
+/// Whether `sphere`, moving by `velocity` per unit of time, touches or overlaps the solid `box` at some time from 0 to
+/// `limit`, both included. `limit` is not negative and may be +infinity. A touch at the start counts, even if the
+/// sphere moves away.
 ///
-/// 1. yes exactly when the distance from the box to the segment of the center's motion is at most the radius
+/// 1. yes() exactly when the distance between the box and the path of the center is at most the radius
 ///
-/// Source: in the box's frame the squared distance of the center is a convex function of time, whose slope
-/// is linear between the at most six times at which a coordinate crosses a face plane; it is least where the
-/// slope crosses zero, or at an end.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: no. Source: in the box's frame
+/// the squared distance of the center is a convex function of time. Its slope is linear between the at most six times
+/// at which a coordinate crosses a face plane. The distance is least where the slope crosses zero, or at an end of the
+/// time interval.
 template <class Tier = Fast, class T>
 [[nodiscard]] Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box,
                                                    T limit) noexcept(Tier::never_throws) {
@@ -26,9 +27,9 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: a coordinate in the box frame carries 19 eps of the distance, at
-/// most 4 G; one at the nearest time 3 eps more, and the distance itself 3 eps. An error of that time is
-/// of no first order where the slope is zero, and 2 eps of the limit at its end.
+/// First order. A coordinate in the box's frame has an error of 19 eps of the distance, at most 4 G. A coordinate at
+/// the time of the least distance has 3 eps more, and the distance itself 3 eps. An error in that time has no
+/// first-order effect, since the slope is zero there; at the limit it is 2 eps of the limit.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_passes_box() {
   return Tier::template contract<T>({.backward = 128, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});

@@ -1,4 +1,4 @@
-/// Whether a moving sphere comes to a fixed one within a time limit.
+/// Whether a moving sphere touches a fixed one within a time.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -9,12 +9,12 @@
 
 namespace collide {
 
-/// Whether `sphere`, moving by `velocity` per unit of time, meets the solid sphere `fixed` at some time from 0
-/// to `limit`, both included; limit may be +infinity.
+/// Whether `sphere`, moving by `velocity` per unit of time, touches or overlaps the solid sphere `fixed` at some time
+/// from 0 to `limit`, both included. `limit` may be +infinity; a negative limit gives no. A touch counts at any time,
+/// even if the sphere moves away.
 ///
-/// Touching counts, at any time and in whatever direction the sphere moves.
-///
-/// Source: the least distance of the centers over the motion, a segment or a ray.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: no. Source: the least distance
+/// of the centers over the path, which is a segment or a ray.
 template <class Tier = Fast, class T>
 [[nodiscard]] Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                       const Sphere<T>& fixed,
@@ -24,9 +24,9 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
-/// carries 9 eps of that distance (at most 4 G), the way to the limit less; the squares 4 eps of the sum of
-/// the radii.
+/// First order. The vector between the centers has an error of 2 eps of G per axis. The closest approach has an error
+/// of 9 eps of that distance (at most 4 G); the position at the limit has less. The squares have an error of 4 eps of
+/// the sum of the radii.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_passes_sphere() {
   return Tier::template contract<T>({.backward = 64, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});

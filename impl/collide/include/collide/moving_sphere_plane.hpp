@@ -1,4 +1,4 @@
-/// When and where a moving sphere meets a one-sided plane.
+/// The time and place at which a moving sphere hits a one-sided plane.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,13 +11,15 @@ namespace collide {
 
 /// The first contact of `sphere`, moving by `velocity` per unit of time, with the front of `plane`.
 ///
-/// A contact needs normal . velocity <= 0 and a sphere that does not start wholly behind the plane. A sphere
-/// that reaches both sides, or touches the plane, is a contact at time 0.
+/// A contact requires normal . velocity <= 0, and that the sphere does not start wholly behind the plane. A sphere that
+/// intersects or touches the plane at the start is a contact at time 0. A sphere in front that does not approach is a
+/// miss.
 ///
-/// 1. location is the point of the plane nearest to the center at that time
+/// 1. location is the point of the plane closest to the center at that time
 /// 2. normal == plane.normal / |plane.normal|
 ///
-/// Source: the height of the center above the plane, linear in time.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the height of
+/// the center above the plane, which is linear in time.
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                             const Plane<T>& plane) noexcept(Tier::never_throws) {
@@ -26,11 +28,11 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order: the height is that of a center whose coordinates moved by 4 eps each, over a plane whose
-/// offset moved by 1 eps; the reach that of a radius moved by 7 eps, and their difference 1 eps more; the
-/// approach that of a velocity moved by 3 eps, 1 eps more for the quotient. The location adds 4 eps of the
-/// way and 4 eps of the radius; the way is at most as long as center and contact together. A unit normal
-/// carries 4 eps, which turns the plane.
+/// First order. The computed height is that of a center whose coordinates are moved by 4 eps each, above a plane whose
+/// offset is changed by 1 eps. The radius times |normal| is that of a radius changed by 7 eps, and the difference of
+/// the two adds 1 eps. The computed approach speed is that of a velocity changed by 3 eps, and the quotient adds 1 eps.
+/// The location adds 4 eps of the displacement and 4 eps of the radius; the displacement is at most as long as center
+/// and contact together. The unit normal has an error of 4 eps, which rotates the plane.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_plane() {
   return Tier::template contract<T>(

@@ -1,4 +1,4 @@
-/// When and where a moving sphere meets a one-sided rectangle.
+/// The time and place at which a moving sphere hits a one-sided rectangle.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -9,14 +9,16 @@
 
 namespace collide {
 
-/// The first contact of `sphere`, moving by `velocity` per unit of time, with `rectangle`: the earlier of
-/// those with its two triangles v0, v1, v2 and v0, v2, v3, each of which is met only from its front
-/// (moving_sphere_triangle). Of equally early ones it is either.
+/// The first contact of `sphere`, moving by `velocity` per unit of time, with `rectangle`: the earlier contact with its
+/// two triangles v0, v1, v2 and v0, v2, v3. Each triangle is hit only from its own front, under the conditions of
+/// moving_sphere_triangle, which also states touching and degenerate cases. If both are hit at the same time, the
+/// result is either.
 ///
-/// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from location to the center; where the center is on the rectangle it is an outward one
+/// 1. |center + velocity * time - location| == radius, except for an overlap at the start
+/// 2. normal points from location to the center; for a center on the rectangle it is an outward normal
 ///
-/// Source: moving_sphere_triangle, twice.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
+/// moving_sphere_triangle, twice.
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                 const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
@@ -25,8 +27,8 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// As moving_sphere_triangle: both triangles are explained by the same moves of the sphere's numbers, of
-/// their own corners, and of the two that they share, twice as many.
+/// As moving_sphere_triangle. The same changes of the sphere's numbers account for the errors of both triangles, as do
+/// changes of each triangle's own corner. The two common corners are moved for both triangles, by twice as much.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_rectangle() {
   return Tier::template contract<T>(

@@ -1,4 +1,4 @@
-/// When and where a moving sphere meets a fixed one.
+/// The time and place at which a moving sphere hits a fixed one.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,14 +11,16 @@ namespace collide {
 
 /// The first contact of `sphere`, moving by `velocity` per unit of time, with the solid sphere `fixed`.
 ///
-/// An overlap at the start is a contact at time 0; so is a touch at the start unless the sphere
-/// leaves. A sphere of radius 0 whose center starts strictly inside never comes from outside: a miss.
-/// Location is the point of the fixed sphere's surface nearest to the moving center at that time.
+/// An overlap at the start is a contact at time 0. A touch at the start is a contact at time 0 unless the sphere moves
+/// away. A sphere of radius 0 whose center starts strictly inside is a miss: it does not come from outside. The
+/// location is the point of the fixed sphere's surface closest to the moving center at the time of contact.
 ///
 /// 1. |location - fixed.center| == fixed.radius
-/// 2. normal points from the fixed center to the moving one; where they are the same it is against the motion
+/// 2. normal points from the fixed center to the moving one; if the centers coincide it is opposite to velocity (any
+/// unit vector if that is zero)
 ///
-/// Source: a point that meets a ball with both radii.
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the center moves
+/// as a point against a ball with the sum of the radii.
 template <class Tier = Fast, class T>
 [[nodiscard]] Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                              const Sphere<T>& fixed) noexcept(Tier::never_throws) {
@@ -27,9 +29,8 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: center to center is known to 2 eps G per axis; the closest approach
-/// carries 9 eps of that distance (at most 4 G), its square and the sum of the radii 5 eps more; the
-/// location 2 eps of 4 G.
+/// First order. The vector between the centers has an error of 2 eps of G per axis. The closest approach has an error
+/// of 9 eps of that distance (at most 4 G), its square and the sum of the radii 5 eps more, the location 2 eps of 4 G.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_sphere() {
   return Tier::template contract<T>(

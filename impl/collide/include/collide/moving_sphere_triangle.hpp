@@ -1,4 +1,4 @@
-/// When and where a moving sphere meets a one-sided triangle.
+/// The time and place at which a moving sphere hits a one-sided triangle.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -11,22 +11,22 @@ namespace collide {
 
 /// The first contact of `sphere`, moving by `velocity` per unit of time, with `triangle`.
 ///
-/// With n = (v1 - v0) x (v2 - v0), a sphere that moves against n, n . velocity > 0, or starts wholly behind
-/// the plane, n . (center - v0) < -radius |n|, misses. Otherwise it meets the closed triangle, its edges and
-/// vertices too: an overlap at the start is a contact at time 0, so is a touch unless the sphere leaves.
-/// A triangle without area is a segment or a point and has no back. Location is the triangle's point
-/// nearest to the center at that time, `weights` are its barycentric coordinates.
+/// With n = (v1 - v0) x (v2 - v0), a sphere that moves along n (n . velocity > 0) or starts wholly behind the plane
+/// (n . (center - v0) < -radius |n|) is a miss. Otherwise it can hit the closed triangle: the face, edges and vertices.
+/// An overlap at the start is a contact at time 0. A touch at the start is a contact at time 0 unless the sphere moves
+/// away. A triangle without area is a segment or a point and can be hit from all sides. The location is the point of
+/// the triangle closest to the center at the time of contact; `weights` are its barycentric coordinates.
 ///
-/// 1. |center + velocity * time - location| == radius, but for an overlap at the start
-/// 2. normal points from location to the center; where the center is on the triangle it is an outward one, and not
-/// along
-///    the motion
+/// 1. |center + velocity * time - location| == radius, except for an overlap at the start
+/// 2. normal points from location to the center; for a center on the triangle it is an outward normal with
+///    normal . velocity <= 0
 /// 3. location == weights.x v0 + weights.y v1 + weights.z v2, weights.x + weights.y + weights.z == 1
 ///
-/// Source: the points within the radius of a triangle are a prism over its face, a cylinder about each edge
-/// and a ball about each vertex; the first contact is the first entry into any of them (Ericson, Real-Time
-/// Collision Detection, 5.5.3, the sphere swept against features). Each cylinder is cut where its edge ends, no ball
-/// is, so nothing passes between the parts.
+/// Units: lengths; velocity is length per unit of time; weights have none. Never fails. Non-finite input: a miss.
+/// Source: the points within the radius of a triangle are the union of a prism over its face, a cylinder about each
+/// edge and a ball about each vertex; the first contact is the first entry into any of them (Ericson, Real-Time
+/// Collision Detection, 5.5.3, the sphere swept against features). Each cylinder ends where its edge ends and each ball
+/// is whole, so nothing passes between the parts.
 template <class Tier = Fast, class T>
 [[nodiscard]] TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                        const Triangle<T>& triangle) noexcept(Tier::never_throws) {
@@ -35,10 +35,11 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: the center seen from a corner and an edge are known to 2 eps of G,
-/// at most 2 G long; a unit edge adds 5 eps, a moment 5 eps of 4 G^2 and the speed, the root of the chord
-/// half of 8 eps, the way to the contact 3 eps of 4 G and the location 4 eps of 2 G more; the face's
-/// normal takes 5 eps of the edges, its weights as much again: 64 eps together. Unit: a root of three squares.
+/// First order. The center relative to a corner, and an edge, have an error of 2 eps of G and are at most 2 G long. A
+/// unit edge adds 5 eps, and a moment 5 eps of 4 G^2 and the speed. The root of the chord has an error of half of
+/// 8 eps. The displacement to the contact adds 3 eps of 4 G, the location 4 eps of 2 G. The normal of the face has an
+/// error of 5 eps of the edges, and its weights as much again. In all 64 eps. Unit: the square root of a sum of three
+/// squares.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_triangle() {
   return Tier::template contract<T>(

@@ -1,8 +1,8 @@
-/// Prepared inputs: a shape with values that a query derives from it, computed once for many calls.
+/// Prepared inputs: a shape together with values that a query derives from it, computed once for many calls.
 ///
-/// One convention holds for all: `prepare_SHAPE<Tier>(shape)` returns a `PreparedSHAPE`, which takes the place of the
-/// shape among the arguments of the query, in the tier that prepared it. A prepared shape saves time and never changes
-/// the answer in real numbers. Of a pair of boxes the prepared form is BoxBoxInfo, by box_box_info.
+/// All follow one convention: `prepare_SHAPE<Tier>(shape)` returns a `PreparedSHAPE`, which replaces the shape among
+/// the arguments of a query. Use it in the tier that prepared it. Preparation saves time and does not change the answer
+/// in real numbers. The prepared form of a pair of boxes is BoxBoxInfo, made by box_box_info.
 #pragma once
 
 #include <collide/detail/contact.hpp>
@@ -15,7 +15,7 @@
 
 namespace collide {
 
-/// A segment with its unit direction (zero for a point) and its length: made once, asked often.
+/// A segment with its unit direction (zero for a point) and its length; made by `prepare_segment`.
 template <class T>
 struct PreparedSegment {
   Segment<T> segment{};
@@ -29,11 +29,12 @@ template <class Tier = Fast, class T>
   return {segment, unit<Tier>(along), length(components(along))};
 }
 
-/// A triangle with the unit directions (zero for a point) and lengths of its edges: made once, asked often.
+/// A triangle with the unit directions (zero for an edge of length 0) and the lengths of its edges; made by
+/// `prepare_triangle_edges`.
 template <class T>
 struct PreparedTriangleEdges {
   Triangle<T> triangle{};
-  std::array<Vec3<T>, 3> direction{};  ///< of edge i, from v[i] to v[(i + 1) % 3]
+  std::array<Vec3<T>, 3> direction{};  ///< direction of edge i, from v[i] to v[(i + 1) % 3]
   std::array<T, 3> length{};
 };
 
@@ -50,12 +51,12 @@ template <class Tier = Fast, class T>
   return edges;
 }
 
-/// A triangle with what `moving_point_triangle_prepared` needs of it; made by `prepare_triangle`.
+/// A triangle with the edges and the normal that `moving_point_triangle_prepared` needs; made by `prepare_triangle`.
 template <class T>
 struct PreparedTriangle {
   Triangle<T> triangle{};
   Vec3<T> edge1{}, edge2{};  ///< from v0 to v1 and to v2
-  Vec3<T> normal{};          ///< edge1 x edge2, as long as twice the area
+  Vec3<T> normal{};          ///< edge1 x edge2; its length is twice the area
   Vec3<T> unit_normal{};     ///< normal / |normal|; zero for a triangle without area
 };
 
@@ -66,12 +67,12 @@ template <class Tier = Fast, class T>
   return {triangle, edge1, edge2, normal, unit<Tier>(normal)};
 }
 
-/// A ray that is asked about many boxes; made by `prepare_ray`. One that is not finite starts at -infinity: it meets
-/// nothing.
+/// A ray with the inverse of its direction, for tests against many boxes; made by `prepare_ray`. A ray with a number
+/// that is not finite is stored with its origin at -infinity, so that it hits nothing.
 template <class T>
 struct PreparedRay {
   Ray<T> ray{};
-  Vec3<T> inverse{};  ///< 1 / direction in each coordinate, at most the largest number; +infinity for 0
+  Vec3<T> inverse{};  ///< 1 / direction in each coordinate, clamped to finite numbers; +infinity for 0
 };
 
 template <class Tier = Fast, class T>
@@ -83,15 +84,15 @@ template <class Tier = Fast, class T>
     const auto inverse = [](T x) { return x == T(0) ? infinity : clamped(T(1) / x, -limits::max(), limits::max()); };
     return {ray, {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)}};
   } else {
-    const auto inverse = [](const T& x) { return x == T(0) ? T(0) : T(T(1) / x); };  // 0 is not used
+    const auto inverse = [](const T& x) { return x == T(0) ? T(0) : T(T(1) / x); };  // the 0 is never used
     return {ray, {inverse(ray.direction.x), inverse(ray.direction.y), inverse(ray.direction.z)}};
   }
 }
 
-/// A box that is asked about many rays; made by `prepare_aabox`.
+/// An axis-aligned box for tests against many rays; made by `prepare_aabox`.
 template <class T>
 struct PreparedAABox {
-  AABox<T> aabox{};  ///< its six numbers +infinity where one of them is not finite: nothing meets it
+  AABox<T> aabox{};  ///< if a number is not finite, all six are +infinity, so that no ray hits the box
 };
 
 template <class Tier = Fast, class T>

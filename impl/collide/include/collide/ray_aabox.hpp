@@ -1,4 +1,4 @@
-/// Whether and where a ray meets an axis-aligned box.
+/// Whether and where a ray hits an axis-aligned box.
 #pragma once
 
 #include <collide/answers.hpp>
@@ -10,13 +10,15 @@
 
 namespace collide {
 
-/// Whether `ray` meets the closed `aabox`, and where it enters. A ray that starts in the box meets it there.
+/// Whether `ray` hits the closed `aabox`, and where it enters. Ray and box are prepared: prepare_ray(ray),
+/// prepare_aabox(aabox). A ray that starts in the box hits it at its origin. Touching is a hit.
 ///
 /// 1. location == origin + direction * t for some t >= 0 (exactly, in real numbers), a point of the box
 /// 2. inside exactly when the origin is in the box; then location == origin
 ///
-/// The inverse saves divisions and never changes the answer. Source: the face planes in front of the origin, the
-/// last one reached (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
+/// Preparation saves divisions and does not change the answer. Units: lengths; the length of the direction does not
+/// matter. Never fails. Non-finite input: a miss. Source: of the face planes that the origin is in front of, the one
+/// reached last (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
 [[nodiscard]] RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept(Tier::never_throws) {
   return kernels::ray_aabox<Tier>(ray, box);
@@ -24,8 +26,9 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: a gap is known to 1 eps of 2 G, inverse and product add 1 eps each,
-/// product and sum 1 eps each of a way of at most 2 G. Origin and faces move by 5 * 2 eps G at most.
+/// First order. A gap has an error of 1 eps of 2 G. Inverse and product add 1 eps each; product and sum of the location
+/// add 1 eps each of a displacement of at most 2 G. Moving the origin and the faces by at most 5 * 2 eps of G accounts
+/// for all.
 template <class Tier = Fast, class T = double>
 constexpr Contract ray_aabox() {
   return Tier::template contract<T>({.backward = 10, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});

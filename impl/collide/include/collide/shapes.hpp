@@ -1,4 +1,5 @@
-/// Shapes: plain structs of numbers, each with the set it denotes. All solids are closed.
+/// Shapes: plain structs of numbers, each with the point set that it denotes. All solids are closed: they contain their
+/// surface.
 #pragma once
 
 #include <optional>
@@ -7,14 +8,14 @@
 
 namespace collide {
 
-/// A rule of a shape that its numbers break.
+/// A rule that a shape's numbers violate.
 struct Broken {
-  const char* member;  ///< which member
-  const char* rule;    ///< what it must be
-  double value;        ///< what it is
+  const char* member;  ///< the member with the wrong value
+  const char* rule;    ///< what the value must be
+  double value;        ///< the value
 };
 
-/// The segment from v0 to v1; v0 == v1 is a point.
+/// The segment from v0 to v1; a point where v0 == v1.
 template <class T>
 struct Segment {
   Vec3<T> v0{}, v1{};
@@ -24,7 +25,7 @@ struct Segment {
   }
 };
 
-/// The line through point along direction, a vector of any length but zero.
+/// The line through `point` along `direction`, which is not zero and need not have unit length.
 template <class T>
 struct Line {
   Vec3<T> point{};
@@ -36,7 +37,7 @@ struct Line {
   }
 };
 
-/// The points origin + direction * t, t >= 0; direction is of any length but zero.
+/// The points origin + direction * t with t >= 0; `direction` is not zero and need not have unit length.
 template <class T>
 struct Ray {
   Vec3<T> origin{};
@@ -48,7 +49,8 @@ struct Ray {
   }
 };
 
-/// { x : normal . x + offset = 0 }, normal of any length but zero; in front, normal . x + offset > 0.
+/// The points x with normal . x + offset = 0. The front is where normal . x + offset > 0. `normal` is not zero and need
+/// not have unit length.
 template <class T>
 struct Plane {
   Vec3<T> normal{T(0), T(0), T(1)};
@@ -60,7 +62,8 @@ struct Plane {
   }
 };
 
-/// The convex hull of three points, seen from the side to which (v1 - v0) x (v2 - v0) points.
+/// The convex hull of three points. The front is the side to which (v1 - v0) x (v2 - v0) points: from there the
+/// vertices run counterclockwise. Three points on one line are a segment or a point.
 template <class T>
 struct Triangle {
   Vec3<T> v0{}, v1{}, v2{};
@@ -71,8 +74,8 @@ struct Triangle {
   }
 };
 
-/// The union of the triangles v0, v1, v2 and v0, v2, v3: a rectangle where the four are its corners in
-/// order. Its perimeter is the four segments v0 v1, v1 v2, v2 v3, v3 v0.
+/// The union of the triangles v0, v1, v2 and v0, v2, v3: a rectangle if the four points are its corners in order. Any
+/// four points are allowed. The perimeter is the four segments v0 v1, v1 v2, v2 v3, v3 v0.
 template <class T>
 struct Rectangle {
   Vec3<T> v0{}, v1{}, v2{}, v3{};
@@ -83,7 +86,7 @@ struct Rectangle {
   }
 };
 
-/// The closed ball around center.
+/// The closed ball around `center`; a point where the radius is 0.
 template <class T>
 struct Sphere {
   Vec3<T> center{};
@@ -98,7 +101,7 @@ struct Sphere {
   }
 };
 
-/// All points within radius of the segment from p0 to p1; p0 == p1 is a sphere.
+/// All points within `radius` of the segment from p0 to p1: a ball where p0 == p1, a segment where the radius is 0.
 template <class T>
 struct Capsule {
   Vec3<T> p0{}, p1{};
@@ -114,7 +117,7 @@ struct Capsule {
   }
 };
 
-/// The axis-aligned box { x : min <= x <= max in each coordinate }.
+/// The axis-aligned box: the points x with min <= x <= max in each coordinate.
 template <class T>
 struct AABox {
   Vec3<T> min{}, max{};
@@ -130,7 +133,7 @@ struct AABox {
   }
 };
 
-/// A quaternion w + xi + yj + zk of any length but zero; the rotation is that of q / |q|.
+/// The rotation of q / |q|, with q = w + xi + yj + zk. q is not zero and need not have unit length.
 template <class T>
 struct Quaternion {
   T x{}, y{}, z{}, w{1};
@@ -145,11 +148,12 @@ struct Quaternion {
   }
 };
 
-/// { center + R c : |c.x| <= half.x, |c.y| <= half.y, |c.z| <= half.z }, R the rotation of orientation.
+/// The oriented box: the points center + R c with |c.x| <= half.x, |c.y| <= half.y, |c.z| <= half.z, where R is the
+/// rotation `orientation`.
 template <class T>
 struct Box {
   Vec3<T> center{};
-  Vec3<T> half{};  ///< half of each side's length
+  Vec3<T> half{};  ///< half extents: half the length of each side
   Quaternion<T> orientation{};
 
   static constexpr auto members() {

@@ -9,12 +9,13 @@
 
 namespace collide {
 
-/// Whether the closed ball and the solid box meet.
+/// Whether the closed ball and the solid box meet. Touching is an overlap. A radius or a half extent of 0 is allowed.
 ///
 /// 1. sphere_box_overlap(s, b) == (sphere_box_penetration(s, b).depth >= 0) in real numbers
 ///
-/// Source: in the box's frame the squared distance is the sum of the squared excesses of each coordinate
-/// (Arvo, A Simple Method for Box-Sphere Intersection Testing, Graphics Gems, 1990).
+/// Units: lengths. Never fails. Non-finite input: no. Source: in the box's frame the squared distance is the sum of the
+/// squared excesses of each coordinate (Arvo, A Simple Method for Box-Sphere Intersection Testing, Graphics Gems,
+/// 1990).
 template <class Tier = Fast, class T>
 [[nodiscard]] Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) noexcept(Tier::never_throws) {
   return kernels::sphere_box_overlap<Tier>(sphere, box);
@@ -22,8 +23,8 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order, G the largest position: an axis carries 16 eps, a coordinate in the box frame 19 eps of
-/// the distance, at most 4 G; excess, squares, sum and the radius 4 eps more of as much.
+/// First order. An axis has an error of 16 eps. A coordinate in the box's frame has an error of 19 eps of the distance,
+/// at most 4 G. Excess, squares, sum and the radius have 4 eps more of as much.
 template <class Tier = Fast, class T = double>
 constexpr Contract sphere_box_overlap() {
   return Tier::template contract<T>({.backward = 92, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});

@@ -1,20 +1,22 @@
-/// The tiers `Fast` and `Accurate`: how much arithmetic a query spends on accuracy. A tier is a template argument of
-/// every query. The third tier, `Certified`, has a header of its own (certified.hpp).
+/// The tiers `Fast` and `Accurate`. A tier fixes the precision, and so the cost, of a query; it is the first template
+/// argument of every query. The third tier, `Certified`, has its own header (certified.hpp).
 ///
 /// When to use which:
-///   Fast       for everything that a wrong decision by rounding does not break: games, sampling, broad phases.
-///   Accurate   where inputs are large or nearly degenerate: in float it computes in double, in double with compensated
-///              sums of products.
-///   Certified  where a decision must be the exact one: tests, geometry kernels, a referee. Needs GMP and MPFR.
-/// docs: README.md of collide has the table with errors and times.
+///   Fast       where a decision may go either way within the rounding error: games, sampling, broad phases.
+///   Accurate   where inputs are large or nearly degenerate. For float it computes in double; for double it computes
+///              sums of products that cancel in twice the precision.
+///   Certified  where every decision must be exact: tests, geometry kernels, reference results. Needs GMP and MPFR.
+/// README.md of collide compares the tiers.
 ///
-/// Each query has one kernel (detail/QUERY.hpp), the same in every tier. A tier calls the kernel in numbers and with an
-/// arithmetic of its choice and rounds the answer; this is called lifting. So a kernel must be right in real numbers:
-/// it uses + - * /, comparisons, sqrt, abs and the functions of detail/number.hpp, decides by comparisons alone, and
-/// keeps guards against rounding, overflow and underflow behind `if constexpr (MachineNumber<T>)`.
+/// Each query has one kernel (detail/QUERY.hpp), which all tiers use. A tier converts the arguments to a number type,
+/// calls the kernel with an arithmetic (detail/arithmetic.hpp), and rounds the answer; this is called lifting. A kernel
+/// must therefore be correct over the real numbers: it uses + - * /, comparisons, sqrt, abs and the functions of
+/// detail/number.hpp, and it decides by comparisons alone. Guards against rounding, overflow and underflow stand behind
+/// `if constexpr (MachineNumber<T>)`.
 ///
-/// Some queries have a second kernel in SIMD lanes (detail/lanes.hpp), which `Fast` uses where the machine has lanes,
-/// and some a filter in doubles, which `Certified` tries first.
+/// Some queries have a second kernel in SIMD lanes (detail/lanes.hpp), which `Fast` uses on machines with lanes. Some
+/// queries have a filter: a cheaper test in floating point that certifies its own answer or gives none. `Certified`
+/// tries the filter first.
 #pragma once
 
 #include <bit>
@@ -34,7 +36,8 @@
 
 namespace collide {
 
-/// A number whose sign bit is set where x is NaN or infinite: an exponent of all ones carries into it.
+/// An integer whose top bit is set exactly when x is NaN or infinite: adding 1 to an exponent of all ones carries into
+/// the sign bit.
 template <MachineNumber T>
 constexpr auto not_finite_bit(T x) {
   static_assert(sizeof(T) == 4 || sizeof(T) == 8);
@@ -44,7 +47,8 @@ constexpr auto not_finite_bit(T x) {
   return Bits((std::bit_cast<Bits>(x) & exponent) + one);
 }
 
-/// Whether every number of the arguments is finite. An argument that is a bare number may be +infinity.
+/// Whether every number in the arguments is finite. An argument that is itself a number, such as a time limit, may be
+/// +infinity.
 template <class... Args>
 constexpr bool all_finite(const Args&... args) {
   std::uint64_t bits = 0;  // in the sign bit of double, and in that of float
@@ -62,7 +66,7 @@ constexpr bool all_finite(const Args&... args) {
   return (bits & (only_floats ? std::uint64_t{1} << 31 : std::uint64_t{1} << 63)) == 0;
 }
 
-/// The answer to invalid input: no, a miss, or a depth that is NaN.
+/// The answer for input that is not finite: no, a miss, or a depth of NaN.
 template <class A>
 constexpr A answer_to_nonfinite() {
   if constexpr (requires(A a) { a.depth; }) {
@@ -74,7 +78,7 @@ constexpr A answer_to_nonfinite() {
   }
 }
 
-/// Turns a hit into a miss when any argument is not finite.
+/// Replaces a yes by the answer for non-finite input when any argument is not finite. Answers that always say yes stay.
 template <class A, class... Args>
 constexpr void reject_nonfinite(A& answer, const Args&... args) {
   if constexpr (!requires { A::yes(); }) {
@@ -82,42 +86,43 @@ constexpr void reject_nonfinite(A& answer, const Args&... args) {
   }
 }
 
-/// Plain arithmetic in the caller's scalar.
+/// Plain arithmetic in the caller's scalar. The fastest tier.
 struct Fast : Plain {
-  /// Whether a query in this tier never throws.
+  /// True if a query in this tier never throws.
   static constexpr bool never_throws = true;
-  /// Whether the tier calls the kernel with arguments of T by its `lift`.
+  /// True if a query with arguments of T goes through `lift`; otherwise the kernel runs in T directly.
   template <class T>
   static constexpr bool lifts = MachineNumber<T>;
 
-  /// Whether the tier computes in T itself, so that prepared inputs in T can help it.
+  /// True if the tier computes in T itself, so that it can use inputs prepared in T.
   template <class T>
   static constexpr bool computes_in = true;
 
-  /// Calls `kernel(arithmetic, arguments...)`.
+  /// Calls `kernel(arithmetic, arguments...)` with the arithmetic and the numbers of this tier, and rounds the answer
+  /// to T.
   template <class F, class... Args>
   static constexpr auto lift(F&& kernel, const Args&... args) {
     auto answer = kernel(Plain{}, args...);
     reject_nonfinite(answer, args...);
     return answer;
   }
-  /// The contract of a query in T whose contract in the fast tier is `fast`.
+  /// The contract of a query in T, given its contract in the tier `Fast`.
   template <class T>
   static constexpr Contract contract(const Contract& fast) {
     return fast;
   }
 };
 
-/// Whether a tier answers by the kernel in lanes, where a query has one.
+/// True if the tier uses the kernel in SIMD lanes of queries that have one.
 template <class Tier, class T>
 inline constexpr bool in_lanes = std::same_as<Tier, Fast> && MachineNumber<T>;
 
-/// Whether a tier tries a query's filter, where the query has one, before it calls the kernel with error bounds.
+/// True if the tier tries the filter of queries that have one before it calls the kernel.
 template <class Tier, class T>
 inline constexpr bool uses_filter = MachineNumber<T> && requires { Tier::decided_by_filter(true); };
 
-/// After rounding: replaces a depth that became zero by the negative number next to zero where the answer is no, since
-/// the sign of the depth is the decision.
+/// Keeps the decision when a negative depth rounds to zero: replaces such a depth by the negative number nearest to
+/// zero, since the sign of the depth is the decision. `yes` is the decision before rounding.
 template <class A>
 constexpr void keep_sign_of_depth(bool yes, A& answer) {
   if constexpr (requires { answer.depth; }) {
@@ -125,7 +130,8 @@ constexpr void keep_sign_of_depth(bool yes, A& answer) {
   }
 }
 
-/// In float: the kernel in double, its answer rounded once. In double: the kernel with compensated sums of products.
+/// For float: runs the kernel in double and rounds the answer once. For double: runs the kernel with compensated sums
+/// of products.
 struct Accurate : Compensated {
   static constexpr bool never_throws = true;
   template <class T>
@@ -161,8 +167,8 @@ struct Accurate : Compensated {
     }
   }
 
-  /// In float, the kernel's own errors are those of the fast tier in double, 2^-29 of a float's: the last rounding
-  /// remains, and decisions within those errors. No product of eight floats leaves the range of double.
+  /// For float, the kernel's errors are those of `Fast` in double, 2^-29 of a float's. What remains is the last
+  /// rounding, and decisions within the kernel's errors. A product of eight floats stays in the range of double.
   template <class T>
   static constexpr Contract contract(const Contract& fast) {
     if constexpr (std::same_as<T, float>) return {.backward = 1, .unit = 4};

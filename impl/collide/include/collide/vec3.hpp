@@ -1,4 +1,4 @@
-/// Three numbers: a point, a displacement or a direction.
+/// A 3D vector: a point, a displacement or a direction.
 #pragma once
 
 #include <collide/members.hpp>

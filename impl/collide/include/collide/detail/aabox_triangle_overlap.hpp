@@ -1,4 +1,4 @@
-/// How collide/aabox_triangle_overlap.hpp is computed.
+/// The kernel of aabox_triangle_overlap (collide/aabox_triangle_overlap.hpp).
 #pragma once
 
 #include <optional>
@@ -17,11 +17,12 @@ namespace collide {
 
 namespace detail {
 
-/// Whether they meet; nothing where doubles may be wrong.
+/// Filter in doubles: whether box and triangle meet; nullopt if rounding may change the decision.
 ///
-/// The coordinate axes are compared without rounding. Let G be the largest coordinate, u = 2^-53. Seen from the box's
-/// center a corner is known to 3 u G, half extents to u G, an edge to 2 u G. Along a cross product, a corner is then
-/// known to 36 u G^2 and the box's reach to 16 u G^2, their difference to 64 u G^2; along the normal, to 700 u G^3.
+/// The comparisons along the coordinate axes do not round. Let G be the largest coordinate and u = 2^-53. Relative to
+/// the box's center, a corner has an error of 3 u G, the half extents u G, an edge 2 u G. Along a cross product, a
+/// corner then has an error of 36 u G^2 and the box's projected radius 16 u G^2, so their difference has an error of at
+/// most 64 u G^2. Along the normal that error is at most 700 u G^3.
 template <class T>
 std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
   using L = Lanes<double>;
@@ -34,10 +35,12 @@ std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& tri
   const L center = (low + high) * half_of, half = (high - low) * half_of, half1 = yzx(half), half2 = zxy(half);
   const L a = v0 - center, b = v1 - center, c = v2 - center;
   const L bound2 = L::splat(0x1p-46 * size * size);
-  // How far the interval between two numbers is from the box, which reaches that far to both sides of zero.
+  // The distance between the interval [p, q] (in either order) and the box's interval [-reach, reach]; negative if they
+  // overlap.
   const auto gap = [&](const L& p, const L& q, const L& reach)
                        COLLIDE_INLINE { return larger(smaller(p, q), zero - larger(p, q)) - reach; };
-  // Across the coordinate axes and an edge: both ends of the edge are at one place.
+  // The gaps along the cross products of an edge and the coordinate axes. Both ends of the edge project to the same
+  // number.
   const auto gaps = [&](const L& edge, const L& start, const L& apex) COLLIDE_INLINE {
     const L size_of = absolute(edge);
     return gap(cross(edge, start), cross(edge, apex), half1 * zxy(size_of) + half2 * yzx(size_of));
@@ -83,7 +86,8 @@ Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& trian
       if (!(larger(larger(v[0][k], v[1][k]), v[2][k]) >= low[k])) return {false};
     }
 
-    // Across coordinate axis k and an edge: seen along the axis, the line through the edge.
+    // The cross product of coordinate axis k and an edge: projected along axis k, the box against the line through the
+    // edge.
     for (int i = 0; i < 3; ++i) {
       const Three &start = v[i], &end = v[(i + 1) % 3], &apex = v[(i + 2) % 3];
       Three edge, to_low, to_high, to_apex;
@@ -103,7 +107,7 @@ Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& trian
       }
     }
 
-    // The plane, its normal times the square of an edge's length: nothing is divided.
+    // The triangle's plane. Its normal is multiplied by the squared length of an edge, so nothing is divided.
     const Vec3<T> base = triangle.v1 - triangle.v0, apex = triangle.v2 - triangle.v0;
     const Vec3<T> height = apex * Tier::dot(base, base) - base * Tier::dot(apex, base);
     const Three normal = components(Tier::cross(base, height));

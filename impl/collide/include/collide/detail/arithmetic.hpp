@@ -1,4 +1,4 @@
-/// The arithmetic of a kernel: how it computes sums of products that may cancel, and what is built on these.
+/// The arithmetic of a kernel: how it computes sums of products that may cancel, and functions built on these.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace collide {
 
-/// The cross product, by the differences of products of the arithmetic that inherits it.
+/// The cross product, from the derived arithmetic's difference of products (a base class in the CRTP style).
 template <class Arithmetic>
 struct WithCross {
   template <class T>
@@ -23,11 +23,11 @@ struct WithCross {
   }
 };
 
-/// Plain arithmetic. It is no tier: it lifts nothing, so that `kernels::QUERY<Plain>` is the kernel itself, in any
-/// numbers. Numbers other than the machine's may allocate memory, and so may throw.
+/// Plain arithmetic in any number type. It is not a tier: it lifts nothing, so `kernels::QUERY<Plain>` is the kernel
+/// itself. Number types other than the built-in ones may allocate memory, and so may throw.
 struct Plain : WithCross<Plain> {
   static constexpr bool never_throws = false;
-  /// Whether a kernel called with this arithmetic and arguments of T must be lifted first.
+  /// True if a kernel called with this arithmetic and arguments of T must be lifted first.
   template <class T>
   static constexpr bool lifts = false;
   template <class T>
@@ -48,9 +48,9 @@ struct Plain : WithCross<Plain> {
   }
 };
 
-/// Compensated arithmetic: computes a sum of products that cancels again in twice the precision. Its error is at most
-/// 8 u of the result and 64 u^2 of the terms, u the unit roundoff, where nothing underflows; the error of plain
-/// arithmetic is 3 u of the terms. A sum that keeps a quarter of its terms' magnitude is not computed again.
+/// Compensated arithmetic: recomputes a sum of products that cancels in twice the precision. With u the unit roundoff,
+/// and without underflow, the error is at most 8 u of the result plus 64 u^2 of the terms; the error of plain
+/// arithmetic is 3 u of the terms. A sum that keeps at least a quarter of the magnitude of its terms is not recomputed.
 struct Compensated : WithCross<Compensated> {
   static constexpr bool never_throws = false;
   template <class T>
@@ -83,7 +83,7 @@ struct Compensated : WithCross<Compensated> {
   }
 
  private:
-  /// a + b, or `plain` where a product overflowed on the way.
+  /// a + b, or `plain` if a product overflowed.
   template <class T>
   static constexpr T sum(const DoubleWord<T>& a, const DoubleWord<T>& b, const T& plain) {
     const T sum = (a + b).high;
@@ -91,7 +91,7 @@ struct Compensated : WithCross<Compensated> {
   }
 };
 
-/// a / |a|; a itself where it is zero; NaN where a number of it is not finite.
+/// a / |a|. Zero for zero; NaN if a number of a is not finite.
 template <class Tier, class T>
 Vec3<T> unit(const Vec3<T>& a) {
   using detail::abs, detail::sqrt;
@@ -113,15 +113,15 @@ Vec3<T> unit(const Vec3<T>& a) {
 
 namespace detail {
 
-/// 1 - |a|^2 to 2^-8 eps, of a vector of at most about unit length.
+/// 1 - |a|^2 with an error of 2^-8 eps, for a vector with a length of at most about 1.
 ///
-/// a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. Squares of h are multiples of 2^-2g, and 2 g + 2
-/// digits hold their sums: nothing is rounded. What is left of |a|^2 is the sum of l (h + a), each known to 2 u of
-/// 2^-g.
+/// Split a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. The squares of h are multiples of 2^-2g, and 2 g
+/// + 2 digits hold their sums: that part is exact. The rest of |a|^2 is the sum of l (h + a), each with an error of 2 u
+/// of 2^-g.
 template <MachineNumber T>
 T one_minus_length2(const Vec3<T>& a) {
   constexpr int digits = std::numeric_limits<T>::digits, g = (digits - 2) / 2;
-  constexpr T round_to = T(3) * T(std::uint64_t{1} << (digits - 2 - g));  // its neighbours are 2^-g apart
+  constexpr T round_to = T(3) * T(std::uint64_t{1} << (digits - 2 - g));  // neighbouring numbers are 2^-g apart here
   const auto rounded = [](T x) { return (x + round_to) - round_to; };
   const Vec3<T> h{rounded(a.x), rounded(a.y), rounded(a.z)}, l = a - h, sum = h + a;
   return (((T(1) - h.x * h.x) - h.y * h.y) - h.z * h.z) - Plain::dot(l, sum);
@@ -129,11 +129,11 @@ T one_minus_length2(const Vec3<T>& a) {
 
 }  // namespace detail
 
-/// `a` with the length sqrt(1 - missing), which it has but for some eps; |missing| <= 1/4.
+/// `a` with its length corrected to sqrt(1 - missing), for an `a` whose length is off by a few eps; |missing| <= 1/4.
 ///
-/// Other directions of the operands may explain the error of a direction, but no error of a length that is 1, whatever
-/// the operands are. So this leaves of it 2^-8 eps, and 1/3 of it times `missing`, which belongs to a length that
-/// depends on an angle, beside the last rounding of each number.
+/// A perturbation of the operands can account for an error in a direction, but not for an error in a length that is 1
+/// for all operands. After the correction the length has an error of 2^-8 eps, plus 1/3 of the original error times
+/// `missing` (which belongs to a length that depends on an angle), plus the last rounding of each number.
 template <class T>
 Vec3<T> with_corrected_length(const Vec3<T>& a, const T& missing = T(0)) {
   if constexpr (MachineNumber<T>) {

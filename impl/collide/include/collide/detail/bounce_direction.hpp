@@ -1,4 +1,4 @@
-/// How collide/bounce_direction.hpp is computed.
+/// The kernel of bounce_direction (collide/bounce_direction.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

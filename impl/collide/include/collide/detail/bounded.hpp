@@ -1,4 +1,4 @@
-/// Numbers that know how far they may be from the exact ones: the filters of the certified tier.
+/// Numbers with error bounds: the first two stages of the tier Certified.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,23 @@
 
 namespace collide {
 
-/// Set by a comparison that its operands' errors leave open, or by an operation whose error has no bound;
-/// everything computed since then may be wrong.
+/// Set by a comparison that the error bounds of its operands leave undecided, and by an operation whose error has no
+/// bound. Everything computed after that may be wrong.
 struct Doubt {
   static inline constinit thread_local bool any = false;
 };
 
-/// A double with a bound of its distance from the exact number. `Scalar` is the one whose largest finite
-/// number is the limit of times.
+/// A double with a bound on its distance from the exact number. `Scalar` is the type of the final answer: its largest
+/// finite number limits times.
 ///
-/// The bound of a result is that of the operation's own rounding, 2^-53 |result|, and what the operands'
-/// errors contribute, with magnitudes taken of the exact operands (|value| + error). So it holds, multiplied
-/// by u / 2^-53, for the same operations in any arithmetic with a unit roundoff u below 2^-53: by
-/// induction, each term of the sums below is linear in u or smaller, but for the own rounding of a sum, whose
-/// other result is off by the operands' errors: 2^-53 of them more. Bounds are sums of products of numbers that are not
-/// negative, each known to 2^-50; `slack` covers more than a million such steps, and those.
-/// Operations that underflow or overflow have no bound: the caller looks at the flags of the machine.
+/// The error bound of a result is the sum of the operation's own rounding error, 2^-53 |result|, and the propagated
+/// errors of the operands. Magnitudes are those of the exact operands, at most |value| + error. The bound, multiplied
+/// by u / 2^-53, also holds for the same operations in any arithmetic with a unit roundoff u below 2^-53. The proof is
+/// by induction: each term below is linear in u or of higher order. The one exception is the rounding error of a sum:
+/// the other arithmetic's sum differs by the errors of the operands, which adds 2^-53 of these errors. Bounds are sums
+/// of products of nonnegative numbers, each with a relative error of 2^-50; `slack` covers more than a million such
+/// steps and the exception above. The bounds do not hold for operations that underflow or overflow: the caller must
+/// check the processor's flags.
 template <class Scalar>
 struct Bounded {
   double value = 0, error = 0;
@@ -43,7 +44,8 @@ struct Bounded {
   static double magnitude(double x) { return detail::abs(x); }
 
   friend Bounded operator-(const Bounded& a) { return {-a.value, a.error}; }
-  /// Whether the compiler sees that the number is exact, as inputs are: terms of its error need not be computed.
+  /// True if the compiler can prove that the number is exact, as inputs are. The terms of its error are then not
+  /// computed.
   static bool is_exact(const Bounded& a) {
 #if defined(__GNUC__)
     return __builtin_constant_p(a.error) && a.error == 0;
@@ -71,7 +73,7 @@ struct Bounded {
     const double quotient = a.value / b.value;
     const double least = magnitude(b.value) - 2 * b.error;
     if (!(least > 0)) Doubt::any = true;
-    const double inverse = 1 / least;  // beside the quotient, not after it
+    const double inverse = 1 / least;  // independent of the quotient, so that both divisions overlap
     return {quotient,
             (a.error + magnitude(quotient) * b.error) * inverse * (1 + 0x1p-20) + 2 * u * magnitude(quotient)};
   }
@@ -86,12 +88,12 @@ struct Bounded {
       Doubt::any = true;
       return {root, root};
     }
-    const double inverse = 1 / a.value;  // beside the root, not after it: a.error / root is twice what is needed
+    const double inverse = 1 / a.value;  // independent of the root; a.error / root is twice the needed bound
     return {root, a.error * inverse * root + 2 * u * root};
   }
   friend Bounded abs(const Bounded& a) { return {detail::abs(a.value), a.error}; }
 
-  /// The sum of two errors within which a comparison is open; NaN where one is.
+  /// The sum of both error bounds. A comparison of numbers closer than this is undecided. NaN if a bound is NaN.
   static double combined_error(const Bounded& a, const Bounded& b) { return (a.error + b.error) * slack; }
 
   friend bool operator<(const Bounded& a, const Bounded& b) {
@@ -112,7 +114,7 @@ struct Bounded {
     return a.value == b.value;
   }
 
-  /// Of two numbers whose order is open, either is within both errors of the larger.
+  /// If the order of the two is undecided, each lies within the sum of both errors of the larger one.
   friend Bounded larger(const Bounded& a, const Bounded& b) {
     const double of_larger = if_less(a.value, b.value, b.error, a.error);
     return {collide::larger(a.value, b.value),
@@ -121,8 +123,8 @@ struct Bounded {
   friend Bounded smaller(const Bounded& a, const Bounded& b) { return -larger(-a, -b); }
 };
 
-/// The same with a value of twice the precision. It sees when an operation is exact, so that decisions
-/// on knife's edges made of few bits are certain.
+/// A number with an error bound, with a double-word as its value. Error terms vanish where an operation is exact, so
+/// degenerate configurations of numbers with few bits are decided with certainty.
 template <class Scalar>
 struct WideBounded {
   using Value = DoubleWord<double>;
@@ -156,7 +158,7 @@ struct WideBounded {
                              (magnitude(b.value.high) * (1 + 2 * u) + b.error) * a.error;
     if (a.value.low == 0 && b.value.low == 0) return {p, inherited};
     const Value q = Value::two_product(a.value.high, b.value.low), r = Value::two_product(a.value.low, b.value.high);
-    // p.high + (p.low + q + r) and what is left out
+    // The product is p.high + (p.low + q + r), up to the terms in `left`.
     const Value s = Value::two_sum(q.high, r.high), t = Value::two_sum(p.low, s.high);
     const Value product = Value::fast_two_sum(p.high, t.high);
     const double left = magnitude(t.low) + magnitude(s.low) + magnitude(q.low) + magnitude(r.low) +
@@ -166,7 +168,7 @@ struct WideBounded {
   friend WideBounded operator/(const WideBounded& a, const WideBounded& b) {
     const double least = magnitude(b.value.high) * (1 - 2 * u) - b.error;
     if (!(least > 0)) Doubt::any = true;
-    // Two steps of long division, and the exact rest of the second.
+    // Two steps of long division, and the exact remainder of the second.
     const double first = a.value.high / b.value.high;
     const WideBounded rest = WideBounded(a.value, 0) - WideBounded(b.value, 0) * WideBounded(first);
     const double second = rest.value.high / b.value.high;
@@ -189,14 +191,14 @@ struct WideBounded {
     const WideBounded rest = WideBounded(a.value, 0) - WideBounded(first) * WideBounded(first);
     const double second = rest.value.high / (2 * first);
     const Value root = Value::fast_two_sum(first, second);
-    // |a - root^2| / (sqrt(a) + root) is the distance from the exact root of the value.
+    // The distance of `root` from the exact root of the value is |a - root^2| / (sqrt(a) + root).
     const WideBounded last = WideBounded(a.value, 0) - WideBounded(root, 0) * WideBounded(root, 0);
     const double left = magnitude(last.value.high) * (1 + 2 * u) + last.error;
     return {root, (left + a.error) / (first * (1 - 0x1p-40)) * (1 + 0x1p-40)};
   }
   friend WideBounded abs(const WideBounded& a) { return a.value.high < 0 ? -a : a; }
 
-  /// -1, 0 or 1: how a compares with b; records a doubt where their errors leave it open.
+  /// -1, 0 or 1 for a < b, a == b, a > b. Records a doubt if the error bounds leave the order undecided.
   static int order(const WideBounded& a, const WideBounded& b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (magnitude(a.value.high) == infinity || magnitude(b.value.high) == infinity) {

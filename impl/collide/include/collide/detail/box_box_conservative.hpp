@@ -1,4 +1,4 @@
-/// How collide/box_box_conservative.hpp is computed.
+/// The kernel of box_box_conservative (collide/box_box_conservative.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -12,18 +12,19 @@ namespace collide {
 
 namespace detail {
 
-/// |between| <= |half1| + |half2|, rounded to yes: never no where it holds in real numbers.
+/// Whether |between| <= |half1| + |half2|. Rounds to yes: the result is never no where the inequality holds in real
+/// numbers.
 template <class T>
 bool may_reach(const Vec3<T>& half1, const Vec3<T>& half2, const Vec3<T>& between) {
   const std::array<T, 3> d = components(between), a = components(half1), b = components(half2);
   T distance = length(d), reach = length(a) + length(b);
   if constexpr (MachineNumber<T>) {
-    // To first order a length carries 1 eps for the difference of the centers, 1 + 2 for its squares and
-    // their sums, halved by the root, 1 for the root (as much again after a division that keeps squares from
-    // underflow), and the sum of the two 1: 4 ulps, 8 eps, are more than twice what the sides differ by.
+    // To first order, a length has an error of 1 eps from the difference of the centers, half of 1 + 2 eps from the
+    // squares and their sums, and 1 eps from the square root (as much again after a division that avoids underflow).
+    // The sum of the two lengths adds 1 eps. A slack of 4 ulps, 8 eps, is more than twice the error of the comparison.
     constexpr T slack = T(4) * std::numeric_limits<T>::epsilon();
     reach = reach + (reach * slack + std::numeric_limits<T>::denorm_min());
-    if (distance > std::numeric_limits<T>::max()) {  // the squares are beyond the largest number
+    if (distance > std::numeric_limits<T>::max()) {  // the squares overflow
       using detail::abs;
       const T largest = larger(larger(larger(abs(d[0]), abs(d[1])), abs(d[2])),
                                larger(larger(larger(a[0], a[1]), a[2]), larger(larger(b[0], b[1]), b[2])));

@@ -1,4 +1,4 @@
-/// How collide/box_box_info.hpp is computed.
+/// The kernel of box_box_info (collide/box_box_info.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

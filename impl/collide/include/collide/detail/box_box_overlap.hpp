@@ -1,4 +1,4 @@
-/// How collide/box_box_overlap.hpp is computed.
+/// The kernel of box_box_overlap (collide/box_box_overlap.hpp).
 #pragma once
 
 #include <optional>
@@ -16,24 +16,25 @@ namespace collide {
 
 namespace detail {
 
-/// The answer; nothing where doubles may be wrong.
+/// Filter in doubles: the answer, or nullopt if rounding may change the decision.
 ///
-/// u = 2^-53, N = |q1|^2 |q2|^2, L the sum of |x| + |y| + |z| of both half extents and of the way between the centers.
-/// A number of `turn` is known to 3 u sqrt(N), a cosine to 16 u N, a number of a cross product to 46 u N, `between` to
-/// 8 u |q1|^2 L. So the gap of an axis of box 1 is known to 24 u N L, of another to less than 96 u N |q1|^2 L.
+/// Let u = 2^-53, N = |q1|^2 |q2|^2, and L the sum of |x| + |y| + |z| of both half extents and of the vector between
+/// the centers. A number of `relative` has an error of 3 u sqrt(N), a cosine 16 u N, a component of a cross product
+/// 46 u N, and `between` 8 u |q1|^2 L. So the gap along an axis of box 1 has an error of 24 u N L, and along another
+/// axis less than 96 u N |q1|^2 L.
 template <class T>
 std::optional<BoxOverlap<T>> filtered_overlap(const Box<T>& box1, const Box<T>& box2) {
   using L = Lanes<double>;
-  const L way = wide_lanes(box2.center) - wide_lanes(box1.center);
+  const L between = wide_lanes(box2.center) - wide_lanes(box1.center);
   const auto wide = [](const Quaternion<T>& q) { return Quaternion<double>{q.x, q.y, q.z, q.w}; };
-  const BoxPairInLanes<double> pair(wide(box1.orientation), wide(box2.orientation), way, wide_lanes(box1.half),
+  const BoxPairInLanes<double> pair(wide(box1.orientation), wide(box2.orientation), between, wide_lanes(box1.half),
                                     wide_lanes(box2.half));
-  const double lengths = sum_of_three(absolute(way) + absolute(pair.half1) + absolute(pair.half2)).first();
+  const double lengths = sum_of_three(absolute(between) + absolute(pair.half1) + absolute(pair.half2)).first();
   if (!(pair.is_valid() && lengths >= 0x1p-400 && lengths <= 0x1p400)) return std::nullopt;
   const L bound = L::splat(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1,
           zero = L::splat(0.0);
   unsigned apart = 0, overlap = 0;
-  pair.for_each_axis([&](int n, const auto& s) {  // small cross products are within the bound as well
+  pair.for_each_axis([&](int n, const auto& s) {  // the bound also covers small cross products
     const L& least = n == 0 ? bound : of_others;
     apart |= unsigned((least < s.gap).bits() & 7) << 3 * n;
     overlap |= unsigned((s.gap < zero - least).bits() & 7) << 3 * n;
@@ -52,7 +53,7 @@ namespace kernels {
 template <class Tier, class T>
 BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint) {
 #if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T>) {  // all axes at once: a hint could save nothing
+  if constexpr (in_lanes<Tier, T>) {  // computes all axes at once, so a hint saves nothing
     const detail::BoxPairInLanes<T> pair(box1, box2);
     unsigned overlaps = 0;
     const bool good = pair.for_each_axis([&](int n, const auto& s) {
@@ -74,9 +75,9 @@ BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint) 
   } else {
     const detail::BoxPair<T> pair(box1, box2);
     if constexpr (MachineNumber<T>) {
-      if (!(pair.norm1 * pair.norm2 > T(0))) return {};  // no rotation, or NaN
+      if (!(pair.norm1 * pair.norm2 > T(0))) return {};  // a zero quaternion, or NaN
     }
-    const auto separates = [&](int axis) {  // so does NaN: it must not look like an overlap
+    const auto separates = [&](int axis) {  // NaN counts as separating: it must not become an overlap
       return !(detail::separation(pair, axis).gap <= T(0));
     };
     if (hint >= 0 && hint < box_box_axes && separates(hint)) return {false, hint};

@@ -1,4 +1,4 @@
-/// How collide/box_box_parallel_axis.hpp is computed.
+/// The kernel of box_box_parallel_axis (collide/box_box_parallel_axis.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -19,12 +19,12 @@ ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T 
         [](auto arithmetic, const auto&... a) { return kernels::box_box_parallel_axis<decltype(arithmetic)>(a...); },
         box1, box2, epsilon);
   } else {
-    if (epsilon < T(0)) return {};  // no two axes are that near
+    if (epsilon < T(0)) return {};  // accepts no pair
     const std::array<T, 4> r =
         detail::relative_rotation(detail::rescaled(box1.orientation), detail::rescaled(box2.orientation));
     const T most = epsilon * detail::norm2(r);
     if constexpr (MachineNumber<T>) {
-      if (!(detail::norm2(r) > T(0))) return {};  // no rotation, or NaN
+      if (!(detail::norm2(r) > T(0))) return {};  // a zero quaternion, or NaN
     }
     if (epsilon >= T(1))
       return epsilon <= std::numeric_limits<T>::max() ? ParallelAxes<T>{true, 0, 0} : ParallelAxes<T>{};

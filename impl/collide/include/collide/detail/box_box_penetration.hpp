@@ -1,4 +1,4 @@
-/// How collide/box_box_penetration.hpp is computed.
+/// The kernel of box_box_penetration (collide/box_box_penetration.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -13,17 +13,17 @@ namespace collide {
 
 namespace detail {
 
-/// An axis of two boxes that overlap along it: by how much, and on which side of box 1 is box 2 (+1, -1).
+/// An axis along which two boxes overlap, with the depth and the side of box 1 on which box 2 lies (+1 or -1).
 template <class T>
 struct BoxContact {
   int axis;
   T depth, side;
 };
 
-/// Both boxes in the frame of box 1, its center the origin, lengths in the boxes' unit.
+/// Box 2 in the frame of box 1, with the center of box 1 as the origin and lengths not multiplied by norms.
 template <class T>
 struct BoxesInFrame {
-  Axes<T> axes2;  ///< of box 2, in the frame of box 1
+  Axes<T> axes2;  ///< the axes of box 2 in the frame of box 1
   std::array<T, 3> center2;
 
   explicit BoxesInFrame(const BoxPair<T>& pair) {
@@ -40,8 +40,8 @@ T sign_of(const T& x) {
   return x < T(0) ? T(-1) : T(1);
 }
 
-/// The middle of the shortest segment between an edge of box 1 and one of box 2, those that reach furthest
-/// along the cross product of axes i and j; `unit` is that as a unit vector.
+/// The midpoint of the shortest segment between an edge of box 1 and an edge of box 2: those that reach farthest along
+/// the cross product of axes i and j. `unit` is that cross product as a unit vector.
 template <class Tier, class T>
 std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const CrossAxis<T>& unit, const T& side) {
   const BoxesInFrame<T> frame(pair);
@@ -50,17 +50,17 @@ std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const Cr
   const CrossAxis<T> product = pair.cross_axis(i, j, false);
   T sine = length(std::array<T, 3>{product.in1[0], product.in1[1], T(0)}) / (pair.norm1 * pair.norm2);
   if constexpr (MachineNumber<T>) sine = larger(sine, std::numeric_limits<T>::min());
-  // The middles of both edges, and the way from one to the other in both frames.
+  // The midpoints of both edges, and the vector from one to the other in both frames.
   std::array<T, 3> middle1{}, middle2 = frame.center2;
   middle1[i1] = pair.half1[i1] * sign_of(side * u1[0]);
   middle1[i2] = pair.half1[i2] * sign_of(side * u1[1]);
-  const T out1 = pair.half2[j1] * sign_of(side * u2[0]), out2 = pair.half2[j2] * sign_of(side * u2[1]);
+  const T offset1 = pair.half2[j1] * sign_of(side * u2[0]), offset2 = pair.half2[j2] * sign_of(side * u2[1]);
   const std::array<T, 3> b = components(frame.axes2[j]), b1 = components(frame.axes2[j1]),
                          b2 = components(frame.axes2[j2]);
-  for (int k = 0; k < 3; ++k) middle2[k] = middle2[k] - (b1[k] * out1 + b2[k] * out2);
+  for (int k = 0; k < 3; ++k) middle2[k] = middle2[k] - (b1[k] * offset1 + b2[k] * offset2);
   const Vec3<T> d{middle2[0] - middle1[0], middle2[1] - middle1[1], middle2[2] - middle1[2]};
   const std::array<T, 3> d1 = components(d), d2 = into_frame<Tier>(frame.axes2, d);
-  // Along both lines to their nearest points; on to the edges' ends where these lie beyond.
+  // The closest points of both lines, then clamped to the ends of the edges.
   const T to1 = Tier::difference_of_products(d2[j2], u2[0], d2[j1], u2[1]) / sine;
   const T to2 = Tier::difference_of_products(d1[i2], u1[0], d1[i1], u1[1]) / sine;
   const auto on_edge = [](const T& along, const T& half) { return along >= -half && along <= half; };
@@ -74,7 +74,7 @@ std::array<T, 3> contact_of_edges(const BoxPair<T>& pair, int i, int j, const Cr
   return contact;
 }
 
-/// Half way between a deepest vertex of the other box and the face.
+/// The contact for the axis of a face: half way between a deepest vertex of the other box and the face.
 template <class T>
 std::array<T, 3> contact_of_face(const BoxPair<T>& pair, const BoxContact<T>& at) {
   const BoxesInFrame<T> frame(pair);
@@ -82,8 +82,8 @@ std::array<T, 3> contact_of_face(const BoxPair<T>& pair, const BoxContact<T>& at
     std::array<T, 3> vertex = frame.center2;
     for (int l = 0; l < 3; ++l) {
       const std::array<T, 3> b = components(frame.axes2[l]);
-      const T out = pair.half2[l] * sign_of(at.side * b[at.axis]);
-      for (int k = 0; k < 3; ++k) vertex[k] = vertex[k] - b[k] * out;
+      const T offset = pair.half2[l] * sign_of(at.side * b[at.axis]);
+      for (int k = 0; k < 3; ++k) vertex[k] = vertex[k] - b[k] * offset;
     }
     vertex[at.axis] = vertex[at.axis] + at.side * at.depth / T(2);
     return vertex;
@@ -99,7 +99,7 @@ std::array<T, 3> contact_of_face(const BoxPair<T>& pair, const BoxContact<T>& at
 /// The answer for boxes that are apart along an axis.
 template <class T>
 BoxPenetration<T> apart(const T& distance, int axis) {
-  if constexpr (MachineNumber<T>) {  // a distance that underflows keeps its sign, for it decides
+  if constexpr (MachineNumber<T>) {  // a distance that underflows keeps its sign, which is the decision
     if (distance == T(0)) return {-std::numeric_limits<T>::denorm_min(), axis};
   }
   return {-distance, axis};
@@ -111,7 +111,7 @@ BoxPenetration<T> contact_of_boxes(const Box<T>& box1, const Box<T>& box2, const
                                    const BoxContact<T>& least) {
   const Axes<T> axes1 = axes_of(box1.orientation);
   const auto to_world = [&](const std::array<T, 3>& local) { return box1.center + out_of_frame(axes1, local); };
-  if (least.axis < 0) return {std::numeric_limits<T>::quiet_NaN()};  // only where nothing compares
+  if (least.axis < 0) return {std::numeric_limits<T>::quiet_NaN()};  // no axis compared: NaN
   const int axis = least.axis;
   if (axis < 6) {
     const Vec3<T> along = axis < 3 ? axes1[axis] : axes_of(box2.orientation)[axis - 3];
@@ -128,7 +128,7 @@ BoxPenetration<T> contact_of_boxes(const Box<T>& box1, const Box<T>& box2, const
 
 #if defined(COLLIDE_LANES)
 
-/// The same for the axis of a face.
+/// The answer for boxes that overlap least along the axis of a face, in lanes.
 template <class T>
 BoxPenetration<T> contact_of_face(const Box<T>& box1, const Box<T>& box2, const BoxPairInLanes<T>& pair,
                                   const BoxContact<T>& at) {
@@ -144,7 +144,7 @@ BoxPenetration<T> contact_of_face(const Box<T>& box1, const Box<T>& box2, const 
     const L is_axis = index == L::splat(T(at.axis));
     const std::array<T, 3> half2 = components(box2.half);
     vertex = pair.between * per_norm;
-    for (std::size_t l = 0; l < 3; ++l) {  // to the side of box 2 that is deepest in
+    for (std::size_t l = 0; l < 3; ++l) {  // toward the side of box 2 that is deepest in box 1
       const L toward = sum_of_three(axes2[l] & is_axis) * side;
       vertex = vertex - axes2[l] * per_scale * (L::splat(half2[l]) ^ (toward & sign_bit));
     }
@@ -166,7 +166,7 @@ namespace kernels {
 template <class Tier, class T>
 BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, int hint) {
 #if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T>) {  // all axes at once: a hint could save nothing
+  if constexpr (in_lanes<Tier, T>) {  // computes all axes at once, so a hint saves nothing
     using L = detail::Lanes<T>;
     const detail::BoxPairInLanes<T> pair(box1, box2);
     const L zero = L::splat(T(0)), none = L::splat(std::numeric_limits<T>::infinity());
@@ -184,12 +184,13 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
       };
       const int outside = detail::first_bit(~overlaps);
       if (outside < box_box_axes) return detail::apart(distance(outside), detail::axis_of_bit(outside));
-      // Squares compare as well, and take no roots. A cross product of parallel edges is no axis.
+      // Comparing squares gives the same order without square roots. The cross product of parallel edges is not an
+      // axis.
       const auto square = [&](int n) {
         const auto& s = all[std::size_t(n)];
         return select(zero < s.length2, s.gap * s.gap / s.length2, none);
       };
-      const auto face_square = [&](int n) {  // all three of one length
+      const auto face_square = [&](int n) {  // the three axes have equal lengths
         const auto& s = all[std::size_t(n)];
         return s.gap * s.gap * broadcast_first(detail::Pair<T>::splat(T(1)) / first_pair(s.length2));
       };
@@ -201,7 +202,7 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
           bits(0, face1) | bits(1, face2) | bits(2, family0) | bits(3, family1) | bits(4, family2);
       const int bit = detail::first_bit(is_least);
       using limits = std::numeric_limits<T>;
-      // Squares that leave the range compare nothing.
+      // Squares outside the range of T cannot be compared.
       if (bit < box_box_axes && least.first() >= limits::min() / limits::epsilon() && least.first() <= limits::max()) {
         const auto& s = all[std::size_t(bit / 3)];
         const T side = detail::sign_of(number(s.toward, bit));
@@ -220,10 +221,10 @@ BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, in
     using detail::abs;
     const detail::BoxPair<T> pair(box1, box2);
     const T scale = pair.norm1 * pair.norm2;
-    if constexpr (MachineNumber<T>) {  // no rotation, or NaN
+    if constexpr (MachineNumber<T>) {  // a zero quaternion, or NaN
       if (!(scale > T(0))) return {std::numeric_limits<T>::quiet_NaN()};
     }
-    const auto length_of = [&](int axis) {  // by what a gap is multiplied
+    const auto length_of = [&](int axis) {  // the factor by which a gap is multiplied
       if (axis < 3) return scale;
       if (axis < 6) return scale * pair.norm1;
       const auto cross = pair.cross_axis((axis - 6) / 3, (axis - 6) % 3).in1;

@@ -1,4 +1,4 @@
-/// How collide/box_box_projected_distance.hpp is computed.
+/// The kernel of box_box_projected_distance (collide/box_box_projected_distance.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -22,7 +22,7 @@ Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, in
   } else {
     if (axis < 0 || axis >= box_box_axes) return {std::numeric_limits<T>::quiet_NaN()};
     const detail::BoxPair<T> pair(box1, box2);
-    // Every number of the pair is multiplied by |q1|^2 |q2|^2, those with a part of `between` by |q1|^2 more.
+    // All values of the pair are multiplied by |q1|^2 |q2|^2; those that contain `between` by another |q1|^2.
     const T scale = pair.norm1 * pair.norm2;
     return {detail::separation(pair, axis, false).gap / (axis < 3 ? scale : scale * pair.norm1)};
   }

@@ -1,4 +1,4 @@
-/// How collide/box_box_separating_axis.hpp is computed.
+/// The kernel of box_box_separating_axis (collide/box_box_separating_axis.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

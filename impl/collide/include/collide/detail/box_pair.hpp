@@ -1,4 +1,4 @@
-/// Two boxes seen from each other: what the queries about pairs of boxes compute first.
+/// A pair of boxes: the relative rotation and the separating-axis terms that all queries about two boxes use.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace collide {
 
-/// The axes of a pair of boxes: 0-2 those of box 1, 3-5 those of box 2, 6 + 3 i + j the cross product of
-/// axis i of box 1 and axis j of box 2.
+/// The number of candidate separating axes of two boxes: 0-2 are the axes of box 1, 3-5 those of box 2, and 6 + 3 i + j
+/// is the cross product of axis i of box 1 and axis j of box 2.
 inline constexpr int box_box_axes = 15;
 
 namespace detail {
 
-/// conj(a) b: the rotation b seen from the rotation a.
+/// conj(a) b: the rotation b relative to the rotation a.
 template <class T>
 std::array<T, 4> relative_rotation(const std::array<T, 4>& a, const std::array<T, 4>& b) {
   return {(a[3] * b[0] - a[0] * b[3]) - (a[1] * b[2] - a[2] * b[1]),
@@ -27,7 +27,7 @@ std::array<T, 4> relative_rotation(const std::array<T, 4>& a, const std::array<T
           (a[3] * b[3] + a[0] * b[0]) + (a[1] * b[1] + a[2] * b[2])};
 }
 
-/// The matrix of the rotation q, times |q|^2, columns first.
+/// The matrix of the rotation q times |q|^2, by columns.
 template <class T>
 std::array<std::array<T, 3>, 3> scaled_axes(const std::array<T, 4>& q) {
   const auto& [x, y, z, w] = q;
@@ -42,7 +42,7 @@ T norm2(const std::array<T, 4>& q) {
   return (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
 }
 
-/// Multiplies two numbers by the same power of two where both are so small that products of them underflow.
+/// Multiplies two numbers by the same power of two if both are so small that products of them underflow.
 template <class T>
 void scale_up(T& a, T& b) {
   if constexpr (MachineNumber<T>) {
@@ -55,9 +55,9 @@ void scale_up(T& a, T& b) {
   }
 }
 
-/// The cross product of axis i of box 1 and axis j of box 2, times norm1 norm2 or, where it is asked for as a
-/// direction, times another positive number: its numbers i + 1, i + 2 in the frame of box 1, and j + 1, j + 2
-/// in that of box 2; the others are 0.
+/// The cross product of axis i of box 1 and axis j of box 2, times norm1 norm2; if it is only needed as a direction,
+/// times some other positive number. `in1` holds its components i + 1, i + 2 in the frame of box 1, `in2` its
+/// components j + 1, j + 2 in the frame of box 2; the remaining component is 0.
 template <class T>
 struct CrossAxis {
   std::array<T, 2> in1, in2;
@@ -68,11 +68,11 @@ template <class T>
 struct BoxPairInLanes;
 #endif
 
-/// Both boxes, their quaternions q1 and q2 brought to a moderate length, with every number multiplied by
-/// |q1|^2 |q2|^2 (by |q1|^2 for the centers): each is a polynomial of the input, and nothing is divided.
+/// A pair of boxes. Quaternions q1 and q2 of extreme lengths are rescaled. All values are multiplied by |q1|^2 |q2|^2
+/// (the vector between the centers by |q1|^2), so each is a polynomial of the input and nothing is divided.
 template <class T>
 struct BoxPair {
-  std::array<T, 4> relative;               ///< the rotation of box 2 seen from box 1
+  std::array<T, 4> relative;               ///< the rotation of box 2 relative to box 1
   std::array<std::array<T, 3>, 3> cosine;  ///< axis i of box 1 . axis j of box 2, times |q1|^2 |q2|^2
   std::array<T, 3> between;                ///< center 2 - center 1 along the axes of box 1, times |q1|^2
   std::array<T, 3> half1, half2;
@@ -107,9 +107,9 @@ struct BoxPair {
   }
 #endif
 
-  /// Of nearly parallel axes the cross product is small: each of its numbers is a sum of products p s of
-  /// a small p, whose squares add up to 1 - |cosine|, and a large s, so that none is the difference of
-  /// large ones and all are as exact, relative to the whole, as `relative` is.
+  /// For nearly parallel axes the cross product is small. Each of its components is a sum of products p s of a small p
+  /// and a large s; the squares of the p add up to 1 - |cosine|. No component is the difference of large numbers, so
+  /// each has the same error, relative to the length of the cross product, as `relative` has.
   CrossAxis<T> cross_axis(int i, int j, bool as_direction = true) const {
     T w = relative[3];
     if (i == j) {
@@ -122,14 +122,14 @@ struct BoxPair {
     const T third = next ? relative[3 - i - j] : -relative[3 - i - j];
     T p = relative[i] - relative[j], s = relative[i] + relative[j], q = w + third, t = w - third;
     if (as_direction) scale_up(p, q), scale_up(s, t);
-    const T jj = q * t - p * s, kj = s * q + p * t;  // cosines [j][j] and +-[k][j], k the third axis
+    const T jj = q * t - p * s, kj = s * q + p * t;  // cosines [j][j] and +-[k][j], where k is the third axis
     const T ii = q * t + p * s, ik = s * q - p * t;  // cosines [i][i] and +-[i][k]
     if (next) return {{-kj, jj}, {ii, -ik}};
     return {{-jj, -kj}, {-ik, -ii}};
   }
 };
 
-/// A number of a unit vector: rounding does not make it longer than 1.
+/// Clamps a component of a unit vector to [-1, 1], which rounding may exceed.
 template <class T>
 T at_most_one(const T& x) {
   if constexpr (MachineNumber<T>) return clamped(x, T(-1), T(1));
@@ -140,8 +140,8 @@ Vec3<T> at_most_one(const Vec3<T>& v) {
   return {at_most_one(v.x), at_most_one(v.y), at_most_one(v.z)};
 }
 
-/// What an axis says: how far the projections lie apart (negative: they overlap), and the part of
-/// center 2 - center 1 along it, both times the same positive number.
+/// The projections of two boxes onto an axis: `gap` is the distance between them (negative where they overlap),
+/// `toward` the component of center 2 - center 1. Both are multiplied by the same positive number.
 template <class T>
 struct Separation {
   T gap, toward;
@@ -176,34 +176,36 @@ Separation<T> separation(const BoxPair<T>& p, int axis, bool as_direction = true
 
 #if defined(COLLIDE_LANES)
 
-/// Three axes at once, as Separation.
+/// `Separation` for three axes at once. `length2` is the square of the factor of the gaps, divided by norm1; for a
+/// family of cross products it is their squared length.
 template <class T>
 struct SeparationsInLanes {
   Lanes<T> gap, toward;
-  Lanes<T>
-      length2;  ///< squares of what the gaps are multiplied by, over norm1: of a family those of the cross products
+  Lanes<T> length2;
 };
 
-/// Axis i of the n-th three of BoxPairInLanes is bit 3 n + i; bit 15, no axis, is -1.
+/// The axis that a bit of a bit set stands for: bit 3 n + i is axis i of group n of BoxPairInLanes. Bit 15 means none,
+/// -1.
 inline int axis_of_bit(int bit) {
   constexpr signed char axes[] = {0, 1, 2, 3, 4, 5, 6, 10, 14, 7, 11, 12, 8, 9, 13, -1};
   return axes[bit];
 }
 inline int first_bit(unsigned bits) { return std::countr_zero(bits | 1u << box_box_axes); }
 
-/// BoxPair in lanes, and what every axis says. In lane i are what belongs to axis i of box 1, or to axis i of box 2,
-/// or to the cross products of axis i of box 1 with axis i + f of box 2, f = 0, 1, 2 the family.
+/// `BoxPair` in lanes, with the separation along every axis. Lane i holds the values of axis i of box 1, of axis i of
+/// box 2, or of the cross product of axis i of box 1 and axis i + f of box 2, where f = 0, 1, 2 numbers the family.
 template <class T>
 struct BoxPairInLanes {
   using L = Lanes<T>;
   L relative, between, half1, half2, norm1, norm2;
-  bool valid_rotations = true;  ///< whether the quaternions are some
+  bool valid_rotations = true;  ///< whether both quaternions are nonzero and finite
 
   BoxPairInLanes(const Box<T>& box1, const Box<T>& box2)
       : BoxPairInLanes(box1.orientation, box2.orientation, lanes(box2.center) - lanes(box1.center), lanes(box1.half),
                        lanes(box2.half)) {}
-  /// Of boxes with these orientations and half extents, box 2 `way` from box 1.
-  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& way, const L& half_of_1, const L& half_of_2)
+  /// `between_centers` is the vector from the center of box 1 to the center of box 2.
+  BoxPairInLanes(const Quaternion<T>& q1, const Quaternion<T>& q2, const L& between_centers, const L& half_of_1,
+                 const L& half_of_2)
       : half1(half_of_1), half2(half_of_2) {
     L a = lanes(q1), b = lanes(q2);
     norm1 = sum_of_four(a * a);
@@ -218,14 +220,15 @@ struct BoxPairInLanes {
     const L aw = a.template broadcast<3>(), bw = b.template broadcast<3>();
     const L vector = (aw * b - a * bw) - (yzx(a) * zxy(b) - zxy(a) * yzx(b));
     relative = select(L::mask_of_three(), vector, sum_of_four(a * b));
-    between = FrameInLanes<T>::scaled(a).into(way);
+    between = FrameInLanes<T>::scaled(a).into(between_centers);
   }
 
-  /// Whether the quaternions are some, and the half extents and the way between the boxes finite.
+  /// Whether both quaternions are nonzero and finite, and the half extents and the vector between the centers are
+  /// finite.
   bool is_valid() const { return valid_rotations && all_three(are_finite(half1, half2, between)); }
 
-  /// Calls each(number, separations) for axes 0 to 2, 3 to 5, and the three families of cross products; tells whether
-  /// all of them are good: a cross product so small that products underflow is not.
+  /// Calls each(group, separations) for axes 0-2, for axes 3-5, and for the three families of cross products. Returns
+  /// false if a cross product is so small that products of its components underflow.
   template <class Each>
   bool for_each_axis(Each each) const {
     const auto frame = FrameInLanes<T>::scaled(relative), sizes = frame.magnitudes();
@@ -237,7 +240,7 @@ struct BoxPairInLanes {
 
     const L v = relative, v1 = yzx(relative), v2 = zxy(relative), w = relative.template broadcast<3>();
     const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
-    // Far above what underflows, and the same whatever the quaternions' lengths.
+    // A threshold far above underflow, independent of the lengths of the quaternions.
     const L least =
         L::splat(std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(0x1p40)) * scale * scale;
     std::array<L, 3> small;
@@ -263,7 +266,7 @@ struct BoxPairInLanes {
       family(4, zero - jj, zero - kj, zero - ik, zero - ii, half2, yzx(half2));
     });
     if (!any_of_three(small[0] | small[1] | small[2])) return true;
-    // Parallel axes have none, which is as good.
+    // The cross product of exactly parallel axes is zero, which is a valid result.
     const auto vanish = [&](const L& p, const L& q) { return (p == zero) & (q == zero); };
     const L bad = and_not(small[0], vanish(v1, v2) | vanish(v, w)) |
                   and_not(small[1], vanish(v - v1, w + v2) | vanish(v + v1, w - v2)) |

@@ -1,4 +1,4 @@
-/// How collide/box_plane_penetration.hpp is computed.
+/// The kernel of box_plane_penetration (collide/box_plane_penetration.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -29,7 +29,7 @@ CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane
       const L reach_x = reach.template broadcast<0>(), reach_y = reach.template broadcast<1>();
       const L reach_z = reach.template broadcast<2>();
       const L odd = L::of(T(-0.0), T(0), T(-0.0), T(0)), low_half = L::of(T(-0.0), T(-0.0), T(0), T(0));
-      const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0 to 3 and 4 to 7, but for z
+      const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0-3 and 4-7, without the z term
       const L height_low = around - reach_z, height_high = around + reach_z;
       const L lowest = smaller(height_low, height_high),
               pairwise = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());

@@ -1,4 +1,4 @@
-/// How collide/closest_point_rectangle.hpp is computed.
+/// The kernel of closest_point_rectangle (collide/closest_point_rectangle.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -27,13 +27,15 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
     const detail::FaceFoot<T> face1 = detail::foot_on_face<Tier>(diagonal, v1 - v0, w);
     const detail::FaceFoot<T> face2 = detail::foot_on_face<Tier>(diagonal, v3 - v0, w);
     if (face1.inside && face2.inside) {
-      // Both feet are equally far along the diagonal, and their distances from it may differ by less than squares tell.
+      // Both feet have the same position along the diagonal. Their distances from the point may differ by less than
+      // subtracting the squares would show.
       const Vec3<T> out1 = face1.height * face1.apex_weight, out2 = face2.height * face2.apex_weight;
       const bool first = detail::distance2_excess<Tier>(out1, out2, w - diagonal * face1.base_share) >= T(0);
       return {v0 + (first ? face1 : face2).from_start(diagonal)};
     }
 
-    // One foot is inside, in a face next to the diagonal: it is nearer than the diagonal. The other face's edges?
+    // One foot lies inside its triangle, and is closer than the diagonal. Compare it with the edges of the other
+    // triangle.
     const std::array<Vec3<T>, 4> v{v0, v1, v2, v3};
     const auto foot_on = [&](int edge) { return detail::foot_on_edge<Tier>(v[edge], v[(edge + 1) % 4], point); };
     const auto on = [&](int edge, const detail::EdgeFoot<T>& foot) {
@@ -57,7 +59,7 @@ ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec
       return {v0 + face2.from_start(diagonal)};
     }
 
-    // The nearest of the four edges, and the diagonal, the ridge of a folded rectangle.
+    // The closest of the four edges, and the diagonal, which is the ridge of a folded rectangle.
     const std::array<detail::EdgeFoot<T>, 4> foot{foot_on(0), foot_on(1), foot_on(2), foot_on(3)};
     const int edge = detail::nearest_edge<Tier>(v, foot, point);
     const detail::EdgeFoot<T> ridge = detail::foot_on_edge<Tier>(v0, v2, point);

@@ -1,4 +1,4 @@
-/// How collide/closest_point_rectangle_perimeter.hpp is computed.
+/// The kernel of closest_point_rectangle_perimeter (collide/closest_point_rectangle_perimeter.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,4 +1,4 @@
-/// How collide/closest_point_segment.hpp is computed.
+/// The kernel of closest_point_segment (collide/closest_point_segment.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

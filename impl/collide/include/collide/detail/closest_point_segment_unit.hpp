@@ -1,4 +1,4 @@
-/// How collide/closest_point_segment_unit.hpp is computed.
+/// The kernel of closest_point_segment_unit (collide/closest_point_segment_unit.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,4 +1,4 @@
-/// How collide/closest_point_triangle_perimeter.hpp is computed.
+/// The kernel of closest_point_triangle_perimeter (collide/closest_point_triangle_perimeter.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -14,7 +14,7 @@ namespace collide {
 
 namespace detail {
 
-/// What `Fast` answers, edge i in lane i; where an argument is not finite, what `shared` does.
+/// The kernel of `Fast` in lanes, with edge i in lane i. Calls `fallback` if an argument is not finite.
 template <class T, class Fallback>
 inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<T>& triangle, const Vec3<T>& point,
                                                                  const Fallback& fallback) {
@@ -23,15 +23,15 @@ inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<
   const L p = lanes(point), all = v0 + v1 + v2 + p, zero = L::splat(T(0)), one = L::splat(T(1));
   if (!all_three(are_finite(all))) return fallback(triangle, point);
   const Columns<T> start = columns(v0, v1, v2, p), end = yzx(start);
-  const Columns<T> along = end - start, way = start.template broadcast<3>() - start;
+  const Columns<T> along = end - start, to_query = start.template broadcast<3>() - start;
   const L length2 = dot(along, along);
-  const L share = smaller(larger(dot(way, along) / length2, zero), one) & (zero < length2);
+  const L share = smaller(larger(dot(to_query, along) / length2, zero), one) & (zero < length2);
   const Columns<T> from_start = along * share, from_end = along * (share - (one & (zero < length2)));
-  // How much further the foot on the next edge is, seen from the vertex between them: see next_distance2_excess.
-  const Columns<T> next = yzx(from_start), to_point = yzx(way);
+  // The squared distance of the foot on the next edge minus that of this one, as next_distance2_excess computes it.
+  const Columns<T> next = yzx(from_start), to_point = yzx(to_query);
   const L further = dot(next - from_end, (from_end - to_point) + (next - to_point));
-  // Whether the second is no nearer than the first, the third than the second, and the first no nearer than the third:
-  // a table, for nobody can predict it.
+  // Bit 0: edge 1 is no closer than edge 0. Bit 1: edge 2 is no closer than edge 1. Bit 2: edge 0 is no farther than
+  // edge 2. A table avoids unpredictable branches.
   constexpr signed char nearest[] = {2, 2, 1, 2, 2, 0, 1, 0};
   const int edge = nearest[((zero <= further).bits() & 3) | ((further <= zero).bits() & 4)];
   const Columns<T> foot = select(share == one, end, start + from_start);

@@ -1,4 +1,4 @@
-/// How collide/closest_point_triangle_perimeter_edges.hpp is computed.
+/// The kernel of closest_point_triangle_perimeter_edges (collide/closest_point_triangle_perimeter_edges.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -34,7 +34,7 @@ EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<
       const T length = prepared.length[i];
       const T projection = Tier::dot(point - v[i], direction), distance = clamped(projection, T(0), length);
       foot[i] = {direction * distance, direction * (distance - length), T(0), projection >= length};
-      if constexpr (!MachineNumber<T>) {  // a length less itself is zero, however little is known of it
+      if constexpr (!MachineNumber<T>) {  // length - length is exactly zero, whatever the error bound of the length
         if (foot[i].at_end) foot[i].from_end = Vec3<T>{};
       }
     }

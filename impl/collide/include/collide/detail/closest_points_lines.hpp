@@ -1,4 +1,4 @@
-/// How collide/closest_points_lines.hpp is computed.
+/// The kernel of closest_points_lines (collide/closest_points_lines.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,5 +1,5 @@
-/// Numbers made of rationals by + - * / and square roots, kept exactly: their signs take arithmetic alone.
-/// Needs GMP (target collide::certified).
+/// Exact constructible numbers: rationals combined by + - * / and square roots. Their signs are found by rational
+/// arithmetic alone. Needs GMP (target collide::certified).
 #pragma once
 
 #include <gmpxx.h>
@@ -14,16 +14,16 @@
 
 namespace collide::detail {
 
-/// A rational, or a + b sqrt(d): a, b and d are rationals or have roots that were taken before sqrt(d).
+/// A rational, or a + b sqrt(d), where a, b and d are rationals or contain roots that were taken before sqrt(d).
 ///
-/// So the numbers are those of a tower of quadratic extensions of the rationals. Nothing asks whether sqrt(d) lies in
-/// the tower below already: then a number has several forms, and what follows is right of each.
+/// The numbers form a tower of quadratic extensions of the rationals. A root sqrt(d) may already lie in the tower below
+/// it; this is not checked. A number then has several representations, and the following holds for each of them.
 ///
 /// 1. a + b sqrt(d), where a and b have opposite signs, has the sign of a times that of a^2 - b^2 d
 /// 2. 1 / (a + b sqrt(d)) == (a - b sqrt(d)) / (a^2 - b^2 d), or 1 / (2 a) where that divisor is zero
 ///
-/// A sign in a tower of n roots asks for signs of numbers of n - 1 roots and twice as many bits: work is bounded by the
-/// bits of the input and the number of different roots, which no query has more than a few of.
+/// The sign of a number with n roots needs signs of numbers with n - 1 roots and twice as many bits. The work is
+/// therefore bounded by the bits of the input and the number of different roots, of which each query has only a few.
 class Constructible {
  public:
   Constructible() = default;
@@ -79,12 +79,12 @@ class Constructible {
   /// a^2 - b^2 d
   Constructible norm() const { return a() * a() - b() * b() * d(); }
 
-  mpq_class rational_;  // where there is no extension
+  mpq_class rational_;  // the value if there is no extension
   std::shared_ptr<const Extension> extension_;
 };
 
 struct Constructible::Root {
-  std::uint32_t height;  // from 1; the roots below have less
+  std::uint32_t height;  // counted from 1; roots lower in the tower have smaller ones
   Constructible square;
 };
 struct Constructible::Extension {
@@ -105,11 +105,11 @@ inline const Constructible& Constructible::a() const { return extension_->a; }
 inline const Constructible& Constructible::b() const { return extension_->b; }
 inline const Constructible& Constructible::d() const { return extension_->root->square; }
 
-/// The square roots of one evaluation.
+/// The square roots taken in one evaluation.
 class Roots {
  public:
-  /// The square root of a positive number. Of a rational one it is a rational times the root of an earlier one, where
-  /// there is such.
+  /// The square root of a positive number. If the ratio of a rational number to an earlier rational square is itself a
+  /// square, the result is a rational multiple of the earlier root.
   Constructible root_of(const Constructible& square) {
     if (square.is_rational()) {
       if (const auto root = rational_root_of(square.rational_)) return Constructible(*root);

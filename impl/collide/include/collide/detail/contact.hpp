@@ -1,4 +1,5 @@
-/// What the queries about moving things share: when a contact is one, and normals where many are right.
+/// Functions that the queries about moving points and spheres share: making an impact, choosing a normal where many are
+/// valid, and filters that certify a miss.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@
 
 namespace collide::detail {
 
-/// The contact; a miss where its time is beyond the largest finite number.
+/// The impact, or a miss if the time is beyond the largest finite number.
 template <class T>
 Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) {
   if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
@@ -19,7 +20,7 @@ Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal)
 }
 
 #if defined(COLLIDE_LANES)
-/// What `impact` stores, as registers: shuffles would take longer.
+/// Stores an impact from registers, which is faster than shuffling lanes into its members.
 inline Impact<float> impact_from_lanes(Lanes<float> time, Lanes<float> location, Lanes<float> normal) {
   using A = Impact<float>;
   static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<float>));
@@ -27,7 +28,7 @@ inline Impact<float> impact_from_lanes(Lanes<float> time, Lanes<float> location,
   char* const numbers = reinterpret_cast<char*>(&answer);
   _mm_store_ss(&answer.time, time.v);
   _mm_storeu_ps(reinterpret_cast<float*>(numbers + offsetof(A, location)),
-                location.v);  // and a fourth number, which the next replaces
+                location.v);  // and a fourth number, overwritten by the next
   _mm_storel_pi(reinterpret_cast<__m64*>(numbers + offsetof(A, normal)), normal.v);
   _mm_store_ss(&answer.normal.z, _mm_movehl_ps(normal.v, normal.v));
   return answer;
@@ -44,8 +45,8 @@ inline Impact<double> impact_from_lanes(TwoDoubles time, Lanes<double> location,
   return answer;
 }
 
-/// A contact where `hit` has all bits in the first lane, whatever the others are where it has none. A time is not
-/// negative.
+/// An impact if the first lane of `hit` is set, else a miss; the other arguments are then ignored. A negative time
+/// becomes 0.
 template <class P, class L>
 auto impact_where(const P& hit, const P& time, const L& location, const L& normal) {
   using T = decltype(time.first());
@@ -55,7 +56,7 @@ auto impact_where(const P& hit, const P& time, const L& location, const L& norma
 }
 #endif
 
-/// A unit vector at a right angle to the unit vector u; any unit vector where u is zero.
+/// A unit vector perpendicular to the unit vector u; any unit vector if u is zero.
 template <class Tier, class T>
 Vec3<T> perpendicular(const Vec3<T>& u) {
   using detail::abs;
@@ -67,40 +68,39 @@ Vec3<T> perpendicular(const Vec3<T>& u) {
   return unit<Tier>(across);
 }
 
-/// n or, where it leads along the motion, -n.
+/// n, or -n if n . velocity > 0.
 template <class Tier, class T>
 Vec3<T> turned_against(const Vec3<T>& n, const Vec3<T>& velocity) {
   return Tier::dot(n, velocity) > T(0) ? -n : n;
 }
 
-/// A unit vector at a right angle to the unit vector `axis`, or any where that is zero, that does not lead along the
-/// motion.
+/// A unit vector n perpendicular to the unit vector `axis` (any, if that is zero), with n . velocity <= 0.
 template <class Tier, class T>
 Vec3<T> perpendicular_against(const Vec3<T>& axis, const Vec3<T>& velocity) {
   return turned_against<Tier>(perpendicular<Tier>(axis), velocity);
 }
 
-/// The unit vector against the motion; any where nothing moves.
+/// The unit vector opposite to the velocity; any unit vector if that is zero.
 template <class Tier, class T>
 Vec3<T> against(const Vec3<T>& velocity) {
   const Vec3<T> n = unit<Tier>(Vec3<T>{} - velocity);
   return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
 }
 
-/// `away` as a unit vector; where it is zero, a unit vector that does not lead along the motion.
+/// `away` as a unit vector; if it is zero, the unit vector opposite to the velocity.
 template <class Tier, class T>
 Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) {
   const Vec3<T> n = unit<Tier>(away);
   return Tier::dot(n, n) > T(0) ? n : against<Tier>(velocity);
 }
 
-/// The time at which a point outside a ball, `from` away from its center, comes to its surface; negative
-/// where it never does. In two dimensions as well: then all vectors lie in one plane.
+/// The time at which a point outside a ball reaches its surface; negative if it never does. `from` is the vector from
+/// the center to the point. Also works in two dimensions, with all vectors in one plane.
 ///
-/// Source: the discriminant as the distance of the center from the line of motion (Haines, Guenther,
-/// Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, 2019). Near a tangent the quotient
-/// of the textbooks loses what the square of the radius loses; this difference loses 1 eps of the way to
-/// the closest approach.
+/// Source: the discriminant computed from the distance between the center and the line of motion (Haines, Guenther,
+/// Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, 2019). Near a tangent, the textbook quotient
+/// loses the digits that the square of the radius loses. This difference has an error of 1 eps of the distance to the
+/// closest approach.
 template <class Tier, class T>
 T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
   using detail::sqrt;
@@ -114,11 +114,11 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
   return positive_part(nearest - sqrt(chord2) / sqrt(speed2));
 }
 
-/// Whether a ball surely moves away from the front of a plane, or starts wholly behind it; a point is a ball of radius
-/// 0.
+/// Filter: true if a ball certainly moves away from the front of a plane, or certainly starts wholly behind it. A point
+/// is a ball of radius 0.
 ///
-/// A sum of n products is known to n u of the sum of their magnitudes (u = 2^-53), the length of the normal to 3 u of
-/// itself, each product to 2^-1074 where it underflows; 8 u are asked for.
+/// A sum of n products has an error of n u of the sum of their magnitudes (u = 2^-53), the length of the normal 3 u of
+/// itself, and each product 2^-1074 if it underflows. The filter uses a bound of 8 u.
 inline bool certainly_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
                              const Plane<double>& plane) {
   const Vec3<double>& n = plane.normal;
@@ -133,12 +133,13 @@ inline bool certainly_misses(const Vec3<double>& center, double radius, const Ve
   return -height - reach > error_bound * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
 }
 
-/// Whether a moving point is surely outside of a ball and never comes to it. `from`, seen from the center, and `radius`
-/// are differences and sums of what is given, each number known to 1 u (u = 2^-53).
+/// Filter: true if a moving point is certainly outside a ball and certainly never reaches it. `from` is the vector from
+/// the center to the point. `from` and `radius` are differences and sums of inputs, each with an error of 1 u (u =
+/// 2^-53).
 ///
-/// Where nothing overflows or underflows a square of a length is known to 5 u of itself, `along` to 5 u of the sum of
-/// its terms' magnitudes, at most sqrt(distance2 speed2): each difference below is known to less than 2^6 u of what it
-/// is compared with, and 2^11 u are asked for.
+/// Without overflow and underflow, the square of a length has an error of 5 u of itself, and `along` has an error of
+/// 5 u of the sum of its terms' magnitudes, which is at most sqrt(distance2 speed2). So each difference below has an
+/// error of less than 2^6 u of the terms that it is compared with. The filter uses a bound of 2^11 u.
 inline bool certainly_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
   const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
   const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;

@@ -1,4 +1,4 @@
-/// A number as the unevaluated sum of two: about twice the precision of its scalar.
+/// Double-word arithmetic: a number as the unevaluated sum of two, with about twice the precision.
 #pragma once
 
 #include <limits>
@@ -10,10 +10,10 @@
 
 namespace collide {
 
-/// high + low, |low| <= ulp(high) / 2. Each operation has a relative error of at most
-/// DoubleWord<T>::epsilon, unless it overflows or underflows. Source: Joldes, Muller, Popescu, Tight
-/// and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic (2017): algorithms
-/// AccurateDWPlusDW (3 u^2) and DWTimesDW1 (7 u^2; 5 u^2 was proved later), u the unit roundoff of T.
+/// high + low with |low| <= ulp(high) / 2. Each operation has a relative error of at most DoubleWord<T>::epsilon unless
+/// it overflows or underflows. Source: Joldes, Muller, Popescu, Tight and Rigorous Error Bounds for Basic Building
+/// Blocks of Double-Word Arithmetic (2017): algorithms AccurateDWPlusDW (3 u^2) and DWTimesDW1 (7 u^2; 5 u^2 was proved
+/// later), with u the unit roundoff of T.
 template <class T>
 struct DoubleWord {
   T high{}, low{};
@@ -34,8 +34,8 @@ struct DoubleWord {
     const T b_part = s - a;
     return {s, (a - (s - b_part)) + (b - b_part)};
   }
-  /// Exact: by a fused multiply-add where the machine has one, else Dekker's product, for |a|, |b| below 2^(emax -
-  /// digits/2).
+  /// The exact product: by a fused multiply-add where the machine has one, else Dekker's product, which requires |a|
+  /// and |b| below 2^(emax - digits/2).
   static constexpr DoubleWord two_product(T a, T b) noexcept {
 #if defined(__FMA__)
     if (!std::is_constant_evaluated()) {
@@ -62,14 +62,14 @@ struct DoubleWord {
     const DoubleWord p = two_product(a.high, b.high);
     return fast_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
   }
-  /// Two steps of long division; the relative error is below 2^7 u^2: two digits of quotient of 53 bits each,
-  /// the rest of the first known to 8 u^2 |a|, that of the second dropped.
+  /// Two steps of long division. The relative error is below 2^7 u^2: the quotient has two digits of 53 bits each; the
+  /// remainder of the first has an error of 8 u^2 |a|, the remainder of the second is dropped.
   friend constexpr DoubleWord operator/(const DoubleWord& a, const DoubleWord& b) noexcept {
     const T first = a.high / b.high;
     const DoubleWord rest = a - b * DoubleWord(first);
     return fast_two_sum(first, rest.high / b.high);
   }
-  /// One step of Newton's iteration from the root of the high part: relative error below 2^7 u^2.
+  /// One Newton step from the square root of the high part. The relative error is below 2^7 u^2.
   friend DoubleWord sqrt(const DoubleWord& a) noexcept {
     if (!(a.high > T(0))) return {detail::sqrt(a.high), T(0)};
     const T first = detail::sqrt(a.high);
@@ -92,7 +92,7 @@ constexpr DoubleWord<T> abs(const DoubleWord<T>& a) noexcept {
   return a < DoubleWord<T>(T(0)) ? -a : a;
 }
 
-/// The cheapest number with at least twice the precision of T, and its relative error per operation.
+/// The cheapest number type with at least twice the precision of T, and its relative error per operation.
 template <class T>
 struct WideOf {
   using type = DoubleWord<T>;

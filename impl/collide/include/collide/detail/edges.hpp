@@ -1,5 +1,4 @@
-/// Edges and faces of flat shapes: the nearest point on one of them, and which of two is nearer. What the
-/// queries about triangles and rectangles share.
+/// Closest points on the edges and faces of triangles and rectangles, and comparisons of their distances.
 #pragma once
 
 #include <array>
@@ -12,11 +11,11 @@
 
 namespace collide::detail {
 
-/// The point of an edge nearest to a point, seen from both ends of the edge.
+/// The point of an edge closest to a given point (the foot), relative to both ends of the edge.
 template <class T>
 struct EdgeFoot {
   Vec3<T> from_start{}, from_end{};
-  T share{};  ///< of the way from start to end
+  T share{};  ///< parameter along the edge, 0 at the start, 1 at the end
   bool at_end = false;
 
   Vec3<T> on(const Vec3<T>& start, const Vec3<T>& end) const { return at_end ? end : start + from_start; }
@@ -31,9 +30,9 @@ EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>
   return {along * share, along * (share - T(1)), share, share >= T(1)};
 }
 
-/// |b - w|^2 - |a - w|^2: how much further b is than a, all three seen from the same vertex. Where a and b
-/// are near that vertex, as two feet on edges that meet there may be, this keeps what the difference of the
-/// two squares would lose.
+/// b - w|^2 - |a - w|^2: the difference of the squared distances of b and a from w. All three are relative to one
+/// vertex. If a and b are near that vertex, as the feet on two edges that meet there may be, this keeps the digits that
+/// subtracting the two squares would lose.
 template <class Tier, class T>
 T distance2_excess(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& w) {
   return Tier::dot(b - a, (a - w) + (b - w));
@@ -46,13 +45,14 @@ bool is_finite(const Vec3<T>& v) {
   return abs(v.x) <= most && abs(v.y) <= most && abs(v.z) <= most;
 }
 
-/// How much further the foot on the next edge is than the foot on this one: seen from the vertex between them.
+/// The squared distance of the foot on the next edge minus that of the foot on this edge, measured from their common
+/// vertex.
 template <class Tier, class T>
 T next_distance2_excess(const EdgeFoot<T>& foot, const EdgeFoot<T>& next, const Vec3<T>& w) {
   return distance2_excess<Tier>(foot.from_end, next.from_start, w);
 }
 
-/// Which edge of the triangle, i from v[i] to v[(i + 1) % 3], is the nearest.
+/// The index of the closest edge of a triangle; edge i runs from v[i] to v[(i + 1) % 3].
 template <class Tier, class T>
 int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 3>& foot, const Vec3<T>& point) {
   const T excess01 = next_distance2_excess<Tier>(foot[0], foot[1], point - v[1]);
@@ -62,8 +62,8 @@ int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 
   return (nearer == 0 ? excess20 <= T(0) : excess12 >= T(0)) ? nearer : 2;
 }
 
-/// Which of the four edges, i from v[i] to v[(i + 1) % 4], is the nearest. Opposite edges have no vertex in
-/// common and are compared from the point.
+/// The index of the closest edge of a rectangle; edge i runs from v[i] to v[(i + 1) % 4]. Opposite edges have no common
+/// vertex, so they are compared by their distances from the point.
 template <class Tier, class T>
 int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 4>& foot, const Vec3<T>& point) {
   std::array<T, 4> distance2, next_excess;
@@ -87,21 +87,21 @@ T largest_abs(const Vec3<T>& x) {
   return larger(larger(abs(x.x), abs(x.y)), abs(x.z));
 }
 
-/// Where the perpendicular from a point onto the plane of a triangle meets it. The triangle has the corners
-/// 0, base and apex; the point w, like both, is seen from the first corner.
+/// The foot of the perpendicular from the point w to the plane of a triangle with the corners 0, base and apex. All
+/// vectors are relative to the first corner.
 template <class T>
 struct FaceFoot {
-  bool inside = false;  ///< in the triangle; false where it has no area
-  T base_share{};       ///< of the nearest point on the line of the base
-  Vec3<T> height{};     ///< from that line to the apex
+  bool inside = false;  ///< the foot lies in the triangle; false if the triangle has no area
+  T base_share{};       ///< parameter of the closest point on the line of the base
+  Vec3<T> height{};     ///< the vector from that line to the apex
   T base_weight{}, apex_weight{};
 
   Vec3<T> from_start(const Vec3<T>& base) const { return base * base_share + height * apex_weight; }
   Vec3<T> from_end(const Vec3<T>& base) const { return base * (base_share - T(1)) + height * apex_weight; }
 };
 
-/// Source: orthogonalization of base and apex (Gram and Schmidt), and of w before it is measured along the
-/// height. So a thin triangle costs no accuracy: the foot is exact for an apex within a few eps of |apex|.
+/// Source: Gram-Schmidt orthogonalization of base and apex; w is orthogonalized too before it is measured along the
+/// height. So a thin triangle costs no accuracy: the foot is exact for an apex that is moved by a few eps of |apex|.
 template <class Tier, class T>
 FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>& w) {
   FaceFoot<T> foot;
@@ -118,9 +118,9 @@ FaceFoot<T> foot_on_face(const Vec3<T>& base, const Vec3<T>& apex, const Vec3<T>
   return foot;
 }
 
-/// Whether a triangle is so thin that sums of products of its edges do not do, from the squares of n = edge1 x edge2
-/// and of these edges. Thin: (edge1^2 + edge2^2)^2 > thinness n^2; moving_point_triangle.hpp derives what the normal of
-/// another is good for.
+/// Whether a triangle is thin: so thin that sums of products of its edges are too inaccurate. The arguments are the
+/// squared lengths of n = edge1 x edge2 and of the edges. Thin means (edge1^2 + edge2^2)^2 > thinness n^2;
+/// moving_point_triangle.hpp derives the accuracy of the normal of other triangles.
 inline constexpr int thinness = 100;
 template <MachineNumber T>
 bool is_thin(T n2, T edge1_squared, T edge2_squared) {
@@ -128,8 +128,8 @@ bool is_thin(T n2, T edge1_squared, T edge2_squared) {
   return T(thinness) * n2 < e2 * e2;
 }
 
-/// edge1 x edge2, the normal of the triangle with these edges. Of a thin one rounding leaves the product a part along
-/// the edges, perhaps as large as itself, which is taken off where they are longest.
+/// edge1 x edge2, the normal of the triangle with these edges. For a thin triangle, rounding leaves the cross product a
+/// component along the edges that may be as large as itself. That component along the longest edge is removed.
 template <class Tier, class T>
 Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) {
   const Vec3<T> n = Tier::cross(edge1, edge2);
@@ -137,7 +137,7 @@ Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) {
     Vec3<T> longest = edge1;
     T longest2 = Tier::dot(edge1, edge1);
     const T other2 = Tier::dot(edge2, edge2);
-    if (T(16) * Tier::dot(n, n) >= longest2 * other2) return n;  // a sine of 1/4: 2 eps of the product are 8 of n
+    if (T(16) * Tier::dot(n, n) >= longest2 * other2) return n;  // sine >= 1/4: 2 eps of the product are 8 eps of n
     if (other2 > longest2) longest = edge2, longest2 = other2;
     const Vec3<T> edge3 = edge2 - edge1;
     if (const T third2 = Tier::dot(edge3, edge3); third2 > longest2) longest = edge3, longest2 = third2;

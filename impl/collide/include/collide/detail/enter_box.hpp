@@ -1,4 +1,4 @@
-/// A point that enters a box from outside, in the box's frame: shared by the queries about it.
+/// The entry of a moving point into a box, in the frame of the box: used by the queries about points, rays and boxes.
 #pragma once
 
 #include <array>
@@ -10,20 +10,20 @@
 
 namespace collide::detail {
 
-/// Where a moving point enters the box; axis -1: it does not.
+/// The entry of a moving point into a box; axis is -1 if it does not enter.
 template <class T>
 struct BoxEntry {
-  int axis = -1;  ///< of the face's outward normal
-  T side{1};      ///< +1 or -1
+  int axis = -1;  ///< axis of the entered face's outward normal
+  T side{1};      ///< sign of the outward normal: +1 or -1
   T time{};
   std::array<T, 3> at{};
 };
 
-/// The entry of the point at + step t, which starts outside, into { x : low <= x <= high }. `over(gap, i)` is
-/// the time that the motion takes to cross `gap` along axis i.
+/// The entry of the point at + step t, which starts outside, into { x : low <= x <= high }. `over(gap, i)` returns the
+/// time in which the motion crosses `gap` along axis i.
 ///
-/// Of the face planes in front of which the point starts, the one reached last is where it enters, if it
-/// does. Source: Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990.
+/// Of the face planes that the start is in front of, the point enters through the one reached last, if it enters at
+/// all. Source: Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990.
 template <class T, class Over>
 BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, const std::array<T, 3>& low,
                       const std::array<T, 3>& high, Over over) {
@@ -41,7 +41,8 @@ BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, 
       entry.at[i] = entry.side > T(0) ? high[i] : low[i];
       continue;
     }
-    // Only the far plane can have been crossed: the near one by rounding, where two are reached at once.
+    // In exact arithmetic only the far plane can be crossed here. Rounding may put x before the near plane if two
+    // planes are reached at once; clamping corrects that.
     const T x = at[i] + step[i] * entry.time;
     if (!(step[i] > T(0) ? x <= high[i] : x >= low[i])) return {};
     entry.at[i] = clamped(x, low[i], high[i]);
@@ -51,18 +52,18 @@ BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, 
 
 #if defined(COLLIDE_LANES)
 
-/// The same in lanes, for any start.
+/// The entry of a moving point into a box in lanes, for any start.
 template <class T>
 struct BoxEntryInLanes {
-  bool enters;    ///< or starts inside
-  bool inside;    ///< starts in the closed box
-  Lanes<T> time;  ///< in every lane; 0 for a start inside
+  bool enters;    ///< the point enters or starts inside
+  bool inside;    ///< the point starts in the closed box
+  Lanes<T> time;  ///< the same in every lane; 0 for a start inside
   Lanes<T> at;
-  Lanes<T> axis;   ///< all bits where a face is entered: several where they are reached at once
-  Lanes<T> below;  ///< all bits where the start is below the box
+  Lanes<T> axis;   ///< mask of the entered faces: several if they are reached at once
+  Lanes<T> below;  ///< mask of the coordinates in which the start is below the box
 };
 
-/// Everybody is asked everything, and then selected from. Infinity and NaN do not enter.
+/// Branchless: computes every axis, then selects. Infinite and NaN inputs do not enter.
 template <class T, class Over>
 BoxEntryInLanes<T> enter_box(const Lanes<T>& at, const Lanes<T>& step, const Lanes<T>& low, const Lanes<T>& high,
                              Over over) {

@@ -12,11 +12,11 @@
 
 namespace collide {
 
-/// The three unit axes of a rotation; axis[i] is the image of the i-th coordinate axis.
+/// The three unit axes of a rotation; axis[i] is the image of coordinate axis i.
 template <class T>
 using Axes = std::array<Vec3<T>, 3>;
 
-/// The axes of the rotation q / |q|, without a square root: the matrix is rational in q.
+/// The axes of the rotation q / |q|. The matrix is rational in q, so no square root is needed.
 template <class T>
 Axes<T> axes_of(const Quaternion<T>& q) {
   const T s = T(2) / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
@@ -29,7 +29,7 @@ Axes<T> axes_of(const Quaternion<T>& q) {
           Vec3<T>{xz + wy, yz - wx, T(1) - (xx + yy)}};
 }
 
-/// World to box coordinates, and back. Both are directions: no translation.
+/// Converts a direction from world to box coordinates, and back. There is no translation.
 template <class Tier, class T>
 std::array<T, 3> into_frame(const Axes<T>& axes, const Vec3<T>& world) {
   return {Tier::dot(axes[0], world), Tier::dot(axes[1], world), Tier::dot(axes[2], world)};
@@ -44,7 +44,7 @@ std::array<T, 3> components(const Vec3<T>& v) {
   return {v.x, v.y, v.z};
 }
 
-/// The length of a vector; squares that underflow do not make it zero.
+/// The length of a vector; it is not lost when the squares underflow.
 template <class T>
 T length(const std::array<T, 3>& v) {
   using detail::abs, detail::sqrt;
@@ -61,18 +61,18 @@ T length(const std::array<T, 3>& v) {
   return sqrt(length2);
 }
 
-/// How far a coordinate lies beyond [-half, half]: signed, zero within, NaN where either is.
+/// The signed distance of a coordinate from the interval [-half, half]: 0 inside. NaN if either argument is NaN.
 template <class T>
 T excess(T coordinate, T half) {
   return larger(coordinate - half, T(0)) + smaller(coordinate + half, T(0));
 }
 
-/// The face of a box nearest to a point inside it.
+/// The face of a box closest to a point inside the box.
 template <class T>
 struct NearestFace {
-  int axis = 0;  ///< of the face's outward normal
-  T side{1};     ///< +1 or -1
-  T distance{};  ///< from the point, not negative for a point inside
+  int axis = 0;  ///< axis of the face's outward normal
+  T side{1};     ///< sign of the outward normal: +1 or -1
+  T distance{};  ///< distance from the point, not negative for a point inside
 };
 
 template <class T>
@@ -88,7 +88,8 @@ NearestFace<T> nearest_face(const std::array<T, 3>& local, const std::array<T, 3
 
 namespace detail {
 
-/// x, y, z, w of a quaternion, brought to a moderate length by a power of two: nothing is rounded.
+/// x, y, z, w of a quaternion, multiplied by a power of two (so without rounding) if its length is so extreme that
+/// products would overflow or underflow.
 template <class T>
 std::array<T, 4> rescaled(const Quaternion<T>& q) {
   if constexpr (MachineNumber<T>) {
@@ -109,22 +110,22 @@ std::array<T, 4> rescaled(const Quaternion<T>& q) {
 
 namespace detail {
 
-/// Whether `moderate` may leave a quaternion of that squared length as it is: false for NaN.
+/// Whether a quaternion with this squared length needs no rescaling; false for NaN.
 template <class T>
 bool is_in_safe_range(T norm2) {
   return norm2 >= T(0.00390625) && norm2 <= T(1024);
 }
-/// `moderate`, in lanes.
+/// `rescaled` in lanes.
 template <class T>
 Lanes<T> rescaled_lanes(const Quaternion<T>& q) {
   const auto [x, y, z, w] = rescaled(q);
   return Lanes<T>::of(x, y, z, w);
 }
 
-/// axes_of and what is computed with it, in lanes.
+/// The rotation matrix of a quaternion, and its products with vectors, in lanes.
 ///
-/// The matrix has `main` on its diagonal, and beside it sums and differences of the same products, which both ways
-/// through it use in cyclic order.
+/// `main_` holds the diagonal of the matrix. Each element off the diagonal is a sum or a difference of the same two
+/// products: `sums_` and `differences_`, in cyclic order.
 template <class T>
 class FrameInLanes {
  public:
@@ -137,7 +138,7 @@ class FrameInLanes {
     sums_ = products + w_products;
     differences_ = products - w_products;
   }
-  /// Of the rotation q / |q|, all numbers times |q|^2, so that nothing is divided.
+  /// The matrix of the rotation q / |q| times |q|^2, computed without a division.
   static FrameInLanes scaled(const Lanes<T>& q) {
     const Lanes<T> squares = q * q, twice = q + q, w = q.template broadcast<3>();
     const Lanes<T> products = yzx(q) * zxy(twice), w_products = w * twice;
@@ -147,7 +148,7 @@ class FrameInLanes {
     frame.differences_ = products - w_products;
     return frame;
   }
-  /// Every number's magnitude: what it makes of half extents is how far they reach.
+  /// The matrix of absolute values. Its product with half extents gives the projected half extents.
   FrameInLanes magnitudes() const {
     FrameInLanes frame;
     frame.main_ = absolute(main_);
@@ -161,7 +162,7 @@ class FrameInLanes {
   Lanes<T> out_of(const Lanes<T>& local) const {
     return main_ * local + zxy(differences_) * yzx(local) + yzx(sums_) * zxy(local);
   }
-  /// The columns: the axes in world coordinates.
+  /// The columns of the matrix: the axes in world coordinates.
   std::array<Lanes<T>, 3> axes() const {
     using L = Lanes<T>;
     const L x = L::mask_of_lane(0), y = L::mask_of_lane(1), z = L::mask_of_lane(2), s = yzx(sums_),
@@ -175,7 +176,7 @@ class FrameInLanes {
   Lanes<T> main_, sums_, differences_;
 };
 
-/// The same, but that NaN of `half` alone is lost.
+/// `excess` in lanes. A NaN in `half` alone is lost.
 template <class T>
 Lanes<T> excess(const Lanes<T>& coordinate, const Lanes<T>& half) {
   return coordinate - smaller(larger(coordinate, Lanes<T>::splat(T(0)) - half), half);

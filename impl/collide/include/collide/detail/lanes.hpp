@@ -1,5 +1,5 @@
-/// Four machine numbers side by side, computed at once: what `Fast` computes short queries with, whose hits and
-/// misses nobody can predict. A kernel in lanes has no branches to mispredict: it selects.
+/// SIMD lanes: four floating-point numbers that are computed at once. `Fast` uses them for short queries whose hits and
+/// misses a branch predictor cannot predict: a kernel in lanes computes all cases and selects.
 #pragma once
 
 #include <array>
@@ -10,14 +10,13 @@
 #include <collide/detail/number.hpp>
 #include <collide/shapes.hpp>
 
-/// Defined where the machine has lanes and the program does not refuse them by COLLIDE_NO_LANES. Elsewhere the kernels
-/// in plain numbers answer, with the same contracts.
+/// COLLIDE_LANES is defined if the machine has SSE2, unless the program defines COLLIDE_NO_LANES. Without it the plain
+/// kernels are used, with the same contracts.
 #if defined(__SSE2__) && !defined(COLLIDE_NO_LANES)
 #define COLLIDE_LANES 1
-#if defined(__GNUC__)  // for lambdas: as functions they would pass lanes through memory
+#if defined(__GNUC__)  // for lambdas: a call would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
-#define COLLIDE_OUT_OF_LINE \
-  __attribute__((noinline, cold))  // for what is rare: in line it would take registers all the time
+#define COLLIDE_OUT_OF_LINE __attribute__((noinline, cold))  // for rare cases, which would occupy registers if inlined
 #else
 #define COLLIDE_INLINE
 #define COLLIDE_OUT_OF_LINE
@@ -30,13 +29,13 @@
 
 namespace collide::detail {
 
-/// `kernel`, called out of line.
+/// Wraps `kernel` so that calls of it are not inlined.
 template <class Kernel>
 auto out_of_line(Kernel kernel) noexcept {
   return [kernel](const auto&... arguments) COLLIDE_OUT_OF_LINE { return kernel(arguments...); };
 }
 
-/// One register of a machine, or two where four numbers do not fit into one.
+/// Four numbers in one register, or in two where one register holds only two of them.
 template <class T>
 struct Lanes;
 
@@ -50,14 +49,14 @@ struct Lanes<float> {
   /// x, y, 0, 0.
   static Lanes two(float x, float y) noexcept { return {_mm_setr_ps(x, y, 0, 0)}; }
   static Lanes of(float x, float y, float z, float w = 0) noexcept { return {_mm_setr_ps(x, y, z, w)}; }
-  /// The four numbers that lie from there on.
+  /// Loads four consecutive numbers.
   static Lanes load(const char* there) noexcept { return {_mm_loadu_ps(reinterpret_cast<const float*>(there))}; }
-  /// All bits in every lane, or none.
+  /// A mask: all bits set in every lane, or none.
   static Lanes mask(bool yes) noexcept { return {_mm_castsi128_ps(_mm_set1_epi32(-int(yes)))}; }
 
-  /// All bits in the first three lanes.
+  /// A mask with all bits set in the first three lanes.
   static Lanes mask_of_three() noexcept { return {_mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0))}; }
-  /// All bits in lane i.
+  /// A mask with all bits set in lane i.
   static Lanes mask_of_lane(int i) noexcept {
     return {_mm_castsi128_ps(_mm_setr_epi32(-(i == 0), -(i == 1), -(i == 2), -(i == 3)))};
   }
@@ -66,25 +65,25 @@ struct Lanes<float> {
   friend Lanes operator-(Lanes a, Lanes b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
   friend Lanes operator*(Lanes a, Lanes b) noexcept { return {_mm_mul_ps(a.v, b.v)}; }
   friend Lanes operator/(Lanes a, Lanes b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
-  // Comparisons, in each lane all bits or none.
+  // Comparisons give a mask: in each lane all bits set, or none.
   friend Lanes operator<(Lanes a, Lanes b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
   friend Lanes operator<=(Lanes a, Lanes b) noexcept { return {_mm_cmple_ps(a.v, b.v)}; }
   friend Lanes operator==(Lanes a, Lanes b) noexcept { return {_mm_cmpeq_ps(a.v, b.v)}; }
   friend Lanes operator&(Lanes a, Lanes b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
   friend Lanes operator|(Lanes a, Lanes b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
   friend Lanes operator^(Lanes a, Lanes b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
-  /// a where `where` has no bits.
+  /// a & ~where: a in the lanes where the mask is not set, 0 elsewhere.
   friend Lanes and_not(Lanes a, Lanes where) noexcept { return {_mm_andnot_ps(where.v, a.v)}; }
   /// Bit i: the sign bit of lane i.
   int bits() const noexcept { return _mm_movemask_ps(v); }
 
   friend Lanes sqrt(Lanes a) noexcept { return {_mm_sqrt_ps(a.v)}; }
-  /// NaN of the first stays.
+  /// The larger, or smaller, number of each lane. A NaN in the first argument is returned.
   friend Lanes larger(Lanes a, Lanes b) noexcept { return {_mm_max_ps(b.v, a.v)}; }
   friend Lanes smaller(Lanes a, Lanes b) noexcept { return {_mm_min_ps(b.v, a.v)}; }
 
   void store(float* four) const noexcept { _mm_storeu_ps(four, v); }
-  /// Lanes x, y, z, w of this one in another order.
+  /// Permutes lanes: the result has lanes x, y, z, w of this value.
   template <int x, int y, int z, int w>
   Lanes shuffled() const noexcept {
     return {_mm_shuffle_ps(v, v, _MM_SHUFFLE(w, z, y, x))};
@@ -96,7 +95,7 @@ struct Lanes<float> {
   float first() const noexcept { return _mm_cvtss_f32(v); }
 };
 
-/// A register of two doubles.
+/// Two doubles in one register.
 struct TwoDoubles {
   __m128d v;
 
@@ -192,7 +191,7 @@ struct Lanes<double> {
   }
 };
 
-/// One register, of which the first two lanes count: half the work of four where these are two registers.
+/// One register whose first two lanes are used. In double it takes half the work of four lanes.
 template <class T>
 using Pair = std::conditional_t<std::same_as<T, float>, Lanes<float>, TwoDoubles>;
 
@@ -201,16 +200,16 @@ inline TwoDoubles first_pair(Lanes<double> a) noexcept { return a.low; }
 inline Lanes<float> second_pair(Lanes<float> a) noexcept { return {_mm_movehl_ps(a.v, a.v)}; }
 inline TwoDoubles second_pair(Lanes<double> a) noexcept { return a.high; }
 
-/// Of a pair x, y: y, x.
+/// A pair x, y as y, x.
 inline Lanes<float> swapped(Lanes<float> a) noexcept { return a.shuffled<1, 0, 3, 2>(); }
 inline TwoDoubles swapped(TwoDoubles a) noexcept { return a.shuffled<1, 0>(); }
-/// y, x, y, x.
+/// A pair x, y as y, x, y, x.
 inline Lanes<float> swapped_twice(Lanes<float> a) noexcept { return a.shuffled<1, 0, 1, 0>(); }
 inline Lanes<double> swapped_twice(TwoDoubles a) noexcept { return {swapped(a), swapped(a)}; }
-/// x in every lane.
+/// The first lane of a pair in every lane.
 inline Lanes<float> broadcast_first(Lanes<float> a) noexcept { return a.broadcast<0>(); }
 inline Lanes<double> broadcast_first(TwoDoubles a) noexcept { return {a.shuffled<0, 0>(), a.shuffled<0, 0>()}; }
-/// The first lanes of three pairs.
+/// The first lanes of three pairs, as the first three lanes.
 inline Lanes<float> first_lanes(Lanes<float> x, Lanes<float> y, Lanes<float> z) noexcept {
   return {_mm_movelh_ps(_mm_unpacklo_ps(x.v, y.v), z.v)};
 }
@@ -218,7 +217,7 @@ inline Lanes<double> first_lanes(TwoDoubles x, TwoDoubles y, TwoDoubles z) noexc
   return {{_mm_unpacklo_pd(x.v, y.v)}, z};
 }
 
-/// x, y, z and 0.
+/// x, y, z, 0.
 inline Lanes<float> lanes(const Vec3<float>& a) noexcept {
   static_assert(sizeof(Vec3<float>) == 3 * sizeof(float));
   const __m128 z = _mm_load_ss(&a.z);
@@ -242,7 +241,7 @@ inline Lanes<double> lanes(const Quaternion<double>& q) noexcept {
   return {{_mm_loadu_pd(reinterpret_cast<const double*>(&q))}, {_mm_loadu_pd(&q.z)}};
 }
 
-/// The normal and the offset, the center and the radius.
+/// A plane as normal.x, normal.y, normal.z, offset; a sphere as center.x, center.y, center.z, radius.
 template <class T>
 Lanes<T> lanes(const Plane<T>& plane) noexcept {
   static_assert(sizeof plane == 4 * sizeof(T));
@@ -253,7 +252,7 @@ Lanes<T> lanes(const Sphere<T>& sphere) noexcept {
   static_assert(sizeof sphere == 4 * sizeof(T));
   return Lanes<T>::load(reinterpret_cast<const char*>(&sphere));
 }
-/// Its corners, with any number in the fourth lane.
+/// The corners of a triangle, with unspecified numbers in lane 3.
 template <class T>
 struct CornerLanes {
   Lanes<T> v0, v1, v2;
@@ -269,7 +268,7 @@ inline CornerLanes<double> corner_lanes(const Triangle<double>& triangle) noexce
   return {lanes(triangle.v0), lanes(triangle.v1), lanes(triangle.v2)};
 }
 
-/// The same in doubles.
+/// A vector or quaternion converted to lanes of double.
 template <class T>
 Lanes<double> wide_lanes(const Vec3<T>& a) noexcept {
   return Lanes<double>::of(a.x, a.y, a.z);
@@ -285,7 +284,7 @@ std::array<T, 4> to_array(const Lanes<T>& a) noexcept {
   return numbers;
 }
 
-/// a where `where` has all bits, b where it has none.
+/// In each lane: a where the mask is set, b elsewhere.
 template <class L>
 L select(const L& where, const L& a, const L& b) noexcept {
   return (a & where) | and_not(b, where);
@@ -295,12 +294,12 @@ Lanes<T> absolute(const Lanes<T>& a) noexcept {
   return and_not(a, Lanes<T>::splat(T(-0.0)));
 }
 
-/// All bits in the lanes in which every argument is finite.
+/// A mask of the lanes in which every argument is finite.
 template <class T, class... More>
 Lanes<T> are_finite(const Lanes<T>& a, const More&... more) noexcept {
   return ((a - a) + ... + (more - more)) == Lanes<T>::splat(T(0));
 }
-/// Whether the first three lanes of a mask have all bits.
+/// Whether a mask is set in all of the first three lanes.
 template <class T>
 bool all_three(const Lanes<T>& mask) noexcept {
   return (mask.bits() & 7) == 7;
@@ -311,7 +310,7 @@ bool any_of_three(const Lanes<T>& mask) noexcept {
   return (mask.bits() & 7) != 0;
 }
 
-/// y, z, x and z, x, y of the first three lanes.
+/// The first three lanes in cyclic order: y, z, x and z, x, y.
 template <class T>
 Lanes<T> yzx(const Lanes<T>& a) noexcept {
   return a.template shuffled<1, 2, 0, 3>();
@@ -326,7 +325,7 @@ Lanes<T> cross(const Lanes<T>& a, const Lanes<T>& b) noexcept {
   return yzx(a * yzx(b) - yzx(a) * b);
 }
 
-/// Of four vectors the first, second and third numbers: vector i is lane i of all three.
+/// Four vectors in structure-of-arrays layout: vector i is lane i of x, y and z.
 template <class T>
 struct Columns {
   Lanes<T> x, y, z;
@@ -342,7 +341,7 @@ struct Columns {
   friend Columns cross(const Columns& a, const Columns& b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  /// Vector i + 1 in the place of vector i, of the first three.
+  /// Rotates the first three vectors: vector i + 1 takes the place of vector i.
   friend Columns yzx(const Columns& a) noexcept { return {yzx(a.x), yzx(a.y), yzx(a.z)}; }
   friend Columns select(const Lanes<T>& where, const Columns& a, const Columns& b) noexcept {
     return {select(where, a.x, b.x), select(where, a.y, b.y), select(where, a.z, b.z)};
@@ -360,13 +359,13 @@ inline Columns<double> columns(Lanes<double> a, Lanes<double> b, Lanes<double> c
           {{_mm_unpacklo_pd(a.high.v, b.high.v)}, {_mm_unpacklo_pd(c.high.v, d.high.v)}}};
 }
 
-/// The same vector four times.
+/// The same vector in all four columns.
 template <class T>
 Columns<T> splat_columns(const Lanes<T>& a) noexcept {
   return {a.template broadcast<0>(), a.template broadcast<1>(), a.template broadcast<2>()};
 }
 
-/// Whether a mask that is the same in every lane has all bits, or all four lanes of a are zero.
+/// Whether `mask`, which is equal in every lane, is set, or all four lanes of a are zero.
 inline bool holds_or_all_zero(const Lanes<float>& mask, const Lanes<float>& a) noexcept {
   return (mask | (a == Lanes<float>::splat(0))).bits() == 15;
 }
@@ -374,14 +373,14 @@ inline bool holds_or_all_zero(const TwoDoubles& mask, const Lanes<double>& a) no
   return (mask | ((a.low | a.high) == TwoDoubles::splat(0))).bits() == 3;
 }
 
-/// The sums of the first three lanes of each.
+/// Four horizontal sums: lane i is the sum of the first three lanes of argument i.
 template <class T>
 Lanes<T> sums_of_three(Lanes<T> a, Lanes<T> b, Lanes<T> c, Lanes<T> d) noexcept {
   const Columns<T> n = columns(a, b, c, d);
   return n.x + n.y + n.z;
 }
 
-/// Of the first three lanes, in every lane.
+/// The horizontal sum of the first three (or of all four) lanes, in every lane.
 template <class T>
 Lanes<T> sum_of_three(const Lanes<T>& a) noexcept {
   return a.template broadcast<0>() + a.template broadcast<1>() + a.template broadcast<2>();
@@ -394,7 +393,7 @@ inline Lanes<double> sum_of_four(const Lanes<double>& a) noexcept {
   const TwoDoubles pairs = a.low + a.high, sum = pairs + swapped(pairs);
   return {sum, sum};
 }
-/// Of the first three lanes, in the first.
+/// The largest, or smallest, of the first three lanes, in lane 0.
 template <class T>
 Pair<T> largest_of(const Lanes<T>& a) noexcept {
   const Pair<T> pair = first_pair(a);
@@ -405,7 +404,7 @@ Pair<T> smallest_of(const Lanes<T>& a) noexcept {
   const Pair<T> pair = first_pair(a);
   return smaller(smaller(pair, swapped(pair)), second_pair(a));
 }
-/// And in every lane.
+/// The same in every lane.
 template <class T>
 Lanes<T> largest_of_three(const Lanes<T>& a) noexcept {
   return broadcast_first(largest_of(a));
@@ -414,7 +413,7 @@ template <class T>
 Lanes<T> smallest_of_three(const Lanes<T>& a) noexcept {
   return broadcast_first(smallest_of(a));
 }
-/// Of a mask's first three lanes only the first that has bits.
+/// The mask of the first lane that is set, among the first three.
 template <class T>
 Lanes<T> first_of_three(const Lanes<T>& mask) noexcept {
   const Lanes<T> three = mask & Lanes<T>::mask_of_three();

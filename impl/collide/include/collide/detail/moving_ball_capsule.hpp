@@ -1,4 +1,4 @@
-/// A ball that moves past a capsule: shared by the queries about points and spheres.
+/// The first contact of a moving ball with a capsule: used by the queries about moving points and moving spheres.
 #pragma once
 
 #include <collide/detail/contact.hpp>
@@ -11,10 +11,10 @@
 namespace collide::detail {
 
 /// The first contact of a ball of `radius` at `center`, moving by `velocity` per unit of time, with the solid
-/// `capsule`. A ball of radius 0 that starts strictly inside never comes from outside: a miss.
+/// `capsule`. A ball of radius 0 that starts strictly inside does not come from outside: a miss.
 ///
-/// The center meets the capsule with both radii. It enters the endless tube around the axis between its ends,
-/// or the ball around the end on whose side it is in the tube.
+/// The center moves as a point against a capsule with the sum of the radii. It enters that capsule through the infinite
+/// cylinder around the axis, between the ends, or through the ball at the end beyond which it enters the cylinder.
 template <class Tier, class T>
 Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity,
                               const Capsule<T>& capsule) {
@@ -25,18 +25,19 @@ Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, const Vec3
   const T length = Tier::dot(axis, between);
   const T along = Tier::dot(axis, from_p0);
   const Vec3<T> beside = from_p0 - axis * along;
-  /// At a point of the axis, with the unit vector from it to the center; 0 where nothing leads there.
+  /// The contact for the point `on_axis` of the axis and the unit vector from there to the center. A zero vector is
+  /// replaced by one perpendicular to the axis.
   const auto contact_along = [&](const T& time, const Vec3<T>& on_axis, Vec3<T> normal) {
     if (!(Tier::dot(normal, normal) > T(0))) normal = perpendicular_against<Tier>(axis, velocity);
     return contact(time, on_axis + normal * capsule.radius, normal);
   };
-  /// At a point of the axis, with `away` from it to the center.
+  /// The contact for the point `on_axis` of the axis and the vector `away` from there to the center.
   const auto contact_at = [&](const T& time, const Vec3<T>& on_axis, const Vec3<T>& away) {
     return contact_along(time, on_axis, reach > T(0) ? unit<Tier>(away) : Vec3<T>{});
   };
-  /// The same between the ends, where `away` is at a right angle to the axis but for rounding. That is taken out of its
-  /// direction, for `away` itself may be a few subnormal numbers; all of it is rounding where more of it leads along
-  /// the axis than aside.
+  /// The contact between the ends, where `away` is perpendicular to the axis up to rounding. The component along the
+  /// axis is removed from the unit vector, since `away` itself may be a few subnormal numbers. If that component is
+  /// larger than the rest, all of `away` is rounding error.
   const auto contact_beside = [&](const T& time, const T& at, const Vec3<T>& away) {
     Vec3<T> normal = reach > T(0) ? unit<Tier>(away) : Vec3<T>{};
     if constexpr (MachineNumber<T>) {
@@ -51,7 +52,7 @@ Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, const Vec3
     return contact_along(time, on_axis, normal);
   };
 
-  // Seen from the end itself: beside it, rounding of the length is more than what leads along the axis.
+  // Measured from the end itself: near the end, the rounding error of the length exceeds the component along the axis.
   const bool before = along<T(0), beyond = along> length && !(Tier::dot(axis, from_p1) < T(0));
   const Vec3<T> nearest = before ? from_p0 : beyond ? from_p1 : beside;
   const T apart = Tier::beyond_radius(nearest, reach);

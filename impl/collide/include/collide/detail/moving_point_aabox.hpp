@@ -1,4 +1,4 @@
-/// How collide/moving_point_aabox.hpp is computed.
+/// The kernel of moving_point_aabox (collide/moving_point_aabox.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

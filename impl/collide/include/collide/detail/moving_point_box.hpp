@@ -1,4 +1,4 @@
-/// How collide/moving_point_box.hpp is computed.
+/// The kernel of moving_point_box (collide/moving_point_box.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,4 +1,4 @@
-/// How collide/moving_point_capsule.hpp is computed.
+/// The kernel of moving_point_capsule (collide/moving_point_capsule.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -12,22 +12,22 @@ namespace collide {
 
 namespace detail {
 
-/// Whether a moving point surely starts inside of a capsule, or moves away from every point of its axis and so never
-/// enters it, or moves along a line that passes it.
+/// Filter: true if a moving point certainly starts inside a capsule, or certainly moves away from every point of its
+/// axis, or certainly moves along a line that does not meet the capsule.
 ///
-/// Seen from an end of the axis the point is known to 1 u (u = 2^-53), from a place on the axis to 2 u of the ways to
-/// the ends; its product with the velocity to 4 u of the sum of the terms' magnitudes. With d the axis, w = velocity x
-/// d is known to 6 u |velocity| |d|, and its product with the way from p0 to the point, which is |w| times the distance
-/// of the two lines, to 12 u of the product of three lengths; what it is compared with to 12 u (radius + way)
-/// |velocity| |d|. 2^7 u are asked for.
+/// Relative to an end of the axis, the point has an error of 1 u (u = 2^-53); relative to a point of the axis, 2 u of
+/// the distances to the ends; its dot product with the velocity, 4 u of the sum of the terms' magnitudes. With d the
+/// axis, w = velocity x d has an error of 6 u |velocity| |d|. The dot product of w with the vector from p0 to the point
+/// is |w| times the distance of the two lines; its error is 12 u of the product of the three lengths. The term that it
+/// is compared with has an error of 12 u (radius + distance) |velocity| |d|. The filter uses a bound of 2^7 u.
 inline bool certainly_misses_capsule(const Vec3<double>& point, const Vec3<double>& velocity, const Vec3<double>& p0,
                                      const Vec3<double>& p1, double radius) {
   constexpr double error_bound = 0x1p-46, least = 0x1p-900, most = 0x1p900;
   const Vec3<double> from0 = point - p0, from1 = point - p1, d = p1 - p0;
-  const double way2 = Plain::dot(from0, from0), d2 = Plain::dot(d, d), speed2 = Plain::dot(velocity, velocity);
+  const double distance2 = Plain::dot(from0, from0), d2 = Plain::dot(d, d), speed2 = Plain::dot(velocity, velocity);
   const auto in_range = [](double x) { return x >= least && x <= most; };
-  if (!(in_range(way2) && in_range(d2) && in_range(d2 * speed2) && radius <= 0x1p450)) return false;
-  const double sizes = detail::sqrt(way2) + detail::sqrt(d2) + radius;
+  if (!(in_range(distance2) && in_range(d2) && in_range(d2 * speed2) && radius <= 0x1p450)) return false;
+  const double sizes = detail::sqrt(distance2) + detail::sqrt(d2) + radius;
   const Vec3<double> from_axis = from0 - d * clamped(Plain::dot(from0, d) / d2, 0.0, 1.0);
   if (detail::sqrt(Plain::dot(from_axis, from_axis)) + error_bound * sizes < radius) return true;
   const auto leaves = [&velocity](const Vec3<double>& from) {

@@ -1,4 +1,4 @@
-/// How collide/moving_point_plane.hpp is computed.
+/// The kernel of moving_point_plane (collide/moving_point_plane.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -14,7 +14,7 @@ namespace collide {
 
 namespace detail {
 
-/// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
+/// The kernel of `Fast` in lanes. Calls `fallback` if the length of the normal is extreme or the contact is not finite.
 template <class T, class Fallback>
 inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane,
                                              const Fallback& fallback) {

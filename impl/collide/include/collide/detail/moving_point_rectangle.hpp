@@ -1,4 +1,4 @@
-/// How collide/moving_point_rectangle.hpp is computed.
+/// The kernel of moving_point_rectangle (collide/moving_point_rectangle.hpp).
 #pragma once
 
 #include <collide/detail/moving_point_triangle.hpp>
@@ -19,7 +19,7 @@ Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity, 
     const Vec3<T> a = rectangle.v0 - point, b = rectangle.v1 - point;
     const Vec3<T> c = rectangle.v2 - point, d = rectangle.v3 - point;
     const Vec3<T> diagonal = rectangle.v2 - rectangle.v0;
-    const T beside = Tier::dot(velocity, Tier::cross(c, a));  // the diagonal: negative on v1's side
+    const T beside = Tier::dot(velocity, Tier::cross(c, a));  // side of the diagonal: negative on the side of v1
     T time = std::numeric_limits<T>::infinity();
     Vec3<T> normal{};
     const auto meet = [&](const Vec3<T>& edge1, const Vec3<T>& edge2) {

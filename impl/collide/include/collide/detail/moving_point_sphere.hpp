@@ -1,4 +1,4 @@
-/// How collide/moving_point_sphere.hpp is computed.
+/// The kernel of moving_point_sphere (collide/moving_point_sphere.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -37,12 +37,12 @@ Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, con
     const T chord2 = -Tier::beyond_radius(offset, sphere.radius);
     if (!(chord2 >= T(0)) && !starts_in) return Impact<T>::miss();
     const T half_chord = sqrt(positive_part(chord2)) / sqrt(speed2);  // in units of time
-    // Near a tangent the quotient of the textbooks, outside / (nearest + half_chord), loses what the
-    // square of the radius loses; this difference loses 1 eps of the way to the closest approach.
+    // Near a tangent, the textbook quotient outside / (nearest + half_chord) loses the digits that the square of the
+    // radius loses. This difference has an error of 1 eps of the distance to the closest approach.
     const T time = positive_part(starts_in ? nearest + half_chord : nearest - half_chord);
-    const Vec3<T> way = velocity * time;
-    const Vec3<T> away = sphere.radius > T(0) ? m + way : Vec3<T>{};
-    return detail::contact(time, point + way, detail::outward<Tier>(away, velocity));
+    const Vec3<T> displacement = velocity * time;
+    const Vec3<T> away = sphere.radius > T(0) ? m + displacement : Vec3<T>{};
+    return detail::contact(time, point + displacement, detail::outward<Tier>(away, velocity));
   }
 }
 

@@ -1,4 +1,4 @@
-/// How collide/moving_point_triangle.hpp is computed.
+/// The kernel of moving_point_triangle (collide/moving_point_triangle.hpp).
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ T sum_of_abs(const Vec3<T>& x) {
   return abs(x.x) + abs(x.y) + abs(x.z);
 }
 
-/// Whether a place is on the triangle, but for rounding, all seen from the moving point.
+/// Whether a point lies on the triangle up to rounding. All vectors are relative to the moving point.
 ///
-/// Coordinates seen from there are at most 2 G, G the largest position, so what is let through lies within 16 eps of
-/// 2 G (eps the unit roundoff): moving the point explains 32 of the 48 eps that the queries promise.
+/// Such coordinates are at most 2 G, where G is the largest position, so an accepted point lies within 16 eps of 2 G
+/// (eps is the unit roundoff). Moving the point accounts for that: 32 of the 48 eps of the contracts.
 template <class Tier, MachineNumber T>
 bool is_on_triangle(const Vec3<T>& place, const std::array<Vec3<T>, 3>& corner) {
   T scale = largest_abs(place);
@@ -41,21 +41,22 @@ bool is_on_triangle(const Vec3<T>& place, const std::array<Vec3<T>, 3>& corner) 
   return false;
 }
 
-/// A time near `time` at which the motion is over the triangle, seen along its normal n, and on it but for
-/// rounding; negative where it never is. Corners are given as seen from the moving point.
+/// A time near `time` at which the moving point projects into the triangle along its normal n and lies on it up to
+/// rounding; negative if there is none. Corners are relative to the moving point.
 template <class Tier, MachineNumber T>
 T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n,
                              const std::array<Vec3<T>, 3>& corner) {
   using detail::abs;
   const Vec3<T> sideways = Tier::cross(velocity, n);
   const T speed2 = Tier::dot(velocity, velocity);
-  std::array<T, 3> side, at;  // of each corner: how far beside the line of motion, and the time next to it
+  std::array<T, 3> side,
+      at;  // of each corner: signed distance from the line of motion, and the time of closest approach
   for (int i = 0; i < 3; ++i) side[i] = Tier::dot(sideways, corner[i]), at[i] = Tier::dot(velocity, corner[i]) / speed2;
   T low = std::numeric_limits<T>::infinity(), high = -low;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const bool crosses = (side[i] < T(0) && side[j] > T(0)) || (side[i] > T(0) && side[j] < T(0));
-    // A product of three carries 7 roundings: a corner so near may lie on the line, whatever its sign.
+    // A triple product has 7 roundings: a corner so close may lie on the line, whatever its sign.
     const T scale = sum_of_abs(velocity) * sum_of_abs(n) * sum_of_abs(corner[i]);
     const T rounding = T(4) * std::numeric_limits<T>::epsilon() * scale;
     if (abs(side[i]) <= rounding) low = smaller(low, at[i]), high = larger(high, at[i]);
@@ -68,14 +69,14 @@ T nearest_time_over_triangle(const T& time, const Vec3<T>& velocity, const Vec3<
   return is_on_triangle<Tier>(velocity * nearest, corner) ? nearest : T(-1);
 }
 
-/// The time at which the plane of a triangle is hit, once its edges have been passed on their inner sides;
-/// negative where that was nothing but rounding.
+/// Checks the time at which the plane of a triangle is hit, after the edge tests passed; negative if their result was
+/// rounding error alone.
 ///
-/// Of a motion nearly along the plane, the quotient of two numbers that nearly vanish may be anything, and the
-/// signs of volumes that nearly vanish as well. So the place must be over the triangle, seen along its normal;
-/// where that is nearly on an edge, or the normal's square leaves the range, it is looked for again.
-/// The corners are `a`, seen from the moving point, a + edge1 and a + edge2: the edges are the triangle's own, of
-/// which those of a tiny triangle far from the point lose digits.
+/// For a motion nearly parallel to the plane, `time` is a quotient of two numbers near zero, so it may have any value,
+/// and the signs of volumes near zero may be wrong. So the point at `time` must project into the triangle along its
+/// normal. If it lies nearly on an edge, or the square of the normal is out of range, a nearby time is searched for.
+/// The corners are `a` (relative to the moving point), a + edge1 and a + edge2. The edges are the triangle's own:
+/// differences of the corners relative to the point lose the digits of a tiny triangle far away.
 template <class Tier, class T>
 T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, const Vec3<T>& a, const Vec3<T>& edge1,
                    const Vec3<T>& edge2) {
@@ -83,7 +84,8 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
     using limits = std::numeric_limits<T>;
     const Vec3<T> from_a = velocity * time - a, b = a + edge1, c = a + edge2;
     const T n2 = Tier::dot(n, n);
-    const bool lost = a == b || b == c || c == a;  // an edge too short to be seen from there, or to be multiplied
+    const bool lost =
+        a == b || b == c || c == a;  // an edge too short for the precision at this distance, or for products
     const bool over = !lost && n2 >= limits::min() / limits::epsilon() && n2 <= limits::max() &&
                       Tier::dot(n, Tier::cross(edge1, from_a)) > T(0) &&
                       Tier::dot(n, Tier::cross(edge2 - edge1, from_a - edge1)) > T(0) &&
@@ -95,7 +97,8 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 
 #if defined(COLLIDE_LANES)
 
-/// What moving_point_triangle_in_lanes answers where the sides are known and the normal is not: of a thin triangle.
+/// The rest of moving_point_triangle_in_lanes for a thin triangle, whose normal needs a correction. The edge tests are
+/// certain.
 template <class T, class Fallback>
 COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                                         const Triangle<T>& triangle, const Fallback& fallback) {
@@ -109,27 +112,28 @@ COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, co
   return contact(time, point + velocity * time, unit<Plain>(n));
 }
 
-/// What `Fast` answers; where it is not sure, what `shared` does.
+/// The kernel of `Fast` in lanes. Calls `fallback` where the edge tests are uncertain.
 ///
-/// With a = v0 - point, f = v0 - v2, n = f x edge1 and q = velocity x a the motion passes the three edges on the sides
-/// that the signs of q . edge1, q . f and n . velocity - q . edge1 - q . f tell, each a volume (Moeller, Trumbore,
-/// Fast, Minimum Storage Ray/Triangle Intersection, 1997). Two cross products at a time are as much work as one.
+/// Let a = v0 - point, f = v0 - v2, n = f x edge1 and q = velocity x a. The signs of q . edge1, q . f and n . velocity
+/// - q . edge1 - q . f tell on which side of the three edges the motion passes; each is a signed volume (Moeller,
+/// Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997). Two cross products at a time cost as much as one.
 ///
-/// Sides. Let e^2 = |edge1|^2 + |f|^2, l^2 = e^2 + |a|^2, u the unit roundoff. The three volumes are off by at most
-/// 17 u |velocity| l^2. Those that the shared kernel has of an edge are off by at most 15 u of |velocity| times the
-/// squares of the ways to the edge's ends, whichever triangle it belongs to. So where the largest of the three is
-/// beyond 64 u |velocity| l^2, the sides are those of the real numbers, and neighbors agree about their edge, whichever
-/// kernel answers for them.
+/// Edge tests. Let e^2 = |edge1|^2 + |f|^2, l^2 = e^2 + |a|^2, and u the unit roundoff. The three volumes have an error
+/// of at most 17 u |velocity| l^2. The volumes of an edge in the shared kernel have an error of at most 15 u of
+/// |velocity| times the squared distances to the ends of the edge, whichever triangle it belongs to. So if the largest
+/// of the three exceeds 64 u |velocity| l^2, the signs are exact, and adjacent triangles agree about their edge,
+/// whichever kernel answers for each of them.
 ///
-/// The normal. n is off by 1.5 u |edge1| |f| <= 0.75 u e^2. Along the longest edge, whose square is at most 2 e^2, this
-/// is explained if its ends move by 30 u of the largest position, which is at least l / 6, as long as e^4 <= 100 |n|^2;
-/// across it the apex need move by no more. The normal of a thinner triangle is corrected.
+/// Normal. n has an error of 1.5 u |edge1| |f| <= 0.75 u e^2. Along the longest edge, whose square is at most 2 e^2,
+/// moving its ends by 30 u of the largest position (which is at least l / 6) accounts for the error as long as
+/// e^4 <= 100 |n|^2. Perpendicular to that edge, the apex moves by no more. The normal of a thinner triangle is
+/// corrected.
 ///
-/// The contact. Explaining it, the products with n and their quotient moves corners by less than 12 u l along the
-/// normal, which changes the volumes of a hit by less than 24 u |velocity| l^2: the place stays on the triangle.
+/// Contact. Moving the corners by less than 12 u l along the normal accounts for the products with n and their
+/// quotient. That changes the volumes of a hit by less than 24 u |velocity| l^2, so the location stays on the triangle.
 ///
-/// What overflows is not sure, or is thin. `least` numbers are added to the squares so that what they bound is far
-/// above whatever underflows.
+/// Overflow makes the edge tests uncertain, or makes a triangle whose normal overflows thin. The `least` numbers are
+/// added to the squares so that the bounds lie far above numbers that underflow.
 template <class T, class Fallback>
 inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity,
                                                 const Triangle<T>& triangle, const Fallback& fallback) {
@@ -141,14 +145,14 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   const L from_point = lanes(point), along = lanes(velocity);
   const auto [v0, v1, v2] = corner_lanes(triangle);
   const auto [x, y, z] = columns(v0 - v2, along, v1 - v0, v0 - from_point);
-  const P x1 = first_pair(x), y1 = first_pair(y), z1 = first_pair(z);     // f and the velocity
-  const P x2 = second_pair(x), y2 = second_pair(y), z2 = second_pair(z);  // edge1 and a
+  const P x1 = first_pair(x), y1 = first_pair(y), z1 = first_pair(z);     // lanes: f, velocity
+  const P x2 = second_pair(x), y2 = second_pair(y), z2 = second_pair(z);  // lanes: edge1, a
   const P nq_x = y1 * z2 - z1 * y2, nq_y = z1 * x2 - x1 * z2, nq_z = x1 * y2 - y1 * x2;
   const L products = swapped_twice(nq_x) * x + swapped_twice(nq_y) * y + swapped_twice(nq_z) * z;
   const P beside_f = first_pair(products), beside_edge1 = second_pair(products);
   const L squares = x * x + y * y + z * z;
   const P f_and_speed2 = first_pair(squares) + P::two(least_size2, least_speed2), edge1_and_a2 = second_pair(squares);
-  const P approach = swapped(beside_f), behind = swapped(beside_edge1);  // n . velocity and n . a
+  const P approach = swapped(beside_f), behind = swapped(beside_edge1);  // lane 0: n . velocity, n . a
   const P time = behind / approach;
   const L location = from_point + along * broadcast_first(time);
   const P outside = larger(larger(beside_f, beside_edge1), approach - (beside_f + beside_edge1));
@@ -163,10 +167,10 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   return impact_where(hit, time, location, normal);
 }
 
-/// Whether the line of motion surely passes an edge on its outer side.
+/// Filter: true if the line of motion certainly passes an edge on its outer side.
 ///
-/// Each volume is a sum of products of three, known to 16 u of the product of the vectors' |x| + |y| + |z|, u = 2^-53,
-/// where nothing underflows.
+/// Each volume is a triple product, with an error of 16 u of the product of the vectors' |x| + |y| + |z| (u = 2^-53),
+/// without underflow.
 template <class T>
 bool certainly_misses_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
   using L = Lanes<double>;
@@ -174,7 +178,7 @@ bool certainly_misses_triangle(const Vec3<T>& point, const Vec3<T>& velocity, co
   const L a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from, c = wide_lanes(triangle.v2) - from;
   const L volumes = sums_of_three(along * cross(a, b), along * cross(b, c), along * cross(c, a), along);
   const L sizes = sums_of_three(absolute(a), absolute(b), absolute(c), absolute(along));
-  const L products = sizes * yzx(sizes), most = L::splat(0x1p900);  // nothing overflows
+  const L products = sizes * yzx(sizes), most = L::splat(0x1p900);  // excludes overflow
   const L bounds = L::splat(0x1p-48) * (products * sizes.template broadcast<3>()) + L::splat(0x1p-900);
   return any_of_three((bounds < volumes) & (products <= most) & (bounds <= most));
 }

@@ -1,4 +1,4 @@
-/// How collide/moving_point_triangle_prepared.hpp is computed.
+/// The kernel of moving_point_triangle_prepared (collide/moving_point_triangle_prepared.hpp).
 #pragma once
 
 #include <collide/detail/moving_point_triangle.hpp>
@@ -29,8 +29,8 @@ Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& ve
     const T height = Tier::dot(prepared.normal, from_v0);
     if (!(height >= T(0))) return Impact<T>::miss();
     const Vec3<T> moment = Tier::cross(from_v0, velocity);
-    const T weight1 = Tier::dot(prepared.edge2, moment);   // of v1, times approach
-    const T weight2 = -Tier::dot(prepared.edge1, moment);  // of v2, times approach
+    const T weight1 = Tier::dot(prepared.edge2, moment);   // weight of v1, times approach
+    const T weight2 = -Tier::dot(prepared.edge1, moment);  // weight of v2, times approach
     if (!(weight1 >= T(0) && weight2 >= T(0) && weight1 + weight2 <= approach)) return Impact<T>::miss();
     const T time = detail::time_in_triangle<Tier>(T(height / approach), velocity, prepared.normal, -from_v0,
                                                   prepared.edge1, prepared.edge2);

@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_box.hpp is computed.
+/// The kernel of moving_sphere_box (collide/moving_sphere_box.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -13,19 +13,19 @@ namespace collide {
 
 namespace detail {
 
-/// A point that moves past a box, both in the box's frame. The squared distance to the box is convex
-/// along the motion and quadratic between the times at which a coordinate crosses a face plane.
+/// A point that moves past a box, in the box's frame. The squared distance to the box is a convex function of time and
+/// quadratic between the times at which a coordinate crosses a face plane.
 template <class Tier, class T>
 struct PointPastBox {
   std::array<T, 3> at, step, half;  // position, velocity, half extents
 
-  /// Moves on by `time`; a coordinate that reaches the face plane `exact` lands on it exactly.
+  /// Advances the point by `time`. If `exact` is an axis, that coordinate is set to `plane`, without rounding error.
   void advance(T time, int exact, T plane) {
     for (int i = 0; i < 3; ++i) at[i] += step[i] * time;
     if (exact >= 0) at[exact] = plane;
   }
-  /// Beyond the box along axis i, seen from the moving point: a coordinate on a face plane counts as
-  /// beyond when it is about to leave.
+  /// The signed distance from the box along axis i. A coordinate on a face plane counts as beyond it if the motion
+  /// leaves there.
   T beyond(int i) const {
     if (at[i] > half[i] || (at[i] == half[i] && step[i] > T(0))) return at[i] - half[i];
     if (at[i] < -half[i] || (at[i] == -half[i] && step[i] < T(0))) return at[i] + half[i];
@@ -35,7 +35,7 @@ struct PointPastBox {
     return at[i] > half[i] || at[i] < -half[i] || (at[i] == half[i] && step[i] > T(0)) ||
            (at[i] == -half[i] && step[i] < T(0));
   }
-  /// The next face plane that the motion crosses: axis (-1: none), plane, time from now.
+  /// The next face plane that the motion crosses: its axis (-1: none), coordinate and time from now.
   struct Crossing {
     int axis = -1;
     T plane{};
@@ -54,8 +54,7 @@ struct PointPastBox {
     }
     return next;
   }
-  /// The first time at which the distance to the box, on the present piece, is `radius`; negative
-  /// when the piece never comes that near.
+  /// The first time on the current piece at which the distance to the box is `radius`; negative if there is none.
   T time_at_distance(T radius) const {
     using detail::abs, detail::sqrt;
     T speed2(0), closing(0);
@@ -80,11 +79,11 @@ struct PointPastBox {
     const T chord2 = -Tier::beyond_radius(offset, radius);
     if (!(chord2 >= T(0))) return T(-1);
     const T outside = Tier::beyond_radius(from_box, radius);
-    if (outside <= T(0)) return T(0);  // rounding put the contact just before this piece
+    if (outside <= T(0)) return T(0);  // rounding moved the contact to just before this piece
     return positive_part(nearest - sqrt(chord2 / speed2));
   }
   bool inside() const { return !is_beyond(0) && !is_beyond(1) && !is_beyond(2); }
-  /// The face nearest to a point in the box; of those on which it lies, one that it does not leave.
+  /// The face closest to a point in the box. If the point lies on faces, one of these that it does not leave.
   NearestFace<T> nearest_face_met() const {
     for (int i = 0; i < 3; ++i) {
       for (const T side : {T(-1), T(1)}) {
@@ -93,7 +92,7 @@ struct PointPastBox {
     }
     return nearest_face(at, half);
   }
-  /// True while the point comes no nearer: the distance is convex, so it never will.
+  /// True if the point does not come closer. The distance is convex, so the point never will.
   bool receding() const {
     T closing(0);
     bool any = false;
@@ -104,7 +103,7 @@ struct PointPastBox {
     }
     return any && !(closing > T(0)) && !grazes();
   }
-  /// A coordinate exactly on a face plane has no excess yet, though the piece ahead has one.
+  /// True if a coordinate lies exactly on a face plane and leaves: its excess is zero now and grows on the next piece.
   bool grazes() const {
     for (int i = 0; i < 3; ++i) {
       if (is_beyond(i) && beyond(i) == T(0)) return true;
@@ -136,7 +135,7 @@ Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, co
         nearest[i] = clamped(path.at[i], -half[i], half[i]);
         away[i] = excess(path.at[i], half[i]);
       }
-      if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or on the way to one face
+      if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or moving toward one face
         const NearestFace<T> at_face =
             face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)} : path.nearest_face_met();
         away = {};

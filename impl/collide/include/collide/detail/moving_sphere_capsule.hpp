@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_capsule.hpp is computed.
+/// The kernel of moving_sphere_capsule (collide/moving_sphere_capsule.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

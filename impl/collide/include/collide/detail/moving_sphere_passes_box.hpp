@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_passes_box.hpp is computed.
+/// The kernel of moving_sphere_passes_box (collide/moving_sphere_passes_box.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -23,8 +23,8 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
     const std::array<T, 3> half = components(box.half);
     const std::array<T, 3> at = into_frame<Tier>(axes, sphere.center - box.center);
     const std::array<T, 3> step = into_frame<Tier>(axes, velocity);
-    // When each coordinate is between its face planes, and how many of the two it has crossed; between them its
-    // part of the distance is exactly zero.
+    // The times at which each coordinate enters and leaves the interval between its face planes, and how many of the
+    // two it has crossed. Between them its part of the distance is exactly zero.
     std::array<T, 3> enters{}, leaves{};
     std::array<int, 3> crossed{};
     for (int i = 0; i < 3; ++i) {
@@ -38,7 +38,7 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
       std::array<T, 3> beyond{};
       for (int i = 0; i < 3; ++i) {
         bool between = crossed[i] == 1;
-        if constexpr (MachineNumber<T>) {  // a time that rounding puts before or behind a crossing
+        if constexpr (MachineNumber<T>) {  // rounding may put the time before or after a crossing
           between = between || (!(step[i] == T(0)) && time >= enters[i] && time <= leaves[i]);
         }
         if (!between) beyond[i] = excess<T>(at[i] + step[i] * time, half[i]);
@@ -53,8 +53,9 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
     T slope = slope_of(beyond);
     T from(0);
     for (int piece = 0; piece < 7; ++piece) {
-      if (!(slope < T(0))) return {false};  // it comes no nearer: nor later, since the distance is convex
-      // The next crossing, and how the slope grows until then: by the squares of the steps that count.
+      if (!(slope < T(0))) return {false};  // it does not come closer, and never will: the distance is convex
+      // The next crossing, and the growth rate of the slope until then: the sum of the squared steps of the coordinates
+      // beyond a face.
       T next = limit, speed2(0);
       int beyond_axes = 0, crossing = -1;
       for (int i = 0; i < 3; ++i) {
@@ -64,17 +65,17 @@ Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& vel
         const T& time = crossed[i] == 0 ? enters[i] : leaves[i];
         if (time < next) next = time, crossing = i;
       }
-      if (beyond_axes > 1 && speed2 > T(0)) {  // of one axis alone the slope is zero where it enters
+      if (beyond_axes > 1 && speed2 > T(0)) {  // for one axis alone the slope becomes zero where the coordinate enters
         const T least = from - slope / speed2;
         if (least <= next) {
           if (touches(beyond_at(least))) return {true};
-          // A point that enters through an edge is nearest just when it enters: of that, rounding makes a miss.
+          // A point that enters through an edge is closest exactly when it enters; rounding may turn that into a miss.
           if constexpr (!MachineNumber<T>) return {false};
         }
       }
       if (crossing < 0) return {limit <= std::numeric_limits<T>::max() && touches(beyond_at(limit))};
       const bool entering = crossed[crossing] == 0;
-      crossed[crossing] = 1;  // on the face plane its part is zero, whether it comes or goes
+      crossed[crossing] = 1;  // on the face plane its part is zero, whether it enters or leaves
       beyond = beyond_at(next);
       if (!entering) crossed[crossing] = 2;
       if (touches(beyond)) return {true};

@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_passes_sphere.hpp is computed.
+/// The kernel of moving_sphere_passes_sphere (collide/moving_sphere_passes_sphere.hpp).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_plane.hpp is computed.
+/// The kernel of moving_sphere_plane (collide/moving_sphere_plane.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -14,7 +14,7 @@ namespace collide {
 
 namespace detail {
 
-/// What `Fast` answers; where the normal's length is extreme or the contact is not finite, what `shared` does.
+/// The kernel of `Fast` in lanes. Calls `fallback` if the length of the normal is extreme or the contact is not finite.
 template <class T, class Fallback>
 inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane,
                                               const Fallback& fallback) {
@@ -68,7 +68,7 @@ Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, 
     T length;
     if constexpr (MachineNumber<T>) {
       normal = unit<Tier>(plane.normal), length = Tier::dot(normal, plane.normal);
-    } else {  // one root, which need not be kept in range, makes both
+    } else {  // one square root gives both; the range needs no care here
       using detail::sqrt;
       length = sqrt(Tier::dot(normal, normal));
       if (!(length == T(0))) normal = normal / length;

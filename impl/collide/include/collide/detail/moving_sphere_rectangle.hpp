@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_rectangle.hpp is computed.
+/// The kernel of moving_sphere_rectangle (collide/moving_sphere_rectangle.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -23,7 +23,7 @@ Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& veloci
         kernels::moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
     const TriangleImpact<T> two =
         kernels::moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
-    // On the diagonal both are hit at the same time.
+    // On the diagonal both triangles are hit at the same time.
     const bool both = one.yes() && two.yes() && one.weights.y == T(0) && two.weights.z == T(0);
     const TriangleImpact<T>& first = !both && two.time < one.time ? two : one;
     return {first.time, first.location, first.normal};

@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_sphere.hpp is computed.
+/// The kernel of moving_sphere_sphere (collide/moving_sphere_sphere.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,4 +1,4 @@
-/// How collide/moving_sphere_triangle.hpp is computed.
+/// The kernel of moving_sphere_triangle (collide/moving_sphere_triangle.hpp).
 #pragma once
 
 #include <limits>
@@ -17,8 +17,8 @@ namespace collide {
 
 namespace detail {
 
-/// A place on a triangle: in its face (feature 0), on edge i from v[i] to v[i + 1] (1 + i), at vertex i
-/// (4 + i).
+/// A point of a triangle and the feature on which it lies: 0 is the face, 1 + i the edge from v[i] to v[i + 1], 4 + i
+/// the vertex i.
 template <class T>
 struct TrianglePlace {
   int feature = 0;
@@ -26,14 +26,14 @@ struct TrianglePlace {
   Vec3<T> weights{};
 };
 
-/// A sphere that moves past a triangle.
+/// A moving sphere and a triangle, with the values that both the tests and the contact need.
 template <class Tier, class T>
 struct SpherePastTriangle {
   Vec3<T> center;
   T radius;
   Vec3<T> velocity;
-  std::array<Vec3<T>, 3> v, edge;  ///< edge i from v[i] to v[i + 1]
-  std::array<Vec3<T>, 3> inward;   ///< n x edge i
+  std::array<Vec3<T>, 3> v, edge;  ///< corners; edge i runs from v[i] to v[i + 1]
+  std::array<Vec3<T>, 3> inward;   ///< n x edge i: points into the triangle
   Vec3<T> n;
   T n_length, height, approach;  ///< n . (center - v[0]), -n . velocity
 
@@ -47,10 +47,11 @@ struct SpherePastTriangle {
     for (int i = 0; i < 3; ++i) inward[i] = Tier::cross(n, edge[i]);
   }
 
-  /// Coming from the front or along, and at the start not wholly behind.
+  /// True if the sphere does not move along n and does not start wholly behind the plane.
   bool may_hit_front() const { return approach >= T(0) && height >= -(radius * n_length); }
 
-  /// n . (edge i x (point - its start)), from either end of the edge: from the nearer it is the more exact.
+  /// n . (edge i x (point - start of the edge)): which side of edge i the point is on, positive inside. The value is
+  /// the same from either end of the edge; from the closer end it is more accurate.
   T edge_side(int i, const Vec3<T>& point, bool from_nearer) const {
     const Vec3<T> w = point - v[i];
     if constexpr (MachineNumber<T>) {
@@ -60,8 +61,8 @@ struct SpherePastTriangle {
     return Tier::dot(inward[i], w);
   }
 
-  /// The foot of a point on the triangle's plane, where it lies in the face: its weights are its distances
-  /// from the edges.
+  /// Whether the foot of a point on the triangle's plane lies in the face. If so, sets the feature and the weights of
+  /// `place`: the weights are the signed distances from the edges, over their sum.
   bool in_face(const Vec3<T>& point, TrianglePlace<T>& place, bool from_nearer = false) const {
     if (!(n_length > T(0))) return false;
     const T a = edge_side(1, point, from_nearer), b = edge_side(2, point, from_nearer),
@@ -70,7 +71,7 @@ struct SpherePastTriangle {
     const T sum = a + b + c;  // |n|^2
     if (!(sum > T(0))) return false;
     place.feature = 0;
-    if constexpr (MachineNumber<T>) {  // a sum off by as much as itself: so thin a triangle is all edges
+    if constexpr (MachineNumber<T>) {  // a sum with an error as large as itself: only the edges count
       const T n2 = n_length * n_length;
       if (!(sum <= T(2) * n2 && sum >= n2 / T(2))) return false;
       if (is_thin(n2, Tier::dot(edge[0], edge[0]), Tier::dot(edge[2], edge[2]))) {
@@ -78,11 +79,11 @@ struct SpherePastTriangle {
         const Vec3<T> on_plane = w - n * (Tier::dot(n, w) / n2);
         const FaceFoot<T> foot = foot_on_face<Tier>(edge[0], -edge[2], on_plane);
         const T apex = clamped(foot.apex_weight, T(0), T(1)), base = clamped(foot.base_weight, T(0), T(1) - apex);
-        // Far beyond a tip the sides of the edges that meet there are nothing but rounding, and so are weights where
-        // the corners lie on a line. A place is taken for one on the face where its weights put it, but for 32 u (the
-        // unit roundoff) of the longest of two edges and the way to it: 64 u of the largest position, or of the
-        // center's where its velocity took it further, to which the velocity's own error is added. Half of what is
-        // promised.
+        // Far beyond a tip, the side tests of the edges that meet there are rounding error, and so are the weights
+        // where the corners lie on a line. The foot counts as on the face only if the point at its weights agrees with
+        // it within 32 u (the unit roundoff) of the longest of two edges and the vector to the foot. That is 64 u of
+        // the largest position, or of the center's coordinate if the motion took it farther; the error of the velocity
+        // is added to that. It is half of the contract.
         const T longest = larger(larger(largest_abs(w), largest_abs(edge[0])), largest_abs(edge[2]));
         const T most = T(16) * std::numeric_limits<T>::epsilon() * longest;
         if (!(largest_abs(edge[0] * base - edge[2] * apex - on_plane) <= most)) return false;
@@ -106,9 +107,9 @@ struct SpherePastTriangle {
     return {4 + i, v[i], {i == 0 ? T(1) : T(0), i == 1 ? T(1) : T(0), i == 2 ? T(1) : T(0)}};
   }
 
-  /// The way from an edge to a point, found from w, carries 4 eps of w from `along` and 2 from the
-  /// difference. A part of it that is no larger and points inward, where the edge would not be nearest, is
-  /// nothing else; nor is a way that is no longer.
+  /// Removes rounding error from `to_point`, the vector from an edge to a point, which was computed from w. Its error
+  /// is 4 eps of w from the parameter along the edge and 2 eps from the difference. An inward component that is no
+  /// larger is rounding error, since the edge would not be closest otherwise; so is a vector that is no longer.
   void remove_rounding(int i, const Vec3<T>& w, const T& edge2, Vec3<T>& to_point) const {
     constexpr T error = T(4) * std::numeric_limits<T>::epsilon();
     const T most2 = error * error * Tier::dot(w, w);
@@ -119,7 +120,7 @@ struct SpherePastTriangle {
     if (behind > T(0) && behind * behind <= most2 * edge2) to_point = to_point - in * (behind / edge2);
   }
 
-  /// The nearest point of the triangle to the center at the start, and the way from there to the center.
+  /// The point of the triangle closest to the center at the start, and `away`, the vector from there to the center.
   TrianglePlace<T> nearest(Vec3<T>& away) const {
     TrianglePlace<T> place;
     if (in_face(center, place, true)) {
@@ -128,17 +129,17 @@ struct SpherePastTriangle {
       return place;
     }
     if (!nearest_on_boundary<true>(center, place, away)) nearest_on_boundary<false>(center, place, away);
-    if constexpr (MachineNumber<T>) {  // so near that the squares underflow: on the triangle
+    if constexpr (MachineNumber<T>) {  // so close that the squares underflow: the center is on the triangle
       constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
       if (Tier::dot(away, away) < least) away = Vec3<T>{};
     }
     return place;
   }
 
-  /// The nearest point of the edges and vertices to a point that is not over the face, and the way from there,
-  /// seen from the nearest corner, so that it is exact where it is short. `by_region`: of the features in
-  /// whose region the point lies, which two distances that differ by a square cannot tell; false where
-  /// rounding left it in none.
+  /// The closest point of the edges and vertices to a point that does not project into the face, and `away`, the vector
+  /// from there to the point. `away` is computed from the closest corner, so it is accurate where it is short. With
+  /// `by_region`, only features whose Voronoi region contains the point are considered: two distances may differ by
+  /// less than their squares show. Returns false if rounding left the point in no region.
   template <bool by_region>
   bool nearest_on_boundary(const Vec3<T>& point, TrianglePlace<T>& best, Vec3<T>& away) const {
     std::array<Vec3<T>, 3> from;
@@ -168,11 +169,12 @@ struct SpherePastTriangle {
     return best2 < std::numeric_limits<T>::infinity();
   }
 
-  /// An outward normal at the place along `away`, which leads to the center; where the center is on the triangle, n or,
-  /// for a triangle without area, any at right angles to it that does not lead along the motion.
+  /// The outward normal at `place`: the direction of `away`, which points to the center. If the center is on the
+  /// triangle it is n; if the triangle has no area, it is a unit vector perpendicular to it that does not point along
+  /// the velocity.
   Vec3<T> normal_at(const TrianglePlace<T>& place, Vec3<T> away) const {
     if (place.feature == 0) return height < T(0) ? -unit<Tier>(n) : unit<Tier>(n);
-    if (place.feature < 4) {  // what rounding left of a part along the edge counts where the rest is small
+    if (place.feature < 4) {  // removes the component along the edge that rounding left
       const Vec3<T>& e = edge[place.feature - 1];
       away = away - e * (Tier::dot(away, e) / Tier::dot(e, e));
     }
@@ -181,7 +183,7 @@ struct SpherePastTriangle {
     if (n_length > T(0)) return unit<Tier>(n);
     return turned_against<Tier>(across_longest_edge(), velocity);
   }
-  /// A unit vector at right angles to a triangle without area.
+  /// A unit vector perpendicular to a triangle without area.
   Vec3<T> across_longest_edge() const {
     using detail::abs;
     Vec3<T> e = edge[0];
@@ -198,9 +200,9 @@ struct SpherePastTriangle {
     return {time, place.point, normal_at(place, away), place.weights};
   }
 
-  /// The first time at which the distance from a point at w, moving by u, to the origin is the radius,
-  /// where the point comes nearer; negative otherwise. A start that rounding puts within is time 0.
-  /// Squares of w, u and the radius are multiplied by `scale2`. `touches`: it is known that the radius is reached.
+  /// The first time at which a point at w that moves by u comes within the radius of the origin; negative if it does
+  /// not approach. The time is 0 if rounding puts the start within the radius. The squares of w, u and the radius are
+  /// multiplied by `scale2`. `touches`: it is certain that the point reaches the radius.
   T first_time(const Vec3<T>& w, const Vec3<T>& u, const T& scale2 = T(1),
                [[maybe_unused]] bool touches = false) const {
     using detail::sqrt;
@@ -212,7 +214,7 @@ struct SpherePastTriangle {
       T chord2 = radius * radius * speed2 - Tier::dot(moment, moment);
       if (touches && chord2 < T(0)) chord2 = T(0);
       if (!(chord2 >= T(0))) return T(-1);
-      // No later than the time of the least distance, which counts where rounding is all that closes in.
+      // Bounded by the time of the least distance, which decides if the approach is rounding error alone.
       return smaller(positive_part(Tier::beyond_radius(w, radius)) / (closing + sqrt(chord2)), closing / speed2);
     } else {
       const T radius2 = radius * radius * scale2;
@@ -223,11 +225,12 @@ struct SpherePastTriangle {
   }
 
   bool approaches_face() const { return n_length > T(0) && approach > T(0) && height > T(0); }
-  /// When the sphere touches the plane from its front.
+  /// The time at which the sphere touches the plane from its front.
   T face_time() const { return positive_part(height - radius * n_length) / approach; }
 
-  /// Where face and edge meet, rounding may leave a contact to neither: at `first` the sphere is then deeper in the
-  /// face than it is apart from the boundary at the time of the plane. In that case, true with the latter contact.
+  /// Near the border of face and edge, rounding may lose a contact in both tests. In that case the sphere is deeper in
+  /// the face at `first` than it is apart from the boundary at the time at which it touches the plane. Returns true
+  /// then, with the contact at the latter time.
   bool passed_between(const T& first, T& time, TrianglePlace<T>& place, Vec3<T>& away) const {
     if (!approaches_face()) return false;
     const T later = smaller(first, height / approach), left = (height - approach * later) / n_length;
@@ -238,7 +241,7 @@ struct SpherePastTriangle {
     return Tier::dot(away, away) - radius * radius < radius * radius - left * left;
   }
 
-  /// The first contact of a sphere that starts apart.
+  /// The first contact of a sphere that does not overlap the triangle at the start.
   TriangleImpact<T> moving() const {
     TrianglePlace<T> place;
     if (approaches_face()) {
@@ -257,18 +260,19 @@ struct SpherePastTriangle {
     }
     for (int i = 0; i < 3; ++i) {
       const Vec3<T> w = center - v[i];
-      // A unit direction keeps float and double in range; where range is no matter, it would be one more root.
+      // A unit direction keeps float and double in range. Other number types have no range limit, and skip its square
+      // root.
       Vec3<T> along = edge[i];
       T most;
       if constexpr (MachineNumber<T>) {
-        along = unit<Tier>(edge[i]);  // also of a subnormal edge, whose length has few digits
+        along = unit<Tier>(edge[i]);  // accurate even for a subnormal edge, whose length has few digits
         most = Tier::dot(along, edge[i]);
         if (!(most > T(0))) continue;
       } else {
         most = Tier::dot(along, along);
         if (!(most > T(0))) continue;
       }
-      // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
+      // A sphere that hits a corner also hits the lines of its edges, no later: a negative chord is rounding error.
       const bool touches = at_vertex_time[i] >= T(0) || at_vertex_time[(i + 1) % 3] >= T(0);
       const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), most, touches);
       if (!(time >= T(0) && time < first)) continue;
@@ -280,7 +284,7 @@ struct SpherePastTriangle {
       if (T time; passed_between(first, time, place, away)) return contact(time, place, away);
     }
     if (!(first < std::numeric_limits<T>::infinity())) return TriangleImpact<T>::miss();
-    // Which feature is nearest then: times that differ by a square do not tell.
+    // The closest feature at that time: the times of two features may differ by less than their squares show.
     const Vec3<T> at = center + velocity * first;
     if (!nearest_on_boundary<true>(at, place, away)) nearest_on_boundary<false>(at, place, away);
     return contact(first, place, away);
@@ -289,7 +293,7 @@ struct SpherePastTriangle {
   TriangleImpact<T> impact() const {
     if (!may_hit_front()) return TriangleImpact<T>::miss();
     if (height > radius * n_length && approach == T(0)) return TriangleImpact<T>::miss();
-    if (height > radius * n_length) return moving();  // the whole sphere is in front of the plane
+    if (height > radius * n_length) return moving();  // the sphere is wholly in front of the plane
     Vec3<T> away;
     const TrianglePlace<T> start = nearest(away);
     const T outside = Tier::beyond_radius(away, radius);
@@ -303,7 +307,7 @@ struct SpherePastTriangle {
 
 #if defined(COLLIDE_LANES)
 
-/// An impact with its weights, stored as registers.
+/// Stores an impact with its weights from registers.
 inline TriangleImpact<float> impact_from_lanes(float time, Lanes<float> location, Lanes<float> normal,
                                                Lanes<float> weights) {
   using A = TriangleImpact<float>;
@@ -313,7 +317,7 @@ inline TriangleImpact<float> impact_from_lanes(float time, Lanes<float> location
   char* const numbers = reinterpret_cast<char*>(&answer);
   answer.time = time;
   location.store(
-      reinterpret_cast<float*>(numbers + offsetof(A, location)));  // and a fourth number, which the next replaces
+      reinterpret_cast<float*>(numbers + offsetof(A, location)));  // and a fourth number, overwritten by the next
   normal.store(reinterpret_cast<float*>(numbers + offsetof(A, normal)));
   _mm_storel_pi(reinterpret_cast<__m64*>(numbers + offsetof(A, weights)), weights.v);
   _mm_store_ss(&answer.weights.z, _mm_movehl_ps(weights.v, weights.v));
@@ -334,11 +338,10 @@ inline TriangleImpact<double> impact_from_lanes(double time, Lanes<double> locat
   return answer;
 }
 
-/// Of four things that a sphere nears, the times at which it first touches them; +infinity: never. A thing's distance,
-/// squared, is beyond the radius, squared, by speed2 t^2 - 2 closing t + outside; `chord2` is closing^2 - speed2
-/// outside.
+/// The times at which a sphere first touches four features; +infinity: never. The squared distance of a feature minus
+/// the squared radius is speed2 t^2 - 2 closing t + outside; `chord2` is closing^2 - speed2 outside.
 ///
-/// No later than the time of the least distance, which counts where rounding is all that closes in.
+/// A time is bounded by the time of the least distance, which decides if the approach is rounding error alone.
 template <class T>
 Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const Lanes<T>& outside,
                         const Lanes<T>& chord2) {
@@ -349,27 +352,28 @@ Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const L
   return and_not(select((zero < closing) & (zero <= chord2), time, never), at_start);
 }
 
-/// What `Fast` answers; of what is extreme, and where rounding leaves the nearest feature open, what `shared` does.
-/// Lane i is edge i, from corner i to the next, or corner i. What decides on which side of an edge the center is, or
-/// how far along it, is linear in time: the triangle is looked at once.
+/// The kernel of `Fast` in lanes. Calls `fallback` for extreme inputs, and where rounding leaves the closest feature
+/// undecided. Lane i holds edge i, from corner i to the next, or corner i. The side of an edge on which the center
+/// lies, and its position along the edge, are linear functions of time, so the values of the start serve for all times.
 ///
-/// Rounding, u the unit roundoff. The normal as in moving_point_triangle: corners move by 30 u of G, the largest
-/// position. Let w be a corner seen from the center at the start, d the way to the contact, w + d the corner seen from
-/// there. Where the center is beside an edge is known to 5 u of |w + d| and 4 u of |w| and of |d|; |w| and |w + d| are
-/// at most 3.5 G: 60 u. Where two edges meet in a tip both may be wrong far beyond it: a contact on the face is within
-/// the corners' bounds, or no farther from them than rounding takes it. The time on the face takes 7 u of |w| and 3 u
-/// of the velocity, the location 3 u of the center and of d: 128 u together. The way to an edge's line, at right angles
-/// to the edge, is known as well as the velocity is, whose part across the edge takes 3 u of the whole: of a motion
-/// along the edge, that is 16 times as much of the part, and more is left open. An edge or a corner counts where the
-/// center is beyond it by 7 times what rounding makes of that: then no direction from there to the center is nothing
-/// but rounding.
+/// Rounding errors, with u the unit roundoff. The error of the normal is that of moving_point_triangle: moving corners
+/// by 30 u of G, the largest position, accounts for it. Let w be a corner relative to the center at the start, d the
+/// displacement to the contact, and w + d the corner relative to the center then. The side of an edge has an error of
+/// 5 u of |w + d| and 4 u of |w| and of |d|; |w| and |w + d| are at most 3.5 G: 60 u. Where two edges meet in a sharp
+/// tip, both sides may be wrong far beyond the tip; a contact on the face must therefore lie within the bounds of the
+/// corners, up to rounding. The time on the face has an error of 7 u of |w| and 3 u of the velocity, the location 3 u
+/// of the center and of d. In all 128 u. The vector to the line of an edge, perpendicular to the edge, is as accurate
+/// as the velocity's component across the edge, which has an error of 3 u of the whole velocity. For a motion nearly
+/// along the edge that is up to 16 times as much of the component; a motion closer to the edge's direction goes to
+/// `fallback`. An edge or a corner counts only if the center is beyond it by 7 times the rounding error, so the
+/// direction from there to the center is never rounding error alone.
 template <class T, class Fallback>
 inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                          const Triangle<T>& triangle, const Fallback& fallback) {
   using L = Lanes<T>;
   using limits = std::numeric_limits<T>;
-  // Of lengths: products of eight of them stay in range. Of a normal, squared, in units of the edges' squares: below it
-  // is nothing but rounding.
+  // `least` and `most` bound lengths: products of eight of them stay in range. `shortest` bounds the squared length of
+  // the normal, relative to the squared edges: below it the normal is rounding error.
   constexpr T least = std::same_as<T, float> ? T(0x1p-13) : T(0x1p-120),
               most = std::same_as<T, float> ? T(0x1p15) : T(0x1p120);
   constexpr T shortest = limits::epsilon() * limits::epsilon();
@@ -397,7 +401,7 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   const bool in_range =
       n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
   if (!in_range) return fallback(sphere, velocity, triangle);
-  // Behind the plane: overlaps it, or touches it and does not leave.
+  // A center behind the plane passes if the sphere overlaps the plane, or touches it and does not leave.
   const T height2 = height * height, reach2 = radius2 * n2;
   const bool passes = height >= T(0) || height2 < reach2 || (height2 == reach2 && receding == T(0));
   if (!(receding <= T(0) && passes)) return TriangleImpact<T>::miss();
@@ -417,14 +421,14 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
                              yzx(weights) / sum_of_three(weights));
   }
 
-  // Each line's distances are multiplied by its edge's length.
+  // The distances from each line are multiplied by the length of its edge.
   const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across),
                    moment = cross(from, u);
   const L r2 = L::splat(radius2), u2 = L::splat(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
   if (any_of_three(across2 * L::splat(T(256)) < edge2 * u2)) return fallback(sphere, velocity, triangle);
   const L corner_chord2 = r2 * u2 - dot(moment, moment),
           line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
-  // Who touches a corner touches the lines of its edges, and not later: what rounding takes of a chord is none.
+  // A sphere that hits a corner also hits the lines of its edges, no later: a negative chord is rounding error.
   const L at_ends = (zero <= corner_chord2) | (zero <= yzx(corner_chord2));
   const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2,
                                       select(at_ends, larger(line_chord2, zero), line_chord2));
@@ -435,8 +439,8 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   const T time = smallest_of(smaller(corner_times, select(on_line, line_times, corner_times))).first();
   if (time == limits::infinity()) return TriangleImpact<T>::miss();
 
-  // Which feature is nearest then: times that differ by a square do not tell.
-  const T speed = detail::sqrt(speed2), least_way = error_bound * speed * time;
+  // The closest feature at that time: the times of two features may differ by less than their squares show.
+  const T speed = detail::sqrt(speed2), displacement_error = error_bound * speed * time;
   const L passed = L::splat(time), moved_along = moves_along * passed, scale = L::splat(error_bound * n_length);
   const L doubt = scale * (from2 + edge2) + scale * sqrt(edge2) * L::splat(speed * time);
   const L after_start = along_edge + moved_along, after_end = dot(yzx(from), edge) + moved_along;
@@ -449,12 +453,12 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   const std::array<L, 4> v{t.v0, t.v1, t.v2, t.v0};
   const T per_edge2 = to_array((L::splat(T(1)) / edge2) & at_edge)[i],
           share = smaller(to_array(after_start)[i] * per_edge2, T(1));
-  const L e = v[i + 1] - v[i], way = e * L::splat(share), seen = (center + along * passed - v[i]) - way;
-  // What rounding left of a part along the edge counts where the rest is small.
+  const L e = v[i + 1] - v[i], foot = e * L::splat(share), seen = (center + along * passed - v[i]) - foot;
+  // Removes the component along the edge that rounding left, which matters if the rest is small.
   const L away = seen - e * (sum_of_three(seen * e) * L::splat(per_edge2)), away2 = sum_of_three(away * away);
-  const T away2_least = limits::min() / limits::epsilon() + least_way * least_way;
+  const T away2_least = limits::min() / limits::epsilon() + displacement_error * displacement_error;
   if (!(away2.first() >= away2_least)) return fallback(sphere, velocity, triangle);
-  return impact_from_lanes(time, v[i] + way, away / sqrt(away2),
+  return impact_from_lanes(time, v[i] + foot, away / sqrt(away2),
                            unit_at(i) * L::splat(T(1) - share) + unit_at(i + 1) * L::splat(share));
 }
 

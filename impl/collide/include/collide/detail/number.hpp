@@ -1,4 +1,4 @@
-/// What the kernels of the queries may do with a number besides + - * / and comparing: the same words for
+/// The operations, besides + - * / and comparisons, that kernels may use on a number. They have the same names for
 /// float, double and every number type of the tiers.
 #pragma once
 
@@ -18,25 +18,25 @@
 
 namespace collide {
 
-/// True for the machine's own numbers: they round, overflow and underflow.
+/// True for the built-in floating-point types: they round, overflow and underflow.
 template <class T>
 concept MachineNumber = std::floating_point<T>;
 
 namespace detail {
-/// The machine's next wider number.
+/// The next wider floating-point type.
 template <MachineNumber T>
 using Wider = std::conditional_t<std::same_as<T, float>, double, long double>;
-/// Whether it has at least ten digits more: on some machines long double is double.
+/// Whether the wider type has at least ten more binary digits: on some machines long double is double.
 template <MachineNumber T>
 inline constexpr bool has_wider = std::numeric_limits<Wider<T>>::digits >= std::numeric_limits<T>::digits + 10;
 }  // namespace detail
 
-// Continuous functions, which a number type with error bounds evaluates without deciding anything. NaN in
-// the first argument stays.
+// Continuous functions: a number type with error bounds evaluates them without a decision. A NaN in the first argument
+// is returned.
 
 template <MachineNumber T>
 constexpr T larger(T a, T b) {
-#if defined(__SSE2__)  // one instruction; compilers often make branches of it, which nobody can predict
+#if defined(__SSE2__)  // one instruction, where compilers often emit an unpredictable branch
   if (!std::is_constant_evaluated()) {
     if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(b), _mm_set_sd(a)));
     if constexpr (std::same_as<T, float>) return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(b), _mm_set_ss(a)));
@@ -55,7 +55,7 @@ constexpr T smaller(T a, T b) {
   return b < a ? b : a;
 }
 
-/// `x` where a < b, else `y`, without a branch.
+/// `x` if a < b, else `y`; branchless.
 inline double if_less(double a, double b, double x, double y) {
 #if defined(__SSE2__)
   const __m128d less = _mm_cmplt_sd(_mm_set_sd(a), _mm_set_sd(b));
@@ -65,13 +65,13 @@ inline double if_less(double a, double b, double x, double y) {
 #endif
 }
 
-/// x, or the nearer end of [low, high].
+/// x clamped to [low, high].
 template <class T>
 constexpr T clamped(const T& x, const T& low, const T& high) {
   return smaller(larger(x, low), high);
 }
 
-/// x, or 0 where it is negative; NaN stays NaN.
+/// The larger of x and 0; NaN stays NaN.
 template <class T>
 constexpr T positive_part(const T& x) {
   return larger(x, T(0));
@@ -98,12 +98,12 @@ struct Rebind<std::array<X, n>, N> {
 
 }  // namespace detail
 
-/// The type of S, a machine number or a listed struct of them, with numbers of type N.
+/// S with its number type replaced by N. S is a floating-point number, a listed struct or an array of them.
 template <class S, class N>
 using Rebound = typename detail::Rebind<S, N>::type;
 
-/// Copies a number, or a listed struct or answer of numbers, into one with other numbers, each by
-/// `number(from, to)`; flags and indices as they are.
+/// Copies a number, a listed struct or an answer into one with another number type, each number by `number(from, to)`.
+/// Flags and indices are copied unchanged.
 template <class From, class To, class F>
 constexpr void convert(const From& from, To& to, F&& number) {
   if constexpr (Listed<From>) {
@@ -115,7 +115,7 @@ constexpr void convert(const From& from, To& to, F&& number) {
     for (std::size_t i = 0; i < from.size(); ++i) convert(from[i], to[i], number);
   } else if constexpr (std::same_as<From, bool> || std::same_as<From, int>) {
     to = from;
-  } else if constexpr (std::same_as<To, bool>) {  // a flag in numbers that can be uncertain
+  } else if constexpr (std::same_as<To, bool>) {  // a flag stored as a number with uncertain values
     to = !(from == From(0));
   } else {
     number(from, to);

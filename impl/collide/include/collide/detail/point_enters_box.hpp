@@ -1,4 +1,4 @@
-/// A point that enters a box, which every sphere of radius 0 does as well. Shared by the queries of moving points and
+/// The entry of a moving point, or of a sphere of radius 0, into a box. Used by the queries about moving points and
 /// spheres.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace collide::detail {
 
-/// As moving_point_box describes it.
+/// The kernel of moving_point_box.
 template <class Tier, class T>
 Impact<T> point_enters_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
   using detail::abs;

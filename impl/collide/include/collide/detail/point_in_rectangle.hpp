@@ -1,4 +1,4 @@
-/// How collide/point_in_rectangle.hpp is computed.
+/// The kernel of point_in_rectangle (collide/point_in_rectangle.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,4 +1,4 @@
-/// How collide/point_in_triangle.hpp is computed.
+/// The kernel of point_in_triangle (collide/point_in_triangle.hpp).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace collide {
 
 namespace detail {
 
-/// The axis 0..2 of the component of largest magnitude; the first of several.
+/// The axis 0..2 of the component of largest magnitude; the first of equal ones.
 template <class T>
 int largest_component(const Vec3<T>& v) {
   using detail::abs;
@@ -26,17 +26,17 @@ int largest_component(const Vec3<T>& v) {
   return y >= z ? 1 : 2;
 }
 
-/// `v` without its component along the axis.
+/// `v` projected along the axis: that component is set to zero.
 template <class T>
 Vec3<T> projected_along(int axis, const Vec3<T>& v) {
   return {axis == 0 ? T(0) : v.x, axis == 1 ? T(0) : v.y, axis == 2 ? T(0) : v.z};
 }
 
-/// Whether the point lies in the closed triangle, both seen along the axis; a triangle without area is a
-/// segment or a point. The point is on one side of all three edges, and within the triangle's bounds: that
-/// rules out what lies on the line of a flat triangle, or beyond the tip of a thin one by rounding.
+/// Whether the point lies in the closed triangle, both projected along the axis. A triangle without area is a segment
+/// or a point. The point must lie on one side of all three edges and within the bounds of the triangle. The bounds
+/// reject points on the line of a triangle without area and, after rounding, points beyond the tip of a thin one.
 ///
-/// Two triangles that share an edge see the point on opposite sides of it by the same number.
+/// Two triangles that share an edge compute the same number for it, with opposite signs.
 template <class Tier, class T>
 bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) {
   const int a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -53,18 +53,19 @@ bool is_inside(const std::array<Vec3<T>, 3>& v, int axis, const Vec3<T>& point) 
     left = left && orientation >= T(0);
     right = right && orientation <= T(0);
   }
-  if constexpr (MachineNumber<T>) {  // what is not looked at
+  if constexpr (MachineNumber<T>) {  // the coordinate along the axis must be finite too
     if (!(detail::abs(from[0][axis] + from[1][axis] + from[2][axis]) <= std::numeric_limits<T>::max())) return false;
   }
   return left || right;
 }
 
-/// The answer where it is sure, computed in the next wider type: the sides of the edges, whose shares of their sum are
-/// the weights. Nothing where the point may lie on an edge's line, the triangle has no area, or an input is not finite.
+/// Filter in the next wider type: the certain answer, or nullopt. The weights are the edge functions divided by their
+/// sum. Gives nullopt if the point may lie on the line of an edge, the triangle has no area, or an input is not finite.
 ///
-/// In the wider type nothing overflows or underflows. A side is known to 4 u of the sum of its terms' magnitudes, u its
-/// unit roundoff, and the weights to 11 u of all terms' magnitudes over the sum of the sides; 16 u are allowed to be a
-/// quarter of the scalar's epsilon, one unit in the last place of the largest weight.
+/// The wider type neither overflows nor underflows here. An edge function has an error of 4 u of the sum of its terms'
+/// magnitudes, with u the wider type's unit roundoff. The weights have an error of 11 u of the magnitudes of all terms,
+/// divided by the sum of the edge functions. The filter requires 16 u of these to be at most a quarter of the scalar's
+/// epsilon, one unit in the last place of the largest weight.
 template <class T>
 std::optional<Containment<T>> filtered_containment(const Triangle<T>& triangle, int axis, const Vec3<T>& point) {
   if constexpr (has_wider<T>) {
@@ -128,7 +129,7 @@ Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& nor
       const T rest = positive_part(T(1) - face.base_weight - face.apex_weight);
       return {{rest, face.base_weight, face.apex_weight}, true};
     }
-    // No area, or on an edge but for rounding: the weights of the nearest edge's ends.
+    // No area, or on an edge up to rounding: the weights of the ends of the closest edge.
     std::array<T, 3> weights{};
     T nearest(0);
     for (int i = 0; i < 3; ++i) {

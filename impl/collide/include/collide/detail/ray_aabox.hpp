@@ -1,4 +1,4 @@
-/// How collide/ray_aabox.hpp is computed.
+/// The kernel of ray_aabox (collide/ray_aabox.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -16,8 +16,8 @@ namespace collide {
 
 namespace detail {
 
-/// Three numbers of a prepared thing, with any number in the fourth lane: `other` has one behind them, `last` before
-/// them.
+/// Loads a vector of a prepared struct, with an unspecified number in lane 3. load_three requires a number after the
+/// vector, load_last_three one before it.
 template <class Prepared>
 Lanes<float> load_three(const Prepared& prepared, const Vec3<float>& other) {
   const char* const whole = reinterpret_cast<const char*>(&prepared);
@@ -38,11 +38,11 @@ Lanes<double> load_last_three(const Prepared&, const Vec3<double>& last) {
   return lanes(last);
 }
 
-/// The ray is in the box from the last entry of a pair of faces to the first exit. A pair that it is parallel to it
-/// enters and leaves at an infinite time, of the one sign where it starts beside the pair, of both where it starts
-/// between; the time to a face that it lies in is NaN, and does not count.
+/// The ray is in the box from its last entry between a pair of faces to its first exit. For a pair parallel to the ray,
+/// entry and exit have infinite times: of the same sign if the ray starts beside the pair, of opposite signs if it
+/// starts between. The time to a face in which the ray lies is NaN and is ignored.
 ///
-/// Every time is off by 3 eps of itself, as if the gap were: faces and origin explain that.
+/// Every time has a relative error of 3 eps, as if the gap had it: moving the faces and the origin accounts for it.
 template <class T>
 inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
   using L = Lanes<T>;
@@ -51,7 +51,8 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
   const L inverse = load_last_three(prepared, prepared.inverse);
   const L low = load_three(box, box.aabox.min), high = load_last_three(box, box.aabox.max);
   const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
-  // Of two numbers of which one is NaN, the first. No exit is infinite, so that no infinite entry comes before it.
+  // If one of two numbers is NaN, larger and smaller return the first. Exits are clamped to finite numbers, so an
+  // infinite entry comes after every exit.
   const L entries = larger(L::splat(T(0)), smaller(to_low, to_high));
   const L exits = smaller(L::splat(std::numeric_limits<T>::max()), larger(to_high, to_low));
   const P time = largest_of(entries), exit = smallest_of(exits);

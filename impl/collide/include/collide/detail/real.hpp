@@ -1,5 +1,5 @@
-/// Exact real numbers made of machine numbers by + - * / and square roots: every comparison is right.
-/// Needs MPFR and GMP (target collide::certified).
+/// Exact real numbers, built from floating-point numbers by + - * / and square roots. Every comparison is exact. Needs
+/// MPFR and GMP (target collide::certified).
 #pragma once
 
 #include <mpfr.h>
@@ -18,7 +18,7 @@
 
 namespace collide::detail {
 
-/// A closed interval of multiple precision.
+/// A closed interval with multiple-precision bounds.
 class BigInterval {
  public:
   BigInterval() = default;
@@ -28,7 +28,7 @@ class BigInterval {
   BigInterval(const BigInterval&) = delete;
   BigInterval& operator=(const BigInterval&) = delete;
 
-  /// Forgets the value.
+  /// Sets the precision; the value is lost.
   void set_precision(mpfr_prec_t precision) {
     if (precision_ == 0) {
       mpfr_inits2(precision, low, high, static_cast<mpfr_ptr>(nullptr));
@@ -39,7 +39,7 @@ class BigInterval {
     precision_ = precision;
   }
   mpfr_prec_t precision() const { return precision_; }
-  /// -1 or 1 where that is the sign of all its numbers; 2 where it is not known, 0 for [0, 0].
+  /// -1 or 1 if all numbers of the interval have that sign; 0 for [0, 0]; 2 if the sign is not known.
   int sign() const {
     const int l = mpfr_sgn(low), h = mpfr_sgn(high);
     return l > 0 ? 1 : h < 0 ? -1 : l == 0 && h == 0 ? 0 : 2;
@@ -51,21 +51,21 @@ class BigInterval {
   mpfr_prec_t precision_ = 0;
 };
 
-/// A node of an expression. Its sign is decided by evaluating in intervals of rising precision; where zero stays
-/// within, it is found exactly, in a tower of square roots.
+/// A node of an expression. Its sign is found by interval evaluation in increasing precision; if the interval still
+/// contains zero at the highest one, the value is computed exactly, in a tower of square roots (constructible.hpp).
 struct Expression {
   enum class Kind : std::uint8_t { leaf, sum, difference, product, quotient, root, infinite, invalid };
 
   Kind kind = Kind::invalid;
-  std::int8_t known_sign = 2;  // 2: not known yet
+  std::int8_t known_sign = 2;  // 2: not yet known
   double leaf = 0;
   Expression *a = nullptr, *b = nullptr;
   BigInterval value;
   std::optional<Constructible> exact;
 };
 
-/// The expressions of one evaluation, and the roots of those that are known exactly: they live until the outermost one
-/// ends.
+/// The expressions of one evaluation, and the square roots of its exact values. They live until the evaluation clears
+/// them.
 class Expressions {
  public:
   static Expressions& of_this_thread() {
@@ -92,7 +92,7 @@ class Expressions {
 
 using ExpressionKind = Expression::Kind;
 
-/// Bits of the intervals in which a sign is looked for before it is found exactly.
+/// The precision, in bits, of the first and the last interval evaluation of a sign before the exact computation.
 inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
 
 inline bool is_number(const Expression& e) {
@@ -149,12 +149,12 @@ inline Expression& root_of(Expression& a) {
   return e;
 }
 
-/// Evaluates e and everything below it, at least to `precision`.
+/// Evaluates e and its operands as intervals of at least `precision` bits.
 inline void evaluate(Expression& e, mpfr_prec_t precision) {
   if (e.value.precision() >= precision) return;
   if (e.a != nullptr) evaluate(*e.a, precision);
   if (e.b != nullptr) evaluate(*e.b, precision);
-  if (e.kind == ExpressionKind::quotient) {  // b is not zero: its interval tells so at some precision
+  if (e.kind == ExpressionKind::quotient) {  // b is not zero: at some precision its interval excludes 0
     for (mpfr_prec_t p = precision; e.b->value.sign() == 2;) evaluate(*e.b, p *= 2);
   }
   e.value.set_precision(precision);
@@ -195,7 +195,7 @@ inline void evaluate(Expression& e, mpfr_prec_t precision) {
       if (mpfr_sgn(e.a->value.low) > 0) {
         mpfr_sqrt(low, e.a->value.low, MPFR_RNDD);
       } else {
-        mpfr_set_zero(low, 1);  // the operand is positive, though not known to be at this precision
+        mpfr_set_zero(low, 1);  // the operand is positive; at this precision its interval contains 0
       }
       mpfr_sqrt(high, e.a->value.high, MPFR_RNDU);
       break;
@@ -203,7 +203,7 @@ inline void evaluate(Expression& e, mpfr_prec_t precision) {
   }
 }
 
-/// Of a proper expression.
+/// The exact value of a finite expression.
 inline const Constructible& exact_value(Expression& e) {
   if (e.exact) return *e.exact;
   const auto found = [&]() -> Constructible {
@@ -219,7 +219,7 @@ inline const Constructible& exact_value(Expression& e) {
   return e.exact.emplace(found());
 }
 
-/// -1, 0 or 1. Of a proper expression.
+/// The sign of a finite expression: -1, 0 or 1.
 inline int sign_of(Expression& e) {
   if (e.known_sign != 2) return e.known_sign;
   if (e.kind == ExpressionKind::product || e.kind == ExpressionKind::quotient) {
@@ -237,8 +237,8 @@ inline int sign_of(Expression& e) {
 
 namespace collide {
 
-/// An exact real number, infinity, or invalid, which compares with nothing. `Scalar` is the one whose
-/// largest finite number is the limit of times. Lives as long as the evaluation that made it.
+/// An exact real number, an infinity, or invalid (like NaN: every comparison is false). `Scalar` is the type of the
+/// final answer: its largest finite number limits times. A number lives as long as the evaluation that made it.
 template <class Scalar>
 class Real {
  public:
@@ -277,7 +277,8 @@ class Real {
   friend Real larger(const Real& a, const Real& b) { return a < b ? b : a; }
   friend Real smaller(const Real& a, const Real& b) { return b < a ? b : a; }
 
-  /// The number, rounded with an error below one unit in the last place, or below the least number of Scalar.
+  /// The number rounded to Scalar. The error is below one unit in the last place, or below the smallest positive number
+  /// of Scalar.
   Scalar rounded() const {
     using detail::ExpressionKind;
     if (e_->kind == ExpressionKind::infinite || e_->kind == ExpressionKind::leaf) return Scalar(e_->leaf);
@@ -308,7 +309,7 @@ class Real {
   static Real of(detail::ExpressionKind kind, const Real& a, const Real& b) {
     return Real(detail::binary(kind, *a.e_, *b.e_));
   }
-  /// -1, 0, 1; 2 where one is invalid.
+  /// -1, 0 or 1 for a < b, a == b, a > b; 2 if one of them is invalid.
   static int order(const Real& a, const Real& b) {
     using detail::ExpressionKind;
     if (a.e_->kind == ExpressionKind::invalid || b.e_->kind == ExpressionKind::invalid) return 2;

@@ -1,4 +1,4 @@
-/// How collide/slide_direction.hpp is computed.
+/// The kernel of slide_direction (collide/slide_direction.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

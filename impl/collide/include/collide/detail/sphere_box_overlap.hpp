@@ -1,4 +1,4 @@
-/// How collide/sphere_box_overlap.hpp is computed.
+/// The kernel of sphere_box_overlap (collide/sphere_box_overlap.hpp).
 #pragma once
 
 #include <optional>
@@ -16,18 +16,20 @@ namespace collide {
 
 namespace detail {
 
-/// |c - b|^2 - r^2 of a ball around c with radius r, seen from the center of a box, and its nearest point b of the box.
+/// c - b|^2 - r^2 for a ball around c with radius r, relative to the center of a box, where b is the point of the box
+/// closest to c.
 template <class T>
 Lanes<T> beyond_ball(const Lanes<T>& seen, const Lanes<T>& q, const Lanes<T>& half, const Lanes<T>& radius) {
   const Lanes<T> away = excess(FrameInLanes<T>(q).into(seen), half);
   return sum_of_three(away * away) - radius * radius;
 }
 
-/// Whether they meet; nothing where doubles may be wrong.
+/// Filter in doubles: whether sphere and box meet; nullopt if rounding may change the decision.
 ///
-/// u = 2^-53, S = |x| + |y| + |z| of the way between the centers: a number of the matrix is known to 15 u, a coordinate
-/// in the frame to 20 u S and its excess to 21 u S, the sum of the squares to 2 sqrt(3) 21 u S^2 + 3 u S^2, the
-/// difference to 80 u S^2 + 2 u r^2. What underflows is far less where S^2 + r^2 and the quaternion are not tiny.
+/// Let u = 2^-53 and S = |x| + |y| + |z| of the vector between the centers. A number of the matrix has an error of
+/// 15 u, a coordinate in the box's frame 20 u S, and its excess 21 u S. The sum of the squares has an error of 2
+/// sqrt(3) 21 u S^2 + 3 u S^2, and the difference 80 u S^2 + 2 u r^2. Underflow is far smaller if S^2 + r^2 and the
+/// quaternion are not tiny.
 template <class T>
 std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Box<T>& box) {
   using L = Lanes<double>;

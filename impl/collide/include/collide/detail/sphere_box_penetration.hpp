@@ -1,4 +1,4 @@
-/// How collide/sphere_box_penetration.hpp is computed.
+/// The kernel of sphere_box_penetration (collide/sphere_box_penetration.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
@@ -14,7 +14,7 @@ namespace collide {
 
 namespace detail {
 
-/// What `Fast` answers; where the square of the distance says nothing about it, what `shared` does.
+/// The kernel of `Fast` in lanes. Calls `fallback` if the squared distance overflows or underflows.
 template <class T, class Fallback>
 inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, const Box<T>& box,
                                                       const Fallback& fallback) {
@@ -28,11 +28,11 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
     if (!is_in_safe_range(norm_squared.first())) return fallback(sphere, box);
   }
   const P radius = P::splat(sphere.radius), zero = P::splat(T(0)), one = P::first_lane(T(1));
-  const P no_radius = radius * zero;  // or NaN
-  // The rotation times |q|^2, which is divided out beside the rotating.
+  const P no_radius = radius * zero;  // 0, or NaN
+  // The rotation matrix times |q|^2; the division by |q|^2 runs in parallel with the rotation.
   const auto frame = FrameInLanes<T>::scaled(q);
   const L inverse = broadcast_first(one / first_pair(norm_squared));
-  // NaN where an argument is not finite.
+  // NaN if an argument is not finite.
   const L local = frame.into(center - middle) * inverse, away = excess(local, half) + half * broadcast_first(no_radius);
   const P distance2 = first_pair(sum_of_three(away * away)), is_outside = zero < distance2;
   const P in_range =
@@ -40,21 +40,22 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
   if (!holds_or_all_zero(in_range, away)) return fallback(sphere, box);
 
   const P distance = sqrt(distance2);
-  const auto answer = [&](const P& depth, const L& way, const P& per_way, const P& to_contact) COLLIDE_INLINE {
-    const L overlap = broadcast_first(zero <= depth), normal = way * broadcast_first(per_way),
-            contact = center - way * broadcast_first(to_contact);
+  const auto answer = [&](const P& depth, const L& outward, const P& normal_scale, const P& to_contact) COLLIDE_INLINE {
+    const L overlap = broadcast_first(zero <= depth), normal = outward * broadcast_first(normal_scale),
+            contact = center - outward * broadcast_first(to_contact);
     return Penetration<T>{depth.first(), to_vec3(normal & overlap), to_vec3(contact & overlap)};
   };
-  if constexpr (std::same_as<T, double>) {  // in two registers what only the inside needs costs more than a wrong guess
+  if constexpr (std::same_as<T, double>) {  // in two registers, the code for the inside costs more than a mispredicted
+                                            // branch
     if (distance2.first() > T(0))
       return answer(radius - distance, frame.out_of(away) * inverse, one / (zero - distance), one);
   }
   const L to_face = half - absolute(local), to_nearest_face = smallest_of_three(to_face);
   const L side = L::splat(T(1)) ^ (local & L::splat(T(-0.0)));
   const L face = and_not(first_of_three(to_face == to_nearest_face) & side, broadcast_first(is_outside));
-  const L way =
-      frame.out_of(away | face) * inverse;  // to the contact where the center is outside, where `away` is not 0
-  return answer(radius - distance + and_not(first_pair(to_nearest_face), is_outside), way,
+  const L outward =
+      frame.out_of(away | face) * inverse;  // from the contact to the center if that is outside (`away` is not 0 then)
+  return answer(radius - distance + and_not(first_pair(to_nearest_face), is_outside), outward,
                 one / (zero - (distance | and_not(one, is_outside))), select(is_outside, one, radius));
 }
 
@@ -90,7 +91,7 @@ Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box
       std::array<T, 3> nearest;
       for (int i = 0; i < 3; ++i) nearest[i] = clamped(local[i], -half[i], half[i]);
       const Vec3<T> outward =
-          unit<Tier>(Vec3<T>{away[0], away[1], away[2]});  // `distance` of subnormals has few digits
+          unit<Tier>(Vec3<T>{away[0], away[1], away[2]});  // not away / distance: a subnormal `distance` has few digits
       return {depth, -out_of_frame(axes, components(outward)), box.center + out_of_frame(axes, nearest)};
     }
     const NearestFace<T> face = nearest_face(local, half);

@@ -1,4 +1,4 @@
-/// How collide/sphere_plane_penetration.hpp is computed.
+/// The kernel of sphere_plane_penetration (collide/sphere_plane_penetration.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

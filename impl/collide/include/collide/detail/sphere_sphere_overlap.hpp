@@ -1,4 +1,4 @@
-/// How collide/sphere_sphere_overlap.hpp is computed.
+/// The kernel of sphere_sphere_overlap (collide/sphere_sphere_overlap.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

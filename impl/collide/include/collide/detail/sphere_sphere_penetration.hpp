@@ -1,4 +1,4 @@
-/// How collide/sphere_sphere_penetration.hpp is computed.
+/// The kernel of sphere_sphere_penetration (collide/sphere_sphere_penetration.hpp).
 #pragma once
 
 #include <collide/answers.hpp>

@@ -1,4 +1,4 @@
-/// How collide/sphere_triangle_overlap.hpp is computed.
+/// The kernel of sphere_triangle_overlap (collide/sphere_triangle_overlap.hpp).
 #pragma once
 
 #include <optional>
@@ -17,28 +17,27 @@ namespace collide {
 
 namespace detail {
 
-/// A triangle seen from the center of a sphere, without branches.
+/// The distances of the features of a triangle from the center of a sphere, branchless.
 template <class T>
 struct SphereFromTriangle {
   using L = Lanes<T>;
-  L distances2;                ///< of the edges from v0, v1, v2 to the next corner, and of the plane
-  L lengths2;                  ///< of the edges
-  L height2;                   ///< of v2 above the first edge's line; in every lane
-  L base_weight, apex_weight;  ///< of v1 and v2 in the point of the plane; in every lane
-  L inside;                    ///< that point in the triangle
+  L distances2;                ///< squared distances of the edges from v0, v1, v2 to the next corner, and of the plane
+  L lengths2;                  ///< squared lengths of the edges
+  L height2;                   ///< squared height of v2 above the line of the first edge; in every lane
+  L base_weight, apex_weight;  ///< weights of v1 and v2 at the foot in the plane; in every lane
+  L inside;                    ///< mask: the foot lies in the triangle
 
   SphereFromTriangle(const L& center, const L& v0, const L& v1, const L& v2) {
     const L zero = L::splat(T(0)), one = L::splat(T(1));
     const L edge0 = v1 - v0, edge1 = v2 - v1, edge2 = v0 - v2, w0 = center - v0, w1 = center - v1, w2 = center - v2;
-    // How far along each edge, as a share of it, the center lies; the last lane: the corner v0 along the edge before
-    // it.
+    // The parameter of the center along each edge. Last lane: the corner v0 along the edge that ends there.
     lengths2 = sums_of_three(edge0 * edge0, edge1 * edge1, edge2 * edge2, edge0 * edge0);
     const L along = sums_of_three(w0 * edge0, w1 * edge1, w2 * edge2, edge2 * edge0) / lengths2;
     const L share = smaller(larger(along, zero), one) & (zero < lengths2);
     const L from_edge0 = w0 - edge0 * share.template broadcast<0>(),
             from_edge1 = w1 - edge1 * share.template broadcast<1>();
     const L from_edge2 = w2 - edge2 * share.template broadcast<2>();
-    // As in foot_on_face.
+    // The foot on the face, as foot_on_face computes it.
     const L base_share = along.template broadcast<0>(), apex_share = zero - along.template broadcast<3>();
     const L height = zero - edge2 - edge0 * apex_share, beside = w0 - edge0 * base_share;
     const L measures = sums_of_three(height * height, beside * height, height, height);
@@ -52,14 +51,15 @@ struct SphereFromTriangle {
   }
 };
 
-/// Whether they meet; nothing where doubles may be wrong.
+/// Filter in doubles: whether sphere and triangle meet; nullopt if rounding may change the decision.
 ///
-/// u = 2^-53, S the sum of |x| + |y| + |z| of the corners seen from the center. The foot on an edge is a point of it,
-/// and one on the face one of the triangle within 8 u S, whatever their shares: the squared distances computed are too
-/// small by 128 u S^2 at most. They are too large by as much where the shares are good: that of an edge is wrong by
-/// 8 u S / length, which squared and times length^2 is nothing. Height and plane are wrong by at most 16 u S / height
-/// of each other's lengths; where edge and height are no shorter than S / 64, the weights by 2^-29, the squared
-/// distance from the plane by 2^12 u S^2.
+/// Let u = 2^-53 and S the sum of |x| + |y| + |z| of the corners relative to the center. The foot on an edge lies on
+/// the edge within 8 u S, and the foot on the face in the triangle within 8 u S, whatever the errors of their
+/// parameters. So the computed squared distances are too small by at most 128 u S^2. They are too large by at most as
+/// much if the parameters are accurate: the parameter of an edge has an error of 8 u S / length, which has no
+/// first-order effect on the squared distance. Height and plane have an error of at most 16 u S / height of each
+/// other's lengths. If edge and height are no shorter than S / 64, the weights have an error of 2^-29, and the squared
+/// distance from the plane 2^12 u S^2.
 template <class T>
 std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle) {
   using L = Lanes<double>;

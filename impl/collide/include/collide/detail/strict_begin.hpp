@@ -1,10 +1,10 @@
-// Strict IEEE 754 arithmetic from here to detail/strict_end.hpp: every operation rounds by itself. Each header of
-// collide with arithmetic includes the pair around its functions, so there is no include guard here.
+// Strict IEEE 754 arithmetic from here to detail/strict_end.hpp: every operation rounds once, to its own type. Each
+// header of collide with arithmetic puts this pair around its functions, so this file has no include guard.
 //
-// A contraction (a * b + c in one rounding) or a reassociation breaks the error-free transformations and the error
-// bounds of the tiers Accurate and Certified, and it makes the answers of Fast depend on the compiler.
+// Contraction (a * b + c with one rounding) and reassociation break the error-free transformations and the error bounds
+// of the tiers Accurate and Certified, and they make the answers of Fast depend on the compiler.
 
-// Options that no pragma undoes.
+// Options that no pragma can undo.
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__NO_SIGNED_ZEROS__) || defined(_M_FP_FAST)
 #error "collide needs IEEE 754 arithmetic: compile without -ffast-math, -Ofast and the options that they imply"
@@ -13,9 +13,9 @@
 #error "collide needs operations that round to their own type: on 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 
-// Contraction is turned off by pragmas. GCC then keeps these functions out of line where the options of their callers
-// differ: -ffp-contract=off -fno-tree-slp-vectorize for the whole program gets the calls inlined again. The second
-// option is there because GCC 12 contracts in that optimization whatever -ffp-contract says.
+// Pragmas turn contraction off. GCC does not inline these functions into callers with other options;
+// -ffp-contract=off -fno-tree-slp-vectorize for the whole program restores inlining. The second option is there because
+// GCC 12 contracts in that optimization whatever -ffp-contract says.
 #if defined(__clang__)
 #pragma float_control(push)
 #pragma clang fp contract(off)
