@@ -83,8 +83,8 @@ inline void force_evaluation(int x) {
 #endif
 }
 
-/// Tells whether an operation overflowed or underflowed between the construction and the completed answer. If one did,
-/// the error bounds are invalid.
+/// Tells whether an operation overflowed or underflowed between construction and the completed answer. If so, the error
+/// bounds are invalid.
 class RangeFlags {
  public:
   template <class... Args>

@@ -24,10 +24,10 @@ template <class Tier = Fast, class T>
 
 namespace contracts {
 
-/// First order. Two differences have an error of 1 eps of 2 G each. The dot product has an error of 3 eps of |point -
-/// v0|
-/// along|, which is 12 eps of G along the segment after the division. Division, product and sum have an error of 1 eps
-/// of at most 2 G each. Moving the point and the ends by 2 * 2 + 12 + 3 * 2 = 22 eps of G accounts for all.
+/// First order. Two differences have an error of 1 eps of 2 G each. With d = point - v0, the dot product has an error
+/// of 3 eps of |d| |along|, which is 12 eps of G along the segment after the division. Division, product and sum have
+/// an error of 1 eps of at most 2 G each. Moving the point and the ends by 2 * 2 + 12 + 3 * 2 = 22 eps of G accounts
+/// for all.
 template <class Tier = Fast, class T = double>
 constexpr Contract closest_point_segment() {
   return Tier::template contract<T>({.backward = 22, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});

@@ -115,9 +115,9 @@ namespace detail {
 
 /// 1 - |a|^2 with an error of 2^-8 eps, for a vector with a length of at most about 1.
 ///
-/// Split a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. The squares of h are multiples of 2^-2g, and 2 g
-/// + 2 digits hold their sums: that part is exact. The rest of |a|^2 is the sum of l (h + a), each with an error of 2 u
-/// of 2^-g.
+/// Split a = h + l, where h is a multiple of 2^-g and |l| <= 2^-g / 2. The squares of h are multiples of 2^-2g, and 2
+/// (g + 1) digits hold their sums, so that part is exact. The rest of |a|^2 is the sum of l (h + a), each with an error
+/// of 2 u of 2^-g.
 template <MachineNumber T>
 T one_minus_length2(const Vec3<T>& a) {
   constexpr int digits = std::numeric_limits<T>::digits, g = (digits - 2) / 2;

@@ -30,9 +30,9 @@ EdgeFoot<T> foot_on_edge(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>
   return {along * share, along * (share - T(1)), share, share >= T(1)};
 }
 
-/// b - w|^2 - |a - w|^2: the difference of the squared distances of b and a from w. All three are relative to one
-/// vertex. If a and b are near that vertex, as the feet on two edges that meet there may be, this keeps the digits that
-/// subtracting the two squares would lose.
+/// The squared distance of b from w minus that of a: |b - w|^2 - |a - w|^2. All three are relative to one vertex. If a
+/// and b are near that vertex, as the feet on two edges that meet there may be, this keeps the digits that subtracting
+/// the two squares would lose.
 template <class Tier, class T>
 T distance2_excess(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& w) {
   return Tier::dot(b - a, (a - w) + (b - w));

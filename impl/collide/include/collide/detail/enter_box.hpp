@@ -41,7 +41,7 @@ BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, 
       entry.at[i] = entry.side > T(0) ? high[i] : low[i];
       continue;
     }
-    // In exact arithmetic only the far plane can be crossed here. Rounding may put x before the near plane if two
+    // In real numbers only the far plane can be crossed by now. Rounding may leave x before the near plane if two
     // planes are reached at once; clamping corrects that.
     const T x = at[i] + step[i] * entry.time;
     if (!(step[i] > T(0) ? x <= high[i] : x >= low[i])) return {};

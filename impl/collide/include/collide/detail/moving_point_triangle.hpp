@@ -132,8 +132,8 @@ COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, co
 /// Contact. Moving the corners by less than 12 u l along the normal accounts for the products with n and their
 /// quotient. That changes the volumes of a hit by less than 24 u |velocity| l^2, so the location stays on the triangle.
 ///
-/// Overflow makes the edge tests uncertain, or makes a triangle whose normal overflows thin. The `least` numbers are
-/// added to the squares so that the bounds lie far above numbers that underflow.
+/// Overflow makes the edge tests uncertain. A triangle whose normal overflows is treated as thin. The `least` numbers
+/// are added to the squares so that the bounds lie far above numbers that underflow.
 template <class T, class Fallback>
 inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity,
                                                 const Triangle<T>& triangle, const Fallback& fallback) {

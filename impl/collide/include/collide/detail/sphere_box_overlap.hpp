@@ -16,7 +16,7 @@ namespace collide {
 
 namespace detail {
 
-/// c - b|^2 - r^2 for a ball around c with radius r, relative to the center of a box, where b is the point of the box
+/// |c - b|^2 - r^2 for a ball around c with radius r, relative to the center of a box, where b is the point of the box
 /// closest to c.
 template <class T>
 Lanes<T> beyond_ball(const Lanes<T>& seen, const Lanes<T>& q, const Lanes<T>& half, const Lanes<T>& radius) {

@@ -45,8 +45,7 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
             contact = center - outward * broadcast_first(to_contact);
     return Penetration<T>{depth.first(), to_vec3(normal & overlap), to_vec3(contact & overlap)};
   };
-  if constexpr (std::same_as<T, double>) {  // in two registers, the code for the inside costs more than a mispredicted
-                                            // branch
+  if constexpr (std::same_as<T, double>) {  // in two registers the inside case costs more than a mispredicted branch
     if (distance2.first() > T(0))
       return answer(radius - distance, frame.out_of(away) * inverse, one / (zero - distance), one);
   }
