@@ -26,11 +26,6 @@ sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball hol
 }" "$copy/docs/reference.md"
 grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no table for a query of one's own"
 sed -i "\$a #include <collide/$query.hpp>" "$copy/impl/collide/include/collide/collide.hpp"
-by_hand=$copy/properties/oracle_hand_test.cpp
-sed -i "/^const std::map<std::string, std::string> classes{\$/a {\"$query\", \"hit miss touch\"}," "$by_hand"
-sed -i "/^std::vector<Hand> hands_of_overlaps() {\$/{n;r $here/derived_by_hand
-}" "$by_hand"
-[ "$(grep -c "\"$query\"" "$by_hand")" = 5 ] || fail "properties/oracle_hand_test.cpp has no place for a new query"
 
 # The same depth as the presets' build folders: unchanged sources come from the compiler cache.
 build=$copy/build/release
