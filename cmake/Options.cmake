@@ -7,6 +7,7 @@ option(NEARMISS_BULLET "Build Bullet as a subject, where it is installed" ON)
 option(NEARMISS_ODE "Build ODE as a subject, where it is installed" ON)
 set(NEARMISS_ADD "" CACHE STRING "CMake files that add libraries of your own, separated by semicolons; see docs/bring-your-own.md")
 option(NEARMISS_D3 "Draw pages with D3, where it is installed" ON)
+option(NEARMISS_UNITY "Compile several sources as one unit: a fresh build takes about half the processor time" ON)
 option(NEARMISS_WERROR "Treat warnings as errors" OFF)
 set(NEARMISS_SANITIZE "" CACHE STRING "Sanitizers, separated by commas: address,undefined")
 option(NEARMISS_COVERAGE "Instrument for coverage" OFF)
@@ -29,6 +30,26 @@ if(NEARMISS_CCACHE)
     ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${NEARMISS_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
+
+# Compiles the sources of `target` as `units` units. A source's unit follows from its name alone: a new source changes one
+# unit, and ccache keeps the others.
+function(nearmiss_unite target units)
+  if(NOT NEARMISS_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source IN LISTS sources)
+    get_filename_component(name ${source} NAME)
+    string(MD5 hash ${name})
+    string(SUBSTRING ${hash} 0 4 hash)
+    math(EXPR unit "0x${hash} % ${units}")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP unit_${unit})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # g++ takes a source that a unit includes for a header, where an unnamed namespace would be a mistake.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
 
 # Warnings, and floating point according to IEEE 754. A contraction (a * b + c with one rounding) or a reassociation would
 # change the results of a tier and break the bounds of intervals, so that results would depend on the compiler.

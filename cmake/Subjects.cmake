@@ -150,6 +150,9 @@ function(nearmiss_finish_subjects)
     ${PROJECT_SOURCE_DIR}/impl/host/hosts.cpp ${PROJECT_SOURCE_DIR}/impl/host/supervisor.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
     ${PROJECT_SOURCE_DIR}/impl/host/worker.cpp ${PROJECT_SOURCE_DIR}/impl/subject/printable.cpp)
   target_link_libraries(nearmiss_subjects PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+  # Programs that ask hosts link another list of subjects in the place of this one.
+  set_source_files_properties(${NEARMISS_GENERATED}/subjects/all.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  nearmiss_unite(nearmiss_subjects 1)
   target_compile_definitions(nearmiss_subjects PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}")
   target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
   add_library(nearmiss_hosts OBJECT ${NEARMISS_GENERATED}/subjects/hosts.cpp)

@@ -94,9 +94,9 @@ std::string_view vector_of(std::string_view name) {
 }
 
 /// The inputs or the answer of a query while their fields are read.
-class Numbers {
+class NumberFields {
  public:
-  explicit Numbers(const std::vector<Field>& fields) : fields_(&fields), values_(fields.size()) {}
+  explicit NumberFields(const std::vector<Field>& fields) : fields_(&fields), values_(fields.size()) {}
 
   /// Reads "NAME = VALUE; NAME = VALUE" and replaces what an earlier call has set.
   void read(const std::vector<std::string_view>& assignments) {
@@ -176,7 +176,7 @@ Answer parse_answer(const Query& query, std::string_view text) {
     answer.yes = parts[0] == yes;
     parts.erase(parts.begin());
   }
-  Numbers numbers(query.outputs);
+  NumberFields numbers(query.outputs);
   numbers.read(parts);
   answer.given = 0;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
@@ -228,7 +228,7 @@ class Parser {
       classes(rest);
     } else if (keyword == "common") {
       end_of_inputs();
-      common_ = Numbers(query_.inputs);
+      common_ = NumberFields(query_.inputs);
       common_.read(split(rest, ';'));
     } else if (keyword == "given") {
       end_of_inputs();
@@ -255,7 +255,7 @@ class Parser {
     given_where_ = where;
     inputs_.clear();
     stage_ = Stage::bad_inputs;
-    Numbers all = common_;
+    NumberFields all = common_;
     all.read(split(text, ';'));
     if (const auto missing = all.missing()) throw BadLine(fmt::format("{} is missing", *missing));
     for (const std::optional<double>& x : all.values()) inputs_.push_back(*x);
@@ -283,7 +283,7 @@ class Parser {
   }
 
   const Query& query_;
-  Numbers common_;
+  NumberFields common_;
   HandDerivedFile& into_;
   enum class Stage { start, inputs, bad_inputs, answers } stage_ = Stage::start;
   std::string given_where_;

@@ -36,15 +36,15 @@ bool misses_emptily(std::span<const double> inputs) {
   return false;  // the answer type has no miss
 }
 
-struct Asked {
+struct LanedQuery {
   const char* query;
   AnswerTo in_float, in_double;
   bool (*empty_in_float)(std::span<const double> inputs);
   bool (*empty_in_double)(std::span<const double> inputs);
 };
-std::ostream& operator<<(std::ostream& out, const Asked& a) { return out << a.query; }
+std::ostream& operator<<(std::ostream& out, const LanedQuery& a) { return out << a.query; }
 
-class FastWithoutLanes : public testing::TestWithParam<Asked> {};
+class FastWithoutLanes : public testing::TestWithParam<LanedQuery> {};
 
 TEST_P(FastWithoutLanes, KeepsItsContract) {
   const Query& query = *find_query(GetParam().query);
@@ -61,7 +61,7 @@ TEST_P(FastWithoutLanes, KeepsItsContract) {
   }
 }
 
-class FastInLanes : public testing::TestWithParam<Asked> {};
+class FastInLanes : public testing::TestWithParam<LanedQuery> {};
 
 TEST_P(FastInLanes, LeavesNothingInAMiss) {
   const Query& query = *find_query(GetParam().query);
@@ -77,10 +77,10 @@ TEST_P(FastInLanes, LeavesNothingInAMiss) {
   }
 }
 
-#define NEARMISS_QUERY(name)                                                                          \
-  Asked{#name, answer_without_lanes<inputs::name, float>, answer_without_lanes<inputs::name, double>, \
-        misses_emptily<inputs::name, float>, misses_emptily<inputs::name, double>},
-constexpr Asked every[] = {
+#define NEARMISS_QUERY(name)                                                                               \
+  LanedQuery{#name, answer_without_lanes<inputs::name, float>, answer_without_lanes<inputs::name, double>, \
+             misses_emptily<inputs::name, float>, misses_emptily<inputs::name, double>},
+constexpr LanedQuery every[] = {
 #include "impl/catalogue/catalogue.def"
 };
 #undef NEARMISS_QUERY

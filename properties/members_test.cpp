@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "oracles/judge.hpp"
+#include "properties/support.hpp"
 
 namespace nearmiss {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
 
 Case asked(const char* query, std::vector<double> values) {
   return {find_query(query), Scalar::float64, std::move(values), "members", 0, 0, {}};

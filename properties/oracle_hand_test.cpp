@@ -13,15 +13,13 @@
 
 #include "oracles/judge.hpp"
 #include "properties/hand_derived.hpp"
+#include "properties/support.hpp"
 
 namespace nearmiss {
 
 void PrintTo(const HandDerived& hand, std::ostream* out) { *out << hand.where; }
 
 namespace {
-
-/// A contract that only the exact answer, rounded once, keeps.
-constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
 
 const std::map<std::string, HandDerivedFile>& files() {
   static const auto all = read_hand_derived(NEARMISS_PROPERTIES_FOLDER "/hand_derived");

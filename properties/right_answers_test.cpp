@@ -40,13 +40,13 @@ Numbers operator+(Numbers a, const Vec& b) {
 
 double rounded(Real x, Scalar s) { return s == Scalar::float32 ? double(float(x)) : double(x); }
 
-struct Asked {
+struct Exchange {
   Case question;
   Answer answer;
 };
 
-Asked asked(const char* query, Numbers inputs, bool yes, const Numbers& answer, Scalar scalar = Scalar::float64) {
-  Asked a{{find_query(query), scalar, std::move(inputs), "built", 0, 0, {}}, {}};
+Exchange asked(const char* query, Numbers inputs, bool yes, const Numbers& answer, Scalar scalar = Scalar::float64) {
+  Exchange a{{find_query(query), scalar, std::move(inputs), "built", 0, 0, {}}, {}};
   EXPECT_EQ(a.question.values.size(), a.question.query->inputs.size()) << query;
   EXPECT_FALSE(a.question.query->broken(a.question.values)) << query;
   a.answer.yes = yes;
@@ -55,17 +55,19 @@ Asked asked(const char* query, Numbers inputs, bool yes, const Numbers& answer, 
   return a;
 }
 
-std::string text(const Asked& a) {
+std::string text(const Exchange& a) {
   return std::string(a.question.query->name) + " " + testing::PrintToString(a.question.values) + " answer " +
          testing::PrintToString(Numbers(a.answer.values.begin(), a.answer.values.begin() + 11));
 }
 
 /// A contract that only a correctly rounded exact answer keeps, apart from the length of normals.
-constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 8};
+constexpr collide::Contract nearly_strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 8};
 
-Finding judged(const Asked& a, Detail detail = Detail::full) { return judge(a.question, a.answer, strict, detail); }
+Finding judged(const Exchange& a, Detail detail = Detail::full) {
+  return judge(a.question, a.answer, nearly_strict, detail);
+}
 
-void expect_right(const Asked& a, double ulps = 1) {
+void expect_right(const Exchange& a, double ulps = 1) {
   const Finding f = judged(a);
   EXPECT_EQ(f.truth_yes, a.answer.yes) << text(a);
   EXPECT_LE(f.forward_ulps, ulps) << text(a) << ": " << name_of(f.disagreement);
@@ -73,7 +75,7 @@ void expect_right(const Asked& a, double ulps = 1) {
   EXPECT_EQ(f.verdict, Verdict::agrees) << text(a) << ": " << name_of(f.disagreement) << ", " << f.clause;
   EXPECT_EQ(judged(a, Detail::verdict).verdict, Verdict::agrees) << text(a);
 }
-void expect_wrong(const Asked& a, double ulps) {
+void expect_wrong(const Exchange& a, double ulps) {
   const Finding f = judged(a);
   EXPECT_EQ(f.verdict, Verdict::violates_contract) << text(a) << ", " << f.forward_ulps << " ulps";
   EXPECT_GE(f.forward_ulps, ulps) << text(a);
@@ -130,13 +132,13 @@ TEST(RightAnswers, OfAFlatBoxTheNormalIsThatOfTheSideThatIsMet) {
     return std::array{asked("moving_point_box", point + velocity + flat, true, answer),
                       asked("moving_sphere_box", point + Numbers{0} + velocity + flat, true, answer)};
   };
-  for (const Asked& a : normal({0, 0, 2}, {0, 0, -1}, 2, 1)) expect_right(a);
-  for (const Asked& a : normal({0, 0, 2}, {0, 0, -1}, 2, -1)) expect_wrong(a, 0x1p45);
-  for (const Asked& a : normal({0, 0, 0}, {0, 0, -1}, 0, 1)) expect_right(a);
-  for (const Asked& a : normal({0, 0, 0}, {0, 0, -1}, 0, -1)) expect_wrong(a, 0x1p45);
+  for (const Exchange& a : normal({0, 0, 2}, {0, 0, -1}, 2, 1)) expect_right(a);
+  for (const Exchange& a : normal({0, 0, 2}, {0, 0, -1}, 2, -1)) expect_wrong(a, 0x1p45);
+  for (const Exchange& a : normal({0, 0, 0}, {0, 0, -1}, 0, 1)) expect_right(a);
+  for (const Exchange& a : normal({0, 0, 0}, {0, 0, -1}, 0, -1)) expect_wrong(a, 0x1p45);
   for (const double side : {-1.0, 1.0}) {  // along the plane on either side
-    for (const Asked& a : normal({2, 0, 0}, {-1, 0, 0}, 1, side)) expect_right(a);
-    for (const Asked& a : normal({0, 0, 0}, {-1, 0, 0}, 0, side)) expect_right(a);
+    for (const Exchange& a : normal({2, 0, 0}, {-1, 0, 0}, 1, side)) expect_right(a);
+    for (const Exchange& a : normal({0, 0, 0}, {-1, 0, 0}, 0, side)) expect_right(a);
   }
   const Numbers flat_aligned{-1, -1, 0, 1, 1, 0};
   expect_right(asked("moving_point_aabox", Numbers{0, 0, 2, 0, 0, -1} + flat_aligned, true, {0, 0, 0, 0, 2, 0, 0, 1}));
@@ -379,7 +381,7 @@ class SetOfRightAnswers : public testing::TestWithParam<Set> {
       for (int i = 0; i < members && !HasFailure(); ++i) f(draw, GetParam().member(draw), scalar);
     }
   }
-  static Asked answer(const Member& m, const std::vector<Vec>& vectors, Scalar scalar) {
+  static Exchange answer(const Member& m, const std::vector<Vec>& vectors, Scalar scalar) {
     Numbers numbers = m.before;
     for (const Vec& v : vectors) numbers = numbers + v;
     return asked(m.query, m.inputs, true, numbers + m.after, scalar);
@@ -446,7 +448,7 @@ struct Word {
 std::ostream& operator<<(std::ostream& out, const Word& w) {
   return out << (w.yes ? "yes, " : "no, ") << (w.matches ? "right, " : "wrong, ") << w.ulps << " ulps";
 }
-Word word_on(const Asked& a) {
+Word word_on(const Exchange& a) {
   const Enclosure e = oracle_of(*a.question.query).exact(a.question.values, a.answer, a.question.scalar, nullptr);
   constexpr double far_off = 0x1p50;
   return {e.may_be_yes, e.may_match, e.may_match && e.ulps <= 1 ? 0 : std::min(e.ulps, far_off)};
@@ -486,8 +488,9 @@ TEST(RightAnswers, OfABallOfRadiusZeroAreThoseOfItsCenter) {
   for (int i = 0; i < cases; ++i) {
     const PointAndBox p(draw);
     const auto both = [&](bool yes, const Numbers& answer) {
-      const Asked point = asked("moving_point_box", Numbers{} + p.point + p.velocity + p.box, yes, answer);
-      const Asked ball = asked("moving_sphere_box", Numbers{} + p.point + Numbers{0} + p.velocity + p.box, yes, answer);
+      const Exchange point = asked("moving_point_box", Numbers{} + p.point + p.velocity + p.box, yes, answer);
+      const Exchange ball =
+          asked("moving_sphere_box", Numbers{} + p.point + Numbers{0} + p.velocity + p.box, yes, answer);
       EXPECT_EQ(word_on(point), word_on(ball)) << text(ball);
     };
     const Truth truth =

@@ -36,6 +36,9 @@ struct NamedQuery {
 std::ostream& operator<<(std::ostream& out, const NamedQuery& q);
 std::vector<NamedQuery> every_query();
 
+/// A contract that only the exact answer, rounded once, keeps.
+inline constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
+
 inline constexpr Scalar scalars[] = {Scalar::float32, Scalar::float64};
 
 /// The subject's answer, computed in this process, and its finding.

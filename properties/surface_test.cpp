@@ -16,8 +16,6 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// A contract that only a correctly rounded exact answer keeps.
-constexpr collide::Contract strict{.backward = 0, .forward = 1, .exact_decisions = true, .unit = 4};
 constexpr double four_ulps = 0x1p-50;  ///< of numbers from 1 to 2
 
 Values operator+(Values a, const Values& b) {

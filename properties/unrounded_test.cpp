@@ -104,11 +104,11 @@ class SmallLattice {
   std::array<double, 3> base_{};
 };
 
-struct Asked {
+struct Reply {
   Answer answer;
   bool rounded;
 };
-Asked ask(const AnswerFunction& answer_to, const Case& c) {
+Reply ask(const AnswerFunction& answer_to, const Case& c) {
   std::feclearexcept(FE_ALL_EXCEPT);
   const Answer answer = answer_to(c.values);
   return {answer, std::fetestexcept(FE_INEXACT) != 0};
@@ -145,9 +145,9 @@ class WhereNothingRounds : public testing::TestWithParam<Texts> {
   }
   void examine(const Case& c, Counts& counts) {
     const bool is_float = c.scalar == Scalar::float32;
-    const Asked text = ask(is_float ? GetParam().in_float : GetParam().in_double, c);
+    const Reply text = ask(is_float ? GetParam().in_float : GetParam().in_double, c);
     std::vector<Answer> exact;
-    const auto look = [&](const char* who, const Asked& asked) {
+    const auto look = [&](const char* who, const Reply& asked) {
       if (asked.rounded && (text.rounded || !name_the_same(*c.query, asked.answer, text.answer))) return;
       if (std::any_of(exact.begin(), exact.end(), [&](const Answer& a) { return same(a, asked.answer); })) return;
       expect_exact(c, who, asked.answer);

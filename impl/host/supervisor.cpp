@@ -24,11 +24,11 @@
 #include <system_error>
 #include <utility>
 
+#include "impl/host/throw_errno.hpp"
+
 namespace nearmiss {
 
 namespace {
-
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool shadow_memory = true;
@@ -289,14 +289,14 @@ pid_t fork_apart(bool wanted, bool& namespaced) {
 
 SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& confinement) {
   int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) fail("a pipe to a supervisor");
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw_errno("a pipe to a supervisor");
   File hears(pipe_ends[0]), speaks(pipe_ends[1]);
   File output(program.log.empty() ? memfd_create("nearmiss-output", MFD_CLOEXEC)
                                   : open(program.log.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (output.number() < 0) fail(program.log.empty() ? "memory for a host's output" : program.log.c_str());
+  if (output.number() < 0) throw_errno(program.log.empty() ? "memory for a host's output" : program.log.c_str());
   fcntl(output.number(), F_SETFL, O_APPEND);
   File nowhere(open("/dev/null", O_RDONLY | O_CLOEXEC));
-  if (nowhere.number() < 0) fail("/dev/null");
+  if (nowhere.number() < 0) throw_errno("/dev/null");
   fcntl(hears.number(), F_SETFL, O_NONBLOCK);
   Plan plan{program,
             confinement,
@@ -316,7 +316,7 @@ SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& 
   plan.environment.push_back(nullptr);
   std::fflush(nullptr);  // otherwise a body that calls exit would flush the buffers twice
   supervisor_ = fork_apart(confinement.pid_namespace, namespaced_);
-  if (supervisor_ < 0) fail("a process for a host");
+  if (supervisor_ < 0) throw_errno("a process for a host");
   if (supervisor_ == 0) supervise(plan, namespaced_);
   status_ = hears.take();
   output_ = output.take();

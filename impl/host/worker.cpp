@@ -18,6 +18,7 @@
 
 #include "impl/host/replies.hpp"
 #include "impl/host/serve.hpp"
+#include "impl/host/throw_errno.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "impl/subject/printable.hpp"
 
@@ -27,8 +28,6 @@ namespace {
 
 constexpr int poll_interval = 50;  ///< milliseconds
 constexpr std::size_t max_output = 4096;
-
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// Raises the limit of file sizes to its maximum for its lifetime. Shared memory is a file here, and a limit that is
 /// meant for files on disk must not apply to it.
@@ -52,10 +51,10 @@ template <class T>
 T* new_shared(const char* name, int& file) {
   const UnlimitedFileSize any;
   file = memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING);
-  if (file < 0 || ftruncate(file, sizeof(T)) != 0) fail("shared memory for a host");
+  if (file < 0 || ftruncate(file, sizeof(T)) != 0) throw_errno("shared memory for a host");
   void* memory = mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) fail("shared memory for a host");
-  if (fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) != 0) fail("shared memory for a host");
+  if (memory == MAP_FAILED) throw_errno("shared memory for a host");
+  if (fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) != 0) throw_errno("shared memory for a host");
   return static_cast<T*>(memory);  // a T of zero bytes is valid
 }
 
@@ -83,7 +82,7 @@ std::string seconds_text(double s) {
 struct Pipe {
   int ends[2] = {-1, -1};
   Pipe() {
-    if (pipe2(ends, O_CLOEXEC) != 0) fail("pipes to a host");
+    if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("pipes to a host");
   }
   ~Pipe() {
     for (const int end : ends) {
@@ -173,7 +172,7 @@ Worker::Worker(WorkerLimits limits, std::shared_ptr<const HostProgram> program, 
       answered_(new_shared<wire::SharedAnswers>("nearmiss-answered", answered_file_)),
       timeout_(std::make_unique<CaseTimeout>()) {
   // From now on no new writable mapping is possible; this one stays.
-  if (fcntl(asked_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) fail("shared memory for a host");
+  if (fcntl(asked_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) throw_errno("shared memory for a host");
 }
 
 Worker::~Worker() {

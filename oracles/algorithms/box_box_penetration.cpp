@@ -11,8 +11,8 @@ namespace {
 
 constexpr int axis_count = inputs::box_box_axes;
 
-inline Interval at_most(const Interval& x, double most) { return {std::min(x.inf(), most), std::min(x.sup(), most)}; }
-inline const Exact& at_most(const Exact& x, double) { return x; }
+inline Interval capped(const Interval& x, double most) { return {std::min(x.inf(), most), std::min(x.sup(), most)}; }
+inline const Exact& capped(const Exact& x, double) { return x; }
 
 /// x, clamped to [-half, half]. Both depend on the same inputs.
 inline Interval clamped(const Interval& x, const Interval& half) {
@@ -58,7 +58,7 @@ class Penetration {
     if (cap < 0) return;
     for (int k = 0; k < axis_count; ++k) {
       if (!axis_[k].may_exist || !may_be_at_least_zero(axis_[k].depth) || !may_be_least(k)) continue;
-      const N depth = assume_at_least_zero(at_most(axis_[k].depth, cap));
+      const N depth = assume_at_least_zero(capped(axis_[k].depth, cap));
       if (!axis_[k].must_exist) {
         nearly_parallel(k, depth);
         continue;

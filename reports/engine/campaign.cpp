@@ -14,10 +14,6 @@ using namespace std::chrono_literals;
 constexpr std::size_t least_batch = 32;
 constexpr double most_seconds_per_batch = 0.4;
 
-double seconds_since(Campaign::Clock::time_point t) {
-  return std::chrono::duration<double>(Campaign::Clock::now() - t).count();
-}
-
 void adapt_batch(Stream& s, double seconds) {
   if (seconds < most_seconds_per_batch / 4) s.batch = std::min(2 * s.batch, Workers::batch);
   if (seconds > most_seconds_per_batch) s.batch = std::max(s.batch / 2, least_batch);
@@ -35,7 +31,7 @@ void make(Batch& batch, Schedule& schedule, std::uint64_t seed) {
   batch.of = schedule.next();
   if (batch.of == nullptr) return;
   generate_next(*batch.of, seed, schedule.batch_of(*batch.of, Workers::capacity_for(*batch.of->query)), batch.cases);
-  batch.seconds = seconds_since(begin);
+  batch.seconds = Campaign::seconds_since(begin);
   batch.of->seconds += batch.seconds;
 }
 

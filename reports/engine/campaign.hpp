@@ -42,6 +42,7 @@ class Sink {
 class Campaign {
  public:
   using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
   struct Settings {
     std::filesystem::path folder;  ///< the folder for internal errors

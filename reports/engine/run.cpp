@@ -36,8 +36,6 @@ constexpr int run_schema_version = 2;
 
 std::string utc_text(const char* format) { return fmt::format(fmt::runtime(format), fmt::gmtime(std::time(nullptr))); }
 
-double seconds_since(Run::Clock::time_point t) { return std::chrono::duration<double>(Run::Clock::now() - t).count(); }
-
 /// Overwrites the state "running" in the existing index with "failed", in place: this needs no space on the disk.
 void mark_as_failed(const std::filesystem::path& index) noexcept {
   constexpr std::string_view running = "\"state\": \"running\",", failed = "\"state\": \"failed\" ,";
@@ -154,7 +152,7 @@ void Run::write_index(RunState state) {
          {"seed", settings_.seed},
          {"started", started_},
          {"updated", utc_text("{:%Y-%m-%dT%H:%M:%SZ}")},
-         {"seconds", seconds_since(begin_)},
+         {"seconds", Campaign::seconds_since(begin_)},
          {"cases", counts_.cases()},
          {"findings", counts_.bad()}};
   counts_.add_to(j);
@@ -195,7 +193,7 @@ std::optional<std::string> Run::shortfall() const {
 }
 
 std::string Run::summary() const {
-  const double seconds = seconds_since(begin_);
+  const double seconds = Campaign::seconds_since(begin_);
   return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}", interrupted() ? "interrupted: " : "",
                      plural_text(counts_.cases(), "answer"), duration_text(seconds),
                      count_text(std::uint64_t(double(counts_.cases()) / std::max(seconds, 1e-3))),
