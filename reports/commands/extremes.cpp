@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::uint64_t default_cases = 30, most_cases = 1'000'000;
+constexpr std::uint64_t default_cases = 30, most_cases_per_place = 1'000'000;
 
 class ExtremesCommand : public Command {
  public:
@@ -42,7 +42,7 @@ class ExtremesCommand : public Command {
     selection_.declare_subjects(app);
     selection_.declare_queries(app);
     add_whole_number(app, "-n,--cases", cases_, fmt::format("Cases at each place. Default: {}", default_cases), 1,
-                     most_cases);
+                     most_cases_per_place);
     add_whole_number(app, "--seed", seed_, "The seed of the generator. Default: 1", 0,
                      std::numeric_limits<std::uint64_t>::max());
     add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");

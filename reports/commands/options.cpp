@@ -236,9 +236,9 @@ std::optional<std::uint64_t> Amount::number() const {
 }
 
 std::optional<std::chrono::steady_clock::time_point> Amount::until() const {
-  using Clock = std::chrono::steady_clock;
+  using Steady = std::chrono::steady_clock;
   if (!seconds) return std::nullopt;
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*seconds));
+  return Steady::now() + std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(*seconds));
 }
 
 std::filesystem::path Amount::folder(std::uint64_t chosen_seed) const {

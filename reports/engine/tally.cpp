@@ -16,6 +16,8 @@ namespace nearmiss {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// The disagreements of the members of the answer, each once.
 std::set<Disagreement> ways(const Finding& f, bool breaking) {
   std::set<Disagreement> ways;
@@ -81,7 +83,6 @@ void Tally::add(const Tally& other) {
 }
 
 nlohmann::ordered_json tally_to_json(const Tally& t) {
-  using Json = nlohmann::ordered_json;
   Json verdicts = Json::object(), disagreements = Json::object();
   for (int v = 0; v < verdict_count; ++v) verdicts[std::string(name_of(Verdict(v)))] = t.verdicts[std::size_t(v)];
   for (int d = 1; d < disagreement_count; ++d) {
