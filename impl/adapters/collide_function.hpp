@@ -24,17 +24,17 @@ template <class Q>
 struct CollideFunction;
 
 /// Defines CollideFunction for one query. Requires the headers of its function and of its inputs.
-#define NEARMISS_COLLIDE_FUNCTION(query)                       \
-  template <class T>                                           \
-  struct CollideFunction<inputs::query<T>> {                   \
-    template <class Tier, class... Arguments>                  \
-    static auto call(const Arguments&... arguments) noexcept { \
-      return collide::query<Tier>(arguments...);               \
-    }                                                          \
-    template <class Tier>                                      \
-    static constexpr collide::Contract contract() {            \
-      return collide::contracts::query<Tier, T>();             \
-    }                                                          \
+#define NEARMISS_COLLIDE_FUNCTION(query)                                              \
+  template <class T>                                                                  \
+  struct CollideFunction<inputs::query<T>> {                                          \
+    template <class Tier, class... Arguments>                                         \
+    [[gnu::always_inline]] static auto call(const Arguments&... arguments) noexcept { \
+      return collide::query<Tier>(arguments...);                                      \
+    }                                                                                 \
+    template <class Tier>                                                             \
+    static constexpr collide::Contract contract() {                                   \
+      return collide::contracts::query<Tier, T>();                                    \
+    }                                                                                 \
   };
 
 /// The arguments of the function in a tuple: the members of the inputs, prepared where the function takes prepared

@@ -18,8 +18,8 @@ namespace collide {
 /// Triangle-Box Overlap Testing, 2001). The comparisons along the coordinate axes do not round. The plane's normal is
 /// the cross product of an edge and the height on it, so the normal of a thin triangle is as accurate as any other.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> aabox_triangle_overlap(const AABox<T>& box,
-                                                 const Triangle<T>& triangle) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> aabox_triangle_overlap(const AABox<T>& box,
+                                                        const Triangle<T>& triangle) noexcept(Tier::never_throws) {
   return kernels::aabox_triangle_overlap<Tier>(box, triangle);
 }
 

@@ -19,9 +19,9 @@ namespace collide {
 /// The sphere's radius and the lengths of u, normal and velocity do not matter. Units: none. Never fails. Non-finite
 /// input: an unspecified direction. Source: mirror reflection in the plane perpendicular to u.
 template <class Tier = Fast, class T>
-[[nodiscard]] Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
-                                            const Vec3<T>& location,
-                                            const Vec3<T>& normal) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
+                                                   const Vec3<T>& location,
+                                                   const Vec3<T>& normal) noexcept(Tier::never_throws) {
   return kernels::bounce_direction<Tier>(sphere, velocity, time, location, normal);
 }
 

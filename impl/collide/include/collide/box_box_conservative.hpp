@@ -17,13 +17,14 @@ namespace collide {
 /// A no proves that the boxes are apart; a yes proves nothing. Where rounding cannot separate the two sides, the answer
 /// is yes, so boxes that touch always get a yes. Units: lengths. Never fails. Non-finite input: no.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> box_box_conservative(const Box<T>& box1,
+                                                      const Box<T>& box2) noexcept(Tier::never_throws) {
   return kernels::box_box_conservative<Tier>(box1, box2);
 }
 
 /// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) noexcept(Tier::never_throws) {
   return kernels::box_box_conservative<Tier>(info);
 }
 

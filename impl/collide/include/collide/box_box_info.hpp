@@ -20,7 +20,7 @@ namespace collide {
 /// separating-axis tests of two boxes share (Gottschalk, Lin, Manocha, OBBTree, 1996); the cosines are the matrix of
 /// the relative rotation.
 template <class Tier = Fast, class T>
-[[nodiscard]] BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) noexcept(Tier::never_throws) {
+[[nodiscard]] inline BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) noexcept(Tier::never_throws) {
   return kernels::box_box_info<Tier>(box1, box2);
 }
 

@@ -23,8 +23,8 @@ namespace collide {
 /// 1996). The cross product of two nearly parallel edges is computed from the relative rotation of the boxes
 /// (detail::BoxPair::cross_axis), so its direction stays accurate.
 template <class Tier = Fast, class T>
-[[nodiscard]] BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2,
-                                            int hint = -1) noexcept(Tier::never_throws) {
+[[nodiscard]] inline BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2,
+                                                   int hint = -1) noexcept(Tier::never_throws) {
   return kernels::box_box_overlap<Tier>(box1, box2, hint);
 }
 

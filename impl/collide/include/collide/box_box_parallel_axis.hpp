@@ -19,14 +19,15 @@ namespace collide {
 /// of sums of r's numbers, divided by |r|^2. This separates nearly parallel axes from parallel ones; a rounded cosine
 /// near 1 would not.
 template <class Tier = Fast, class T>
-[[nodiscard]] ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2,
-                                                    T epsilon) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2,
+                                                           T epsilon) noexcept(Tier::never_throws) {
   return kernels::box_box_parallel_axis<Tier>(box1, box2, epsilon);
 }
 
 /// The same, from the values that box_box_info computed. It is only as accurate as the cosines are.
 template <class Tier = Fast, class T>
-[[nodiscard]] ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info,
+                                                           T epsilon) noexcept(Tier::never_throws) {
   return kernels::box_box_parallel_axis<Tier>(info, epsilon);
 }
 

@@ -28,8 +28,8 @@ namespace collide {
 /// OBBTree, 1996). The facets of the Minkowski difference of two boxes have these axes as normals, so the least overlap
 /// is the shortest translation that separates the boxes.
 template <class Tier = Fast, class T>
-[[nodiscard]] BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2,
-                                                    int hint = -1) noexcept(Tier::never_throws) {
+[[nodiscard]] inline BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2,
+                                                           int hint = -1) noexcept(Tier::never_throws) {
   return kernels::box_box_penetration<Tier>(box1, box2, hint);
 }
 

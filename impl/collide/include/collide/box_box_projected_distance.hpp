@@ -18,14 +18,15 @@ namespace collide {
 /// Units: a length times |L|. Never fails. The value is NaN for an axis outside 0..14. Non-finite input: unspecified.
 /// Source: Gottschalk, Lin, Manocha, OBBTree, 1996.
 template <class Tier = Fast, class T>
-[[nodiscard]] Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2,
-                                                    int axis) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2,
+                                                           int axis) noexcept(Tier::never_throws) {
   return kernels::box_box_projected_distance<Tier>(box1, box2, axis);
 }
 
 /// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
-[[nodiscard]] Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info,
+                                                           int axis) noexcept(Tier::never_throws) {
   return kernels::box_box_projected_distance<Tier>(info, axis);
 }
 

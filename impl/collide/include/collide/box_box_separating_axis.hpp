@@ -18,8 +18,8 @@ namespace collide {
 /// direction. Source: Gottschalk, Lin, Manocha, OBBTree, 1996. The cross product of nearly parallel axes is computed
 /// from the relative rotation, which keeps its direction accurate.
 template <class Tier = Fast, class T>
-[[nodiscard]] Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2,
-                                                   int axis) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2,
+                                                          int axis) noexcept(Tier::never_throws) {
   return kernels::box_box_separating_axis<Tier>(box1, box2, axis);
 }
 

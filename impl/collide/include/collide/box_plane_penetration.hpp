@@ -21,8 +21,8 @@ namespace collide {
 /// a depth of NaN. Source: the heights of the corners are sums of the center's height and the signed heights of the
 /// half axes.
 template <class Tier = Fast, class T>
-[[nodiscard]] CornerContacts<T> box_plane_penetration(const Box<T>& box,
-                                                      const Plane<T>& plane) noexcept(Tier::never_throws) {
+[[nodiscard]] inline CornerContacts<T> box_plane_penetration(const Box<T>& box,
+                                                             const Plane<T>& plane) noexcept(Tier::never_throws) {
   return kernels::box_plane_penetration<Tier>(box, plane);
 }
 

@@ -18,8 +18,8 @@ namespace collide {
 /// it lies in a triangle, else the closest edge. The two triangles are compared by distances measured from their common
 /// diagonal or a common vertex.
 template <class Tier = Fast, class T>
-[[nodiscard]] ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle,
-                                                      const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle,
+                                                             const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::closest_point_rectangle<Tier>(rectangle, point);
 }
 

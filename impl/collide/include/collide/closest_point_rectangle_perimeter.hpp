@@ -18,8 +18,8 @@ namespace collide {
 /// Opposite edges are compared by their distances from the point, adjacent edges by distances measured from their
 /// common vertex.
 template <class Tier = Fast, class T>
-[[nodiscard]] ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle,
-                                                                const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ClosestPoint<T> closest_point_rectangle_perimeter(
+    const Rectangle<T>& rectangle, const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::closest_point_rectangle_perimeter<Tier>(rectangle, point);
 }
 

@@ -17,8 +17,8 @@ namespace collide {
 /// Units: lengths. Never fails. Non-finite input: an unspecified point. Source: orthogonal projection onto the line,
 /// clamped to the segment.
 template <class Tier = Fast, class T>
-[[nodiscard]] ClosestPoint<T> closest_point_segment(const Segment<T>& segment,
-                                                    const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ClosestPoint<T> closest_point_segment(const Segment<T>& segment,
+                                                           const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::closest_point_segment<Tier>(segment, point);
 }
 

@@ -17,8 +17,8 @@ namespace collide {
 /// Units: lengths. Never fails. Non-finite input: a point that is not finite. Source: the closest point of each edge;
 /// two edges are compared by distances measured from their common vertex.
 template <class Tier = Fast, class T>
-[[nodiscard]] ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle,
-                                                               const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ClosestPoint<T> closest_point_triangle_perimeter(
+    const Triangle<T>& triangle, const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::closest_point_triangle_perimeter<Tier>(triangle, point);
 }
 

@@ -20,8 +20,8 @@ namespace collide {
 /// Units: lengths. Never fails. Non-finite input: a point that is not finite. Source: the closest point of each edge;
 /// two edges are compared by distances measured from their common vertex.
 template <class Tier = Fast, class T>
-[[nodiscard]] EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared,
-                                                                  const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline EdgePoint<T> closest_point_triangle_perimeter_edges(
+    const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::closest_point_triangle_perimeter_edges<Tier>(prepared, point);
 }
 

@@ -19,8 +19,8 @@ namespace collide {
 /// in Three-Space, Graphics Gems, 1990). The point of line 2 is the foot of the perpendicular from there, so the two
 /// points belong together for nearly parallel lines too.
 template <class Tier = Fast, class T>
-[[nodiscard]] ClosestPoints<T> closest_points_lines(const Line<T>& line1,
-                                                    const Line<T>& line2) noexcept(Tier::never_throws) {
+[[nodiscard]] inline ClosestPoints<T> closest_points_lines(const Line<T>& line1,
+                                                           const Line<T>& line2) noexcept(Tier::never_throws) {
   return kernels::closest_points_lines<Tier>(line1, line2);
 }
 

@@ -21,8 +21,8 @@ namespace collide {
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: of the face
 /// planes that the start is in front of, the one reached last (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
-[[nodiscard]] Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity,
-                                          const AABox<T>& aabox) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                 const AABox<T>& aabox) noexcept(Tier::never_throws) {
   return kernels::moving_point_aabox<Tier>(point, velocity, aabox);
 }
 

@@ -22,8 +22,8 @@ namespace collide {
 /// frame, of the face planes that the start is in front of, the one reached last (Woo, Fast Ray-Box Intersection, in
 /// Graphics Gems, 1990).
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity,
-                                         const Box<T>& box) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                const Box<T>& box) noexcept(Tier::never_throws) {
   return kernels::moving_point_box<Tier>(point, velocity, box);
 }
 

@@ -23,8 +23,8 @@ namespace collide {
 /// perpendicular to the axis the infinite cylinder is a circle; if the point enters the cylinder beyond an end, the
 /// ball at that end decides.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity,
-                                             const Capsule<T>& capsule) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                    const Capsule<T>& capsule) noexcept(Tier::never_throws) {
   return kernels::moving_point_capsule<Tier>(point, velocity, capsule);
 }
 

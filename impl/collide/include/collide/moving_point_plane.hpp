@@ -20,8 +20,8 @@ namespace collide {
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the plane's
 /// equation along the line of motion, which is linear in time.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity,
-                                           const Plane<T>& plane) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                  const Plane<T>& plane) noexcept(Tier::never_throws) {
   return kernels::moving_point_plane<Tier>(point, velocity, plane);
 }
 

@@ -23,8 +23,8 @@ namespace collide {
 /// of the tetrahedra that the line of motion forms with the five edges. One number decides the diagonal for both
 /// triangles, so no motion passes between them.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                               const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                      const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
   return kernels::moving_point_rectangle<Tier>(point, velocity, rectangle);
 }
 

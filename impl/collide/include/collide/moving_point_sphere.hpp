@@ -24,8 +24,8 @@ namespace collide {
 /// computed from the distance between the center and the line of motion (Haines, Guenther, Akenine-Moeller, Precision
 /// Improvements for Ray/Sphere Intersection, 2019).
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
-                                            bool solid) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                   const Sphere<T>& sphere, bool solid) noexcept(Tier::never_throws) {
   return kernels::moving_point_sphere<Tier>(point, velocity, sphere, solid);
 }
 

@@ -23,8 +23,8 @@ namespace collide {
 /// volumes of the tetrahedra that the line of motion forms with the edges (Pluecker coordinates; Ericson, Real-Time
 /// Collision Detection, 5.3.4).
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                              const Triangle<T>& triangle) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                     const Triangle<T>& triangle) noexcept(Tier::never_throws) {
   return kernels::moving_point_triangle<Tier>(point, velocity, triangle);
 }
 

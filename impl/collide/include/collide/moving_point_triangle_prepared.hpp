@@ -20,7 +20,7 @@ namespace collide {
 /// the frame of the edges, with their cross product known (Moeller, Trumbore, Fast, Minimum Storage Ray/Triangle
 /// Intersection, 1997).
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_point_triangle_prepared(
+[[nodiscard]] inline Impact<T> moving_point_triangle_prepared(
     const Vec3<T>& point, const Vec3<T>& velocity, const PreparedTriangle<T>& prepared) noexcept(Tier::never_throws) {
   return kernels::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
 }

@@ -24,8 +24,8 @@ namespace collide {
 /// frame the squared distance of the center is a convex, piecewise quadratic function of time; its first root is found
 /// piece by piece (at most seven). A sphere of radius 0 is a point (moving_point_box).
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                          const Box<T>& box) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                 const Box<T>& box) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_box<Tier>(sphere, velocity, box);
 }
 

@@ -24,8 +24,8 @@ namespace collide {
 /// as a point against a capsule with the sum of the radii. In the plane perpendicular to the axis the infinite cylinder
 /// is a circle; if the center enters the cylinder beyond an end, the ball at that end decides.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                              const Capsule<T>& capsule) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                     const Capsule<T>& capsule) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_capsule<Tier>(sphere, velocity, capsule);
 }
 

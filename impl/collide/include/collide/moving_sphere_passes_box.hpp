@@ -20,8 +20,8 @@ namespace collide {
 /// at which a coordinate crosses a face plane. The distance is least where the slope crosses zero, or at an end of the
 /// time interval.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box,
-                                                   T limit) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                          const Box<T>& box, T limit) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_passes_box<Tier>(sphere, velocity, box, limit);
 }
 

@@ -16,9 +16,9 @@ namespace collide {
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: no. Source: the least distance
 /// of the centers over the path, which is a segment or a ray.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                                      const Sphere<T>& fixed,
-                                                      const T& limit) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                             const Sphere<T>& fixed,
+                                                             const T& limit) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, limit);
 }
 

@@ -21,8 +21,8 @@ namespace collide {
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the height of
 /// the center above the plane, which is linear in time.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                            const Plane<T>& plane) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                   const Plane<T>& plane) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_plane<Tier>(sphere, velocity, plane);
 }
 

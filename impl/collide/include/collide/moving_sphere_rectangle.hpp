@@ -20,8 +20,8 @@ namespace collide {
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// moving_sphere_triangle, twice.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                                const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                       const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_rectangle<Tier>(sphere, velocity, rectangle);
 }
 

@@ -22,8 +22,8 @@ namespace collide {
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source: the center moves
 /// as a point against a ball with the sum of the radii.
 template <class Tier = Fast, class T>
-[[nodiscard]] Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                             const Sphere<T>& fixed) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                    const Sphere<T>& fixed) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_sphere<Tier>(sphere, velocity, fixed);
 }
 

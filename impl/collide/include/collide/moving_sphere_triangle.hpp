@@ -28,8 +28,8 @@ namespace collide {
 /// Collision Detection, 5.5.3, the sphere swept against features). Each cylinder ends where its edge ends and each ball
 /// is whole, so nothing passes between the parts.
 template <class Tier = Fast, class T>
-[[nodiscard]] TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                                       const Triangle<T>& triangle) noexcept(Tier::never_throws) {
+[[nodiscard]] inline TriangleImpact<T> moving_sphere_triangle(
+    const Sphere<T>& sphere, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept(Tier::never_throws) {
   return kernels::moving_sphere_triangle<Tier>(sphere, velocity, triangle);
 }
 

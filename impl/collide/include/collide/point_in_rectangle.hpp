@@ -18,8 +18,8 @@ namespace collide {
 /// One number decides the diagonal for both triangles, so no point on it is lost. Never fails. Non-finite input: no.
 /// Source: the signs of the edge functions (as in Pineda, A Parallel Algorithm for Polygon Rasterization, 1988).
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal,
-                                             const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal,
+                                                    const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::point_in_rectangle<Tier>(rectangle, normal, point);
 }
 

@@ -20,8 +20,8 @@ namespace collide {
 /// A Parallel Algorithm for Polygon Rasterization, 1988); the weights by orthogonalization, which is accurate for thin
 /// triangles.
 template <class Tier = Fast, class T>
-[[nodiscard]] Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis,
-                                               const Vec3<T>& point) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis,
+                                                      const Vec3<T>& point) noexcept(Tier::never_throws) {
   return kernels::point_in_triangle<Tier>(triangle, normal, axis, point);
 }
 

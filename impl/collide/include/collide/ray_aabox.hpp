@@ -20,7 +20,8 @@ namespace collide {
 /// matter. Never fails. Non-finite input: a miss. Source: of the face planes that the origin is in front of, the one
 /// reached last (Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990).
 template <class Tier = Fast, class T>
-[[nodiscard]] RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) noexcept(Tier::never_throws) {
+[[nodiscard]] inline RayHit<T> ray_aabox(const PreparedRay<T>& ray,
+                                         const PreparedAABox<T>& box) noexcept(Tier::never_throws) {
   return kernels::ray_aabox<Tier>(ray, box);
 }
 

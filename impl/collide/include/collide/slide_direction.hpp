@@ -20,8 +20,8 @@ namespace collide {
 /// Never fails. Non-finite input: an unspecified direction. Source: u x (d x u), which is perpendicular to u even where
 /// it is much shorter than d.
 template <class Tier = Fast, class T>
-[[nodiscard]] Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
-                                           const Vec3<T>& location) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
+                                                  const Vec3<T>& location) noexcept(Tier::never_throws) {
   return kernels::slide_direction<Tier>(sphere, velocity, time, location);
 }
 

@@ -17,7 +17,8 @@ namespace collide {
 /// squared excesses of each coordinate (Arvo, A Simple Method for Box-Sphere Intersection Testing, Graphics Gems,
 /// 1990).
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> sphere_box_overlap(const Sphere<T>& sphere,
+                                                    const Box<T>& box) noexcept(Tier::never_throws) {
   return kernels::sphere_box_overlap<Tier>(sphere, box);
 }
 

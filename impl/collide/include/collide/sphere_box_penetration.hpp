@@ -22,8 +22,8 @@ namespace collide {
 /// Units: lengths. Never fails. Non-finite input: a depth of NaN. Source: in the box's frame, the excess of each
 /// coordinate over the half extents.
 template <class Tier = Fast, class T>
-[[nodiscard]] Penetration<T> sphere_box_penetration(const Sphere<T>& sphere,
-                                                    const Box<T>& box) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Penetration<T> sphere_box_penetration(const Sphere<T>& sphere,
+                                                           const Box<T>& box) noexcept(Tier::never_throws) {
   return kernels::sphere_box_penetration<Tier>(sphere, box);
 }
 

@@ -20,8 +20,8 @@ namespace collide {
 /// Scaling n and offset by the same factor changes nothing: both describe one plane. Units: lengths. Never fails.
 /// Non-finite input: a depth of NaN. Source: the height of the center above the plane.
 template <class Tier = Fast, class T>
-[[nodiscard]] Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere,
-                                                      const Plane<T>& plane) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere,
+                                                             const Plane<T>& plane) noexcept(Tier::never_throws) {
   return kernels::sphere_plane_penetration<Tier>(sphere, plane);
 }
 

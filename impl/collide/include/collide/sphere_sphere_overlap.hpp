@@ -17,8 +17,8 @@ namespace collide {
 /// Units: lengths. Never fails. Non-finite input: no. Source: the squared distance of the centers against the squared
 /// sum of the radii.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1,
-                                                const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1,
+                                                       const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
   return kernels::sphere_sphere_overlap<Tier>(sphere1, sphere2);
 }
 

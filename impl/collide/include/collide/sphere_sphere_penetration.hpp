@@ -20,8 +20,8 @@ namespace collide {
 ///
 /// Units: lengths. Never fails. Non-finite input: a depth of NaN. Source: the definition above.
 template <class Tier = Fast, class T>
-[[nodiscard]] Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1,
-                                                       const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1,
+                                                              const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
   return kernels::sphere_sphere_penetration<Tier>(sphere1, sphere2);
 }
 

@@ -17,8 +17,8 @@ namespace collide {
 /// Units: lengths. Never fails. Non-finite input: no. Source: the distance of the center from the triangle: from the
 /// foot of the perpendicular if that lies in the triangle, else from the closest edge.
 template <class Tier = Fast, class T>
-[[nodiscard]] Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere,
-                                                  const Triangle<T>& triangle) noexcept(Tier::never_throws) {
+[[nodiscard]] inline Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere,
+                                                         const Triangle<T>& triangle) noexcept(Tier::never_throws) {
   return kernels::sphere_triangle_overlap<Tier>(sphere, triangle);
 }
 

@@ -61,7 +61,7 @@ std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& tri
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
+inline Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T> || uses_filter<Tier, T>) {
     if (const auto decided = detail::filtered_overlap(box, triangle)) {

@@ -12,8 +12,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
-                              const Vec3<T>& normal) {
+inline Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
+                                     const Vec3<T>& normal) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::bounce_direction<decltype(arithmetic)>(a...); }, sphere,

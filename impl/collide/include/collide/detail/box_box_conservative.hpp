@@ -41,7 +41,7 @@ bool may_reach(const Vec3<T>& half1, const Vec3<T>& half2, const Vec3<T>& betwee
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2) {
+inline Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_conservative<decltype(arithmetic)>(a...); },
@@ -52,7 +52,7 @@ Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2) {
 }
 
 template <class Tier, class T>
-Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) {
+inline Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_conservative<decltype(arithmetic)>(a...); },

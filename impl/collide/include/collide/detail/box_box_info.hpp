@@ -11,33 +11,43 @@
 
 namespace collide {
 
+namespace detail {
+
+// A function of its own: g++ constructs a named result in place only where its scope is the whole function.
+template <class Tier, class T>
+inline BoxBoxInfo<T> info_of_boxes(const Box<T>& box1, const Box<T>& box2) {
+  using detail::abs;
+  const BoxPair<T> pair(box1, box2);
+  const Axes<T> axes1 = axes_of(box1.orientation), axes2 = axes_of(box2.orientation);
+  BoxBoxInfo<T> info;
+  info.half1 = box1.half;
+  info.half2 = box2.half;
+  info.between = box2.center - box1.center;
+  const T scale = pair.norm1 * pair.norm2;
+  for (int i = 0; i < 3; ++i) {
+    const auto& row = pair.cosine[i];
+    info.cosine[i] = at_most_one(Vec3<T>{row[0], row[1], row[2]} / scale);
+    info.abs_cosine[i] = {abs(info.cosine[i].x), abs(info.cosine[i].y), abs(info.cosine[i].z)};
+  }
+  const std::array<T, 3> between1 = into_frame<Tier>(axes1, info.between);
+  const std::array<T, 3> between2 = into_frame<Tier>(axes2, info.between);
+  info.between1 = {between1[0], between1[1], between1[2]};
+  info.between2 = {between2[0], between2[1], between2[2]};
+  return info;
+}
+
+}  // namespace detail
+
 namespace kernels {
 
 template <class Tier, class T>
-BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) {
+inline BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_info<decltype(arithmetic)>(a...); }, box1,
         box2);
   } else {
-    using detail::abs;
-    const detail::BoxPair<T> pair(box1, box2);
-    const Axes<T> axes1 = axes_of(box1.orientation), axes2 = axes_of(box2.orientation);
-    BoxBoxInfo<T> info;
-    info.half1 = box1.half;
-    info.half2 = box2.half;
-    info.between = box2.center - box1.center;
-    const T scale = pair.norm1 * pair.norm2;
-    for (int i = 0; i < 3; ++i) {
-      const auto& row = pair.cosine[i];
-      info.cosine[i] = detail::at_most_one(Vec3<T>{row[0], row[1], row[2]} / scale);
-      info.abs_cosine[i] = {abs(info.cosine[i].x), abs(info.cosine[i].y), abs(info.cosine[i].z)};
-    }
-    const std::array<T, 3> between1 = into_frame<Tier>(axes1, info.between);
-    const std::array<T, 3> between2 = into_frame<Tier>(axes2, info.between);
-    info.between1 = {between1[0], between1[1], between1[2]};
-    info.between2 = {between2[0], between2[1], between2[2]};
-    return info;
+    return detail::info_of_boxes<Tier>(box1, box2);
   }
 }
 

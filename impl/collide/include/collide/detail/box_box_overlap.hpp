@@ -51,7 +51,7 @@ std::optional<BoxOverlap<T>> filtered_overlap(const Box<T>& box1, const Box<T>& 
 namespace kernels {
 
 template <class Tier, class T>
-BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint) {
+inline BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) {  // computes all axes at once, so a hint saves nothing
     const detail::BoxPairInLanes<T> pair(box1, box2);

@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon) {
+inline ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_parallel_axis<decltype(arithmetic)>(a...); },
@@ -48,7 +48,7 @@ ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T 
 }
 
 template <class Tier, class T>
-ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) {
+inline ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_parallel_axis<decltype(arithmetic)>(a...); },

@@ -164,7 +164,7 @@ BoxPenetration<T> contact_of_face(const Box<T>& box1, const Box<T>& box2, const 
 namespace kernels {
 
 template <class Tier, class T>
-BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, int hint) {
+inline BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, int hint) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) {  // computes all axes at once, so a hint saves nothing
     using L = detail::Lanes<T>;

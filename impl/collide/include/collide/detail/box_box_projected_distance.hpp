@@ -14,7 +14,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, int axis) {
+inline Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, int axis) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto arithmetic,
                          const auto&... a) { return kernels::box_box_projected_distance<decltype(arithmetic)>(a...); },
@@ -29,7 +29,7 @@ Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, in
 }
 
 template <class Tier, class T>
-Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) {
+inline Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto arithmetic,
                          const auto&... a) { return kernels::box_box_projected_distance<decltype(arithmetic)>(a...); },

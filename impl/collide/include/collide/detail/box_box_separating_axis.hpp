@@ -14,7 +14,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis) {
+inline Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_separating_axis<decltype(arithmetic)>(a...); },

@@ -10,52 +10,66 @@
 
 namespace collide {
 
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// The kernel of `Fast` in lanes. Lane i stands for corner i, or corner i + 4.
+template <class T>
+inline CornerContacts<T> corner_contacts_in_lanes(const Lanes<T>& middle, const Lanes<T>& half,
+                                                  const FrameInLanes<T>& frame, const Lanes<T>& n,
+                                                  const Lanes<T>& offset, const Lanes<T>& norm) {
+  using L = Lanes<T>;
+  const L zero = L::splat(T(0)), reach = frame.into(n) * half, center = sum_of_three(n * middle) + offset;
+  const L reach_x = reach.template broadcast<0>(), reach_y = reach.template broadcast<1>();
+  const L reach_z = reach.template broadcast<2>();
+  const L odd = L::of(T(-0.0), T(0), T(-0.0), T(0)), low_half = L::of(T(-0.0), T(-0.0), T(0), T(0));
+  const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0-3 and 4-7, without the z term
+  const L height_low = around - reach_z, height_high = around + reach_z;
+  const L lowest = smaller(height_low, height_high), pairwise = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
+  const L depth = (zero - smaller(pairwise, pairwise.template shuffled<1, 0, 3, 2>())) / norm, overlap = zero <= depth;
+  CornerContacts<T> contacts;
+  contacts.depth = depth.first();
+  contacts.normal = to_vec3((n / norm) & overlap);
+  const auto& [x, y, z] = frame.axes();
+  const L side_x = x * half.template broadcast<0>(), side_y = y * half.template broadcast<1>();
+  const L side_z = z * half.template broadcast<2>();
+  const L behind_low = (height_low <= zero) & overlap, behind_high = (height_high <= zero) & overlap;
+  const int behind = behind_low.bits() | behind_high.bits() << 4;
+  const auto corner = [&](int i, const L& place, const L& mask) {
+    contacts.corners[i].behind = (behind >> i & 1) != 0;
+    contacts.corners[i].point = to_vec3(place & mask);
+  };
+  const L left = middle - side_x, right = middle + side_x;
+  const auto around_z = [&](int i, const L& place, const L& low, const L& high) {
+    corner(i, place - side_z, low);
+    corner(i + 4, place + side_z, high);
+  };
+  around_z(0, left - side_y, behind_low.template broadcast<0>(), behind_high.template broadcast<0>());
+  around_z(1, right - side_y, behind_low.template broadcast<1>(), behind_high.template broadcast<1>());
+  around_z(2, left + side_y, behind_low.template broadcast<2>(), behind_high.template broadcast<2>());
+  around_z(3, right + side_y, behind_low.template broadcast<3>(), behind_high.template broadcast<3>());
+  return contacts;
+}
+
+}  // namespace detail
+
+#endif
+
 namespace kernels {
 
 template <class Tier, class T>
-CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane) {
+inline CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) {
     using detail::lanes;
     using L = detail::Lanes<T>;
     using limits = std::numeric_limits<T>;
     const L middle = lanes(box.center), half = lanes(box.half), q = lanes(box.orientation), n = lanes(plane.normal);
-    const L offset = L::splat(plane.offset), zero = L::splat(T(0));
-    const detail::FrameInLanes<T> frame(q);
-    const L norm2 = sum_of_three(n * n), norm = sqrt(norm2);
+    const L offset = L::splat(plane.offset), norm2 = sum_of_three(n * n);
     const L in_range = L::splat(limits::min() / limits::epsilon()) <= norm2;
-    if (all_three(in_range & are_finite(middle, half, q, n, offset))) {
-      const L reach = frame.into(n) * half, center = sum_of_three(n * middle) + offset;
-      const L reach_x = reach.template broadcast<0>(), reach_y = reach.template broadcast<1>();
-      const L reach_z = reach.template broadcast<2>();
-      const L odd = L::of(T(-0.0), T(0), T(-0.0), T(0)), low_half = L::of(T(-0.0), T(-0.0), T(0), T(0));
-      const L around = center + (reach_x ^ odd) + (reach_y ^ low_half);  // corners 0-3 and 4-7, without the z term
-      const L height_low = around - reach_z, height_high = around + reach_z;
-      const L lowest = smaller(height_low, height_high),
-              pairwise = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
-      const L depth = (zero - smaller(pairwise, pairwise.template shuffled<1, 0, 3, 2>())) / norm,
-              overlap = zero <= depth;
-      CornerContacts<T> contacts;
-      contacts.depth = depth.first();
-      contacts.normal = to_vec3((n / norm) & overlap);
-      const auto& [x, y, z] = frame.axes();
-      const L side_x = x * half.template broadcast<0>(), side_y = y * half.template broadcast<1>();
-      const L side_z = z * half.template broadcast<2>();
-      const L behind_low = (height_low <= zero) & overlap, behind_high = (height_high <= zero) & overlap;
-      const auto corner = [&](int i, const L& place, const L& behind) {
-        contacts.corners[i] = {(behind.bits() & 1) != 0, to_vec3(place & behind)};
-      };
-      const L left = middle - side_x, right = middle + side_x;
-      const auto around_z = [&](int i, const L& place, const L& low, const L& high) {
-        corner(i, place - side_z, low);
-        corner(i + 4, place + side_z, high);
-      };
-      around_z(0, left - side_y, behind_low.template broadcast<0>(), behind_high.template broadcast<0>());
-      around_z(1, right - side_y, behind_low.template broadcast<1>(), behind_high.template broadcast<1>());
-      around_z(2, left + side_y, behind_low.template broadcast<2>(), behind_high.template broadcast<2>());
-      around_z(3, right + side_y, behind_low.template broadcast<3>(), behind_high.template broadcast<3>());
-      return contacts;
-    }
+    if (all_three(in_range & are_finite(middle, half, q, n, offset)))
+      return detail::corner_contacts_in_lanes(middle, half, detail::FrameInLanes<T>(q), n, offset, sqrt(norm2));
   }
 #endif
   if constexpr (Tier::template lifts<T>) {

@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point) {
+inline ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) {

@@ -12,7 +12,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) {
+inline ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::closest_point_segment<decltype(arithmetic)>(a...); },

@@ -14,7 +14,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point) {
+inline ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point) {
   if constexpr (!Tier::template computes_in<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto& s, const auto& p) {

@@ -46,7 +46,7 @@ inline ClosestPoint<T> closest_point_triangle_perimeter_in_lanes(const Triangle<
 namespace kernels {
 
 template <class Tier, class T>
-ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point) {
+inline ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
       return Tier::lift(

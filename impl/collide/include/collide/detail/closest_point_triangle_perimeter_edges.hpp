@@ -15,7 +15,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point) {
+inline EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared,
+                                                           const Vec3<T>& point) {
   if constexpr (!Tier::template computes_in<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto& t, const auto& p) {

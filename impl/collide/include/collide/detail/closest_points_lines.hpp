@@ -12,7 +12,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2) {
+inline ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::closest_points_lines<decltype(arithmetic)>(a...); },

@@ -14,7 +14,7 @@ namespace collide::detail {
 
 /// The impact, or a miss if the time is beyond the largest finite number.
 template <class T>
-Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) {
+inline Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& normal) {
   if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
   return {time, location, normal};
 }

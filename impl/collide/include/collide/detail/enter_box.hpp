@@ -25,8 +25,8 @@ struct BoxEntry {
 /// Of the face planes that the start is in front of, the point enters through the one reached last, if it enters at
 /// all. Source: Woo, Fast Ray-Box Intersection, in Graphics Gems, 1990.
 template <class T, class Over>
-BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, const std::array<T, 3>& low,
-                      const std::array<T, 3>& high, Over over) {
+inline BoxEntry<T> enter_box(const std::array<T, 3>& at, const std::array<T, 3>& step, const std::array<T, 3>& low,
+                             const std::array<T, 3>& high, Over over) {
   BoxEntry<T> entry;
   for (int i = 0; i < 3; ++i) {
     if (at[i] >= low[i] && at[i] <= high[i]) continue;
@@ -65,8 +65,8 @@ struct BoxEntryInLanes {
 
 /// Branchless: computes every axis, then selects. Infinite and NaN inputs do not enter.
 template <class T, class Over>
-BoxEntryInLanes<T> enter_box(const Lanes<T>& at, const Lanes<T>& step, const Lanes<T>& low, const Lanes<T>& high,
-                             Over over) {
+inline BoxEntryInLanes<T> enter_box(const Lanes<T>& at, const Lanes<T>& step, const Lanes<T>& low, const Lanes<T>& high,
+                                    Over over) {
   using L = Lanes<T>;
   const L zero = L::splat(T(0)), most = L::splat(std::numeric_limits<T>::max());
   const L within = (low <= at) & (at <= high), below = at < low;

@@ -243,12 +243,12 @@ inline Lanes<double> lanes(const Quaternion<double>& q) noexcept {
 
 /// A plane as normal.x, normal.y, normal.z, offset; a sphere as center.x, center.y, center.z, radius.
 template <class T>
-Lanes<T> lanes(const Plane<T>& plane) noexcept {
+inline Lanes<T> lanes(const Plane<T>& plane) noexcept {
   static_assert(sizeof plane == 4 * sizeof(T));
   return Lanes<T>::load(reinterpret_cast<const char*>(&plane));
 }
 template <class T>
-Lanes<T> lanes(const Sphere<T>& sphere) noexcept {
+inline Lanes<T> lanes(const Sphere<T>& sphere) noexcept {
   static_assert(sizeof sphere == 4 * sizeof(T));
   return Lanes<T>::load(reinterpret_cast<const char*>(&sphere));
 }
@@ -337,8 +337,10 @@ struct Columns {
   friend Columns operator+(const Columns& a, const Columns& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Columns operator-(const Columns& a, const Columns& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Columns operator*(const Columns& a, const Lanes<T>& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
-  friend Lanes<T> dot(const Columns& a, const Columns& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  friend Columns cross(const Columns& a, const Columns& b) noexcept {
+  friend COLLIDE_INLINE Lanes<T> dot(const Columns& a, const Columns& b) noexcept {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  friend COLLIDE_INLINE Columns cross(const Columns& a, const Columns& b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
   /// Rotates the first three vectors: vector i + 1 takes the place of vector i.

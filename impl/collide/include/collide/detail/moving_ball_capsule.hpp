@@ -16,8 +16,8 @@ namespace collide::detail {
 /// The center moves as a point against a capsule with the sum of the radii. It enters that capsule through the infinite
 /// cylinder around the axis, between the ends, or through the ball at the end beyond which it enters the cylinder.
 template <class Tier, class T>
-Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity,
-                              const Capsule<T>& capsule) {
+inline Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, const Vec3<T>& velocity,
+                                     const Capsule<T>& capsule) {
   const T reach = radius + capsule.radius;
   const Vec3<T> from_p0 = center - capsule.p0, from_p1 = center - capsule.p1;
   const Vec3<T> between = capsule.p1 - capsule.p0;

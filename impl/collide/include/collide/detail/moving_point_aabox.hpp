@@ -14,7 +14,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
+inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) {
     using L = detail::Lanes<T>;

@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
+inline Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_point_box<decltype(arithmetic)>(a...); }, point,

@@ -45,7 +45,7 @@ inline bool certainly_misses_capsule(const Vec3<double>& point, const Vec3<doubl
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule) {
+inline Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule) {
   if constexpr (uses_filter<Tier, T>) {
     if (detail::certainly_misses_capsule(detail::in_double(point), detail::in_double(velocity),
                                          detail::in_double(capsule.p0), detail::in_double(capsule.p1),

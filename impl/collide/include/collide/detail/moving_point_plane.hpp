@@ -41,7 +41,7 @@ inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) {
+inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
       return Tier::lift(

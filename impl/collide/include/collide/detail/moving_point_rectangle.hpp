@@ -10,7 +10,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity, const Rectangle<T>& rectangle) {
+inline Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity, const Rectangle<T>& rectangle) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_point_rectangle<decltype(arithmetic)>(a...); },

@@ -13,7 +13,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere, bool solid) {
+inline Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
+                                     bool solid) {
   if constexpr (uses_filter<Tier, T>) {
     const Vec3<double> from = detail::in_double(point) - detail::in_double(sphere.center);
     if (detail::certainly_misses(from, detail::in_double(velocity), double(sphere.radius)))

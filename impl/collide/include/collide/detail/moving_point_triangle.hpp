@@ -190,7 +190,7 @@ bool certainly_misses_triangle(const Vec3<T>& point, const Vec3<T>& velocity, co
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
+inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
       return Tier::lift(

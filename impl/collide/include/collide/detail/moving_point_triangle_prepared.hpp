@@ -11,8 +11,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
-                                         const PreparedTriangle<T>& prepared) {
+inline Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                const PreparedTriangle<T>& prepared) {
   if constexpr (Tier::template lifts<T>) {
     const auto kernel = [&](auto arithmetic, const auto& p, const auto& v, const auto& triangle) {
       using Arithmetic = decltype(arithmetic);

@@ -117,7 +117,7 @@ struct PointPastBox {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) {
+inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_box<decltype(arithmetic)>(a...); },

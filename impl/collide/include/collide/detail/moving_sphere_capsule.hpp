@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) {
+inline Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_capsule<decltype(arithmetic)>(a...); },

@@ -13,7 +13,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box, T limit) {
+inline Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box,
+                                            T limit) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_passes_box<decltype(arithmetic)>(a...); },

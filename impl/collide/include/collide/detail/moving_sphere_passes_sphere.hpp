@@ -14,8 +14,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
-                                        const T& limit) {
+inline Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
+                                               const T& limit) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto arithmetic,
                          const auto&... a) { return kernels::moving_sphere_passes_sphere<decltype(arithmetic)>(a...); },

@@ -44,7 +44,7 @@ inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
+inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
       return Tier::lift(

@@ -13,7 +13,8 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity, const Rectangle<T>& rectangle) {
+inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                         const Rectangle<T>& rectangle) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_rectangle<decltype(arithmetic)>(a...); },

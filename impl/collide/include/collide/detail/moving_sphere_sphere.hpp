@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) {
+inline Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) {
   if constexpr (uses_filter<Tier, T>) {
     const Vec3<double> from = detail::in_double(sphere.center) - detail::in_double(fixed.center);
     if (detail::certainly_misses(from, detail::in_double(velocity), double(sphere.radius) + double(fixed.radius))) {

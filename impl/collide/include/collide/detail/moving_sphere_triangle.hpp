@@ -292,16 +292,19 @@ struct SpherePastTriangle {
 
   TriangleImpact<T> impact() const {
     if (!may_hit_front()) return TriangleImpact<T>::miss();
-    if (height > radius * n_length && approach == T(0)) return TriangleImpact<T>::miss();
-    if (height > radius * n_length) return moving();  // the sphere is wholly in front of the plane
-    Vec3<T> away;
-    const TrianglePlace<T> start = nearest(away);
-    const T outside = Tier::beyond_radius(away, radius);
-    if (outside < T(0)) return contact(T(0), start, away);
-    if (outside == T(0)) {
-      return Tier::dot(away, velocity) <= T(0) ? contact(T(0), start, away) : TriangleImpact<T>::miss();
+    const bool in_front = height > radius * n_length;  // the sphere is wholly in front of the plane
+    if (in_front && approach == T(0)) return TriangleImpact<T>::miss();
+    if (!in_front) {
+      Vec3<T> away;
+      const TrianglePlace<T> start = nearest(away);
+      const T outside = Tier::beyond_radius(away, radius);
+      if (outside < T(0)) return contact(T(0), start, away);
+      if (outside == T(0)) {
+        return Tier::dot(away, velocity) <= T(0) ? contact(T(0), start, away) : TriangleImpact<T>::miss();
+      }
+      if (!(outside > T(0))) return TriangleImpact<T>::miss();
     }
-    return outside > T(0) ? moving() : TriangleImpact<T>::miss();
+    return moving();
   }
 };
 
@@ -469,8 +472,8 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
 namespace kernels {
 
 template <class Tier, class T>
-TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                         const Triangle<T>& triangle) {
+inline TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                                const Triangle<T>& triangle) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
       return Tier::lift(

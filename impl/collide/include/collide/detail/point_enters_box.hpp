@@ -15,7 +15,7 @@ namespace collide::detail {
 
 /// The kernel of moving_point_box.
 template <class Tier, class T>
-Impact<T> point_enters_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
+inline Impact<T> point_enters_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
   using detail::abs;
   const Axes<T> axes = axes_of(box.orientation);
   const std::array<T, 3> half = components(box.half), low = components(-box.half);

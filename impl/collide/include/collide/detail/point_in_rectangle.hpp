@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal, const Vec3<T>& point) {
+inline Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::point_in_rectangle<decltype(arithmetic)>(a...); },

@@ -102,7 +102,8 @@ std::optional<Containment<T>> filtered_containment(const Triangle<T>& triangle, 
 namespace kernels {
 
 template <class Tier, class T>
-Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis, const Vec3<T>& point) {
+inline Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis,
+                                        const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
     if constexpr (uses_filter<Tier, T>) {
       if (detail::is_finite(normal)) {

@@ -69,7 +69,7 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
 namespace kernels {
 
 template <class Tier, class T>
-RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
+inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) return detail::ray_aabox_in_lanes(ray, box);
 #endif

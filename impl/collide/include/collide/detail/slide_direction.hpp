@@ -12,7 +12,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location) {
+inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::slide_direction<decltype(arithmetic)>(a...); }, sphere,

@@ -19,7 +19,8 @@ namespace detail {
 /// |c - b|^2 - r^2 for a ball around c with radius r, relative to the center of a box, where b is the point of the box
 /// closest to c.
 template <class T>
-Lanes<T> beyond_ball(const Lanes<T>& seen, const Lanes<T>& q, const Lanes<T>& half, const Lanes<T>& radius) {
+COLLIDE_INLINE inline Lanes<T> beyond_ball(const Lanes<T>& seen, const Lanes<T>& q, const Lanes<T>& half,
+                                           const Lanes<T>& radius) {
   const Lanes<T> away = excess(FrameInLanes<T>(q).into(seen), half);
   return sum_of_three(away * away) - radius * radius;
 }
@@ -51,7 +52,7 @@ std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Box<T>& box)
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) {
+inline Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) {
     using detail::lanes;

@@ -65,7 +65,7 @@ inline Penetration<T> sphere_box_penetration_in_lanes(const Sphere<T>& sphere, c
 namespace kernels {
 
 template <class Tier, class T>
-Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) {
+inline Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
       return Tier::lift(

@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane) {
+inline Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::sphere_plane_penetration<decltype(arithmetic)>(a...); },

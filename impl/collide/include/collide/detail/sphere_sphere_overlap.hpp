@@ -12,7 +12,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
+inline Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::sphere_sphere_overlap<decltype(arithmetic)>(a...); },

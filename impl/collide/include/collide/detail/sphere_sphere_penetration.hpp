@@ -13,7 +13,7 @@ namespace collide {
 namespace kernels {
 
 template <class Tier, class T>
-Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
+inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift([](auto arithmetic,
                          const auto&... a) { return kernels::sphere_sphere_penetration<decltype(arithmetic)>(a...); },

@@ -88,7 +88,7 @@ std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Triangle<T>&
 namespace kernels {
 
 template <class Tier, class T>
-Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle) {
+inline Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) {
     using detail::lanes;
