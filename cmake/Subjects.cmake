@@ -1,4 +1,4 @@
-# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [LIBRARIES ...])
+# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [WITH SUBJECT] [LIBRARIES ...])
 #   NAME      its name on the command line
 #   HEADER    the adapter's header: relative to the calling file, or to the top of this project
 #   ADAPTER   the qualified name of the adapter's type
@@ -8,13 +8,15 @@
 #   ISOLATED  never linked into a program with other subjects: for a library that defines the same symbols as another
 #             subject's library, such as another version of it. Fuzz targets and property tests, which ask subjects in
 #             their own process, do not include it
+#   WITH      another subject of the same header and libraries, added before: one source holds both, and the compiler reads
+#             the header once
 #
 # To add your own library, write a CMake file that calls this function, and pass it to CMake by -DNEARMISS_ADD=FILE
 # (docs/bring-your-own.md). The commands list, run, replay and nightly, the fuzz targets and the properties then include
 # it.
 
 function(nearmiss_add_subject name header adapter)
-  cmake_parse_arguments(arg "OWN;ISOLATED" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OWN;ISOLATED" "WITH" "LIBRARIES" ${ARGN})
   string(MAKE_C_IDENTIFIER ${name} identifier)
   get_property(known GLOBAL PROPERTY NEARMISS_SUBJECTS)
   if(identifier IN_LIST known)
@@ -25,19 +27,29 @@ function(nearmiss_add_subject name header adapter)
   elseif(NOT EXISTS ${header} AND NOT EXISTS ${PROJECT_SOURCE_DIR}/${header})
     message(FATAL_ERROR "nearmiss_add_subject: ${name}: there is no header ${header}, neither in ${CMAKE_CURRENT_LIST_DIR} nor in ${PROJECT_SOURCE_DIR}")
   endif()
-  set(source ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
-  file(GENERATE OUTPUT ${source} CONTENT
-"// Written by CMake: ${name}.
-#include \"${header}\"
-#include \"impl/subject/bind.hpp\"
-namespace nearmiss {
-Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }
-}
-")
+  set(source ${identifier})  # the subject whose source holds this one
+  if(arg_WITH)
+    string(MAKE_C_IDENTIFIER ${arg_WITH} other)
+    get_property(source GLOBAL PROPERTY NEARMISS_SUBJECT_${other}_SOURCE)
+    if(NOT source)
+      message(FATAL_ERROR "nearmiss_add_subject: ${name}: WITH names \"${arg_WITH}\", and no such subject was added before")
+    endif()
+    set(arg_HEADER ${header})
+    foreach(property HEADER LIBRARIES ISOLATED)
+      get_property(of_other GLOBAL PROPERTY NEARMISS_SUBJECT_${source}_${property})
+      if(NOT "${of_other}" STREQUAL "${arg_${property}}")
+        message(FATAL_ERROR "nearmiss_add_subject: ${name}: its ${property} is not that of ${arg_WITH}")
+      endif()
+    endforeach()
+  endif()
   set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECTS ${identifier})
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME ${name})
-  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES ${arg_LIBRARIES})
+  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_HEADER ${header})
+  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES "${arg_LIBRARIES}")
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED ${arg_ISOLATED})
+  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_SOURCE ${source})
+  set_property(GLOBAL APPEND_STRING PROPERTY NEARMISS_SUBJECT_${source}_FUNCTIONS
+    "Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }\n")
   if(arg_OWN)
     set_property(GLOBAL APPEND PROPERTY NEARMISS_OWN_SUBJECTS ${name})
   endif()
@@ -84,15 +96,25 @@ function(nearmiss_write_hosts file)  # SUBJECT ...
   file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${provenance}}\n")
 endfunction()
 
-# Compiles a subject's adapter in a target of its own, so that the compile options of its libraries apply to no other
-# source; makes the program that is its host; and, unless it is isolated, adds it to nearmiss_subjects for the programs that
-# ask it in their own process.
+# Compiles the source of a subject, and of the subjects WITH it, in a target of its own, so that the compile options of its
+# libraries apply to no other source. Unless it is isolated, adds it to nearmiss_subjects for the programs that ask it in
+# their own process.
 function(nearmiss_compile_subject identifier)
   get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME)
+  get_property(header GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_HEADER)
   get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES)
   get_property(isolated GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED)
+  get_property(functions GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_FUNCTIONS)
   set(target nearmiss_subject_${identifier})
-  add_library(${target} OBJECT ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
+  set(source ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
+  file(GENERATE OUTPUT ${source} CONTENT
+"// Written by CMake: ${name}.
+#include \"${header}\"
+#include \"impl/subject/bind.hpp\"
+namespace nearmiss {
+${functions}}
+")
+  add_library(${target} OBJECT ${source})
   target_link_libraries(${target} PRIVATE nearmiss_flags collide ${libraries})
   target_include_directories(${target} PRIVATE ${NEARMISS_GENERATED})
   if(NOT isolated)
@@ -101,6 +123,13 @@ function(nearmiss_compile_subject identifier)
       target_link_libraries(nearmiss_subjects INTERFACE $<LINK_ONLY:${library}>)
     endforeach()
   endif()
+endfunction()
+
+# Makes the program that is the host of a subject.
+function(nearmiss_make_host identifier)
+  get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME)
+  get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES)
+  get_property(source GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_SOURCE)
   set(main ${NEARMISS_GENERATED}/hosts/${identifier}.cpp)
   file(GENERATE OUTPUT ${main} CONTENT
 "// Written by CMake: the host of ${name}.
@@ -111,7 +140,7 @@ Subject subject_${identifier}();
 }
 int main() { _exit(nearmiss::run_built_in_host(nearmiss::subject_${identifier})); }
 ")
-  add_executable(nearmiss_host_${identifier} ${main} $<TARGET_OBJECTS:${target}>)
+  add_executable(nearmiss_host_${identifier} ${main} $<TARGET_OBJECTS:nearmiss_subject_${source}>)
   target_link_libraries(nearmiss_host_${identifier} PRIVATE nearmiss_host)
   foreach(library IN LISTS libraries)
     target_link_libraries(nearmiss_host_${identifier} PRIVATE $<LINK_ONLY:${library}>)
@@ -159,7 +188,11 @@ function(nearmiss_finish_subjects)
   target_link_libraries(nearmiss_hosts PUBLIC nearmiss_flags collide)
   target_link_options(nearmiss_hosts INTERFACE -Wl,--as-needed)  # drops the libraries of subjects that are linked in process
   foreach(s IN LISTS subjects)
-    nearmiss_compile_subject(${s})
+    get_property(source GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_SOURCE)
+    if(source STREQUAL s)
+      nearmiss_compile_subject(${s})
+    endif()
+    nearmiss_make_host(${s})
     add_dependencies(nearmiss_hosts nearmiss_host_${s})
   endforeach()
   add_dependencies(nearmiss_subjects nearmiss_host_of_plugins)

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <collide/tiers.hpp>
+#include <collide/version.hpp>
+
+#include <string>
 
 #include "impl/adapters/collide_function.hpp"
 #include "impl/subject/adapter.hpp"
@@ -10,11 +13,17 @@
 
 namespace nearmiss::adapters {
 
+/// "major.minor.patch" of the headers that this program is compiled with.
+inline std::string collide_version() {
+  const auto part = [](int number) { return std::to_string(number); };
+  return part(COLLIDE_VERSION_MAJOR) + '.' + part(COLLIDE_VERSION_MINOR) + '.' + part(COLLIDE_VERSION_PATCH);
+}
+
 /// One tier of `collide` in one scalar.
 template <class Tier, class T>
 struct Collide {
   using Number = T;
-  static std::string version() { return "0.1.0"; }
+  static std::string version() { return collide_version(); }
 
   template <class Q>
   static typename Q::Answer answer(const Q& q) {

@@ -21,6 +21,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -285,6 +286,13 @@ pid_t fork_apart(bool wanted, bool& namespaced) {
   return fork();
 }
 
+/// True if `environment` sets the variable of `entry` ("NAME=value"). Of two entries of one name a C program takes the
+/// first, and a shell may take the last.
+bool names_variable_of(std::string_view entry, const std::vector<std::string>& environment) {
+  const std::string_view name = entry.substr(0, entry.find('=') + 1);
+  return std::ranges::any_of(environment, [&](const std::string& e) { return e.starts_with(name); });
+}
+
 }  // namespace
 
 SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& confinement) {
@@ -311,8 +319,9 @@ SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& 
   for (const std::string& a : program.arguments) plan.arguments.push_back(const_cast<char*>(a.c_str()));
   plan.arguments.push_back(nullptr);
   for (const std::string& e : program.environment) plan.environment.push_back(const_cast<char*>(e.c_str()));
-  for (char** e = environ; *e != nullptr; ++e)
-    plan.environment.push_back(*e);  // the first entry of a name takes precedence
+  for (char** e = environ; *e != nullptr; ++e) {
+    if (!names_variable_of(*e, program.environment)) plan.environment.push_back(*e);
+  }
   plan.environment.push_back(nullptr);
   std::fflush(nullptr);  // otherwise a body that calls exit would flush the buffers twice
   supervisor_ = fork_apart(confinement.pid_namespace, namespaced_);

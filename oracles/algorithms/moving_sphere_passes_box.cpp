@@ -111,8 +111,8 @@ double time_of_least_distance(const Path<Interval>& path, double limit) {
 
 /// A lower bound of the squared distance from time 0 to `limit`.
 double least_distance2(const Path<Interval>& path, double near, double limit) {
-  const auto slope_at = [&](double t) { return dot(path.step, beyond_at(path, Interval(t))); };
-  const Vector<Interval> e = beyond_at(path, Interval(near));
+  const auto slope_at = [&](double t) { return dot(path.step, beyond_at(path, of_bound(t))); };
+  const Vector<Interval> e = beyond_at(path, of_bound(near));
   const Interval slope = dot(path.step, e);
   double speed2 = 0;
   for (int i = 0; i < 3; ++i) {
@@ -140,17 +140,17 @@ double least_distance2(const Path<Interval>& path, double near, double limit) {
       least_reach(std::min(limit - near, 0x1p400), [&](double t) { return slope_at(near + t).inf() >= 0; });
   const double down = least_reach(near, [&](double t) { return slope_at(near - t).sup() <= 0; });
   const double after = up < infinity ? near + up : limit, before = down < infinity ? near - down : 0;
-  const Interval down_after = Interval(std::max(-slope.inf(), 0.0)), down_before = Interval(std::max(slope.sup(), 0.0));
+  const Interval down_after = of_bound(std::max(-slope.inf(), 0.0)), down_before = of_bound(std::max(slope.sup(), 0.0));
   Interval drop(0);
   if (down_after.sup() > 0 && after > near) {
     if (after == infinity) return -infinity;
-    drop = Interval(2) * down_after * (Interval(after) - Interval(near));
+    drop = Interval(2) * down_after * (of_bound(after) - of_bound(near));
   }
   if (down_before.sup() > 0 && before < near) {
-    const Interval other = Interval(2) * down_before * (Interval(near) - Interval(before));
-    drop = Interval(std::max(drop.sup(), other.sup()));
+    const Interval other = Interval(2) * down_before * (of_bound(near) - of_bound(before));
+    drop = of_bound(std::max(drop.sup(), other.sup()));
   }
-  return (Interval(norm2(e).inf()) - Interval(drop.sup())).inf();
+  return (of_bound(norm2(e).inf()) - of_bound(drop.sup())).inf();
 }
 
 }  // namespace
@@ -162,10 +162,10 @@ void moving_sphere_passes_box(const inputs::moving_sphere_passes_box<N>& q, Out&
                      vector(q.box.half)};
   const N radius2 = square(q.sphere.radius);
   if constexpr (is_enclosure<N>) {
-    const Interval limit = q.forever ? Interval(infinity) : assume_at_least_zero(q.limit);
+    const Interval limit = q.forever ? of_bound(infinity) : assume_at_least_zero(q.limit);
     const double near = time_of_least_distance(path, limit.sup());
     const auto surely = [&](const Interval& t) { return !may_be_positive(norm2(beyond_at(path, t)) - radius2); };
-    const bool touches = surely(Interval(std::min(near, limit.inf()))) || (near >= limit.inf() && surely(limit));
+    const bool touches = surely(of_bound(std::min(near, limit.inf()))) || (near >= limit.inf() && surely(limit));
     if (!touches) out.no();
     if (touches || least_distance2(path, near, limit.sup()) <= radius2.sup()) out.yes({true});
   } else {

@@ -113,7 +113,7 @@ inline double least_depth_across(const TwoBoxes<Interval>& boxes, const PairAxes
   for (const Across& a : across(boxes, k)) {
     double of_four = std::numeric_limits<double>::infinity();
     for (const int other : a.axis) of_four = std::min(of_four, least_depth(axes[other]));
-    least = std::max(least, (Interval(of_four) - a.half * axes[k].length).inf());
+    least = std::max(least, (of_bound(of_four) - a.half * axes[k].length).inf());
   }
   return least;
 }
@@ -121,8 +121,8 @@ inline double least_depth_across(const TwoBoxes<Interval>& boxes, const PairAxes
 /// An upper bound of the distance of two corners between two unit axes with these gaps >= 0; at least the larger gap.
 inline double distance_between(const PairAxis<Interval>& a, const PairAxis<Interval>& b, double gap_a, double gap_b) {
   const Interval cosine = assume_within(magnitude(dot(a.direction, b.direction)) / (a.length * b.length), 0.0, 1.0);
-  const Interval over_half_angle = Interval(std::max(gap_a, gap_b)) * root(Interval(2) / (Interval(1) + cosine));
-  return std::min(over_half_angle.sup(), root(square(Interval(gap_a)) + square(Interval(gap_b))).sup());
+  const Interval over_half_angle = of_bound(std::max(gap_a, gap_b)) * root(Interval(2) / (Interval(1) + cosine));
+  return std::min(over_half_angle.sup(), root(square(of_bound(gap_a)) + square(of_bound(gap_b))).sup());
 }
 
 /// An upper bound, by (2), of the gap along every unit vector perpendicular to both edges of axis k.
@@ -131,7 +131,7 @@ inline double most_gap_across(const TwoBoxes<Interval>& boxes, const PairAxes& a
   for (const Across& a : across(boxes, k)) {
     std::array<double, 4> gap;
     for (int m = 0; m < 4; ++m) {
-      gap[m] = std::max(0.0, (a.half * axes[k].length - Interval(least_depth(axes[a.axis[m]]))).sup());
+      gap[m] = std::max(0.0, (a.half * axes[k].length - of_bound(least_depth(axes[a.axis[m]]))).sup());
     }
     double distance = *std::max_element(gap.begin(), gap.end());
     for (int m = 1; m < 4 && distance < most; ++m) {

@@ -22,6 +22,9 @@ namespace nearmiss::oracle {
 using Interval = CGAL::Interval_nt<false>;
 using Rational = CGAL::Gmpq;
 
+/// The interval [x, x] of a computed bound, which may be infinite: CGAL's conversion requires a finite number.
+inline Interval of_bound(double x) { return {x, x}; }
+
 /// a + b sqrt(c) with rational a, b, c. Holds CGAL's Sqrt_extension if there is a root, otherwise a plain rational, as
 /// in most operations. Numbers with different roots can be compared, but not added.
 class Exact {

@@ -97,7 +97,7 @@ std::string id_of(const RelationReport& r) {
 
 std::string headline(const RelationReport& r) {
   const Report& first = r.answers.front();
-  const std::string line = fmt::format("{} breaks the relation {} in {}: ", first.subject, r.choice.relation->name,
+  std::string line = fmt::format("{} breaks the relation {} in {}: ", first.subject, r.choice.relation->name,
                                        first.question.query->name);
   if (!r.oracle.empty()) {
     return fmt::format("Nearmiss contradicts itself by the relation {} in {}: {}", r.choice.relation->name,
