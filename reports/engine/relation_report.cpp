@@ -98,7 +98,7 @@ std::string id_of(const RelationReport& r) {
 std::string headline(const RelationReport& r) {
   const Report& first = r.answers.front();
   std::string line = fmt::format("{} breaks the relation {} in {}: ", first.subject, r.choice.relation->name,
-                                       first.question.query->name);
+                                 first.question.query->name);
   if (!r.oracle.empty()) {
     return fmt::format("Nearmiss contradicts itself by the relation {} in {}: {}", r.choice.relation->name,
                        first.question.query->name, r.oracle);
