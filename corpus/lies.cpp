@@ -5,6 +5,7 @@
 
 #include "corpus/bodies.hpp"
 #include "corpus/case_builder.hpp"
+#include "impl/catalogue/query_ids.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 

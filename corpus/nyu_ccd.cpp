@@ -1,4 +1,5 @@
 #include "corpus/nyu_ccd.hpp"
+#include "impl/catalogue/query_ids.hpp"
 
 #include <fmt/format.h>
 #include <gmpxx.h>

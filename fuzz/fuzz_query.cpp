@@ -6,30 +6,25 @@
 /// NEARMISS_PLUGINS        files of plugins to ask where they offer this query, separated by colons
 /// NEARMISS_COMMANDS       command lines of programs to ask where they offer this query, one on each line
 /// NEARMISS_FUZZ_REPORTS   a folder: each violation becomes a case file there, and the target goes on
-#include <fmt/format.h>
-
+/// NEARMISS_FEEDBACK       "off": no numeric features for the fuzzing engine (fuzz/feedback.hpp)
+///
+/// The argument --abort-on-violation aborts at a violation even where NEARMISS_FUZZ_REPORTS names a folder.
 #include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
+#include "fuzz/asked.hpp"
+#include "fuzz/feedback.hpp"
 #include "fuzz/fuzzed_query.hpp"
-#include "impl/host/hosts.hpp"
-#include "impl/subject/provenance.hpp"
-#include "impl/subject/subject.hpp"
+#include "fuzz/mutation.hpp"
+#include "fuzz/violation.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
 
-namespace nearmiss {
+namespace nearmiss::fuzz {
 namespace {
 
 const Query& query() {
@@ -37,136 +32,59 @@ const Query& query() {
   return q;
 }
 
-[[noreturn]] void cannot_run(const std::string& why) {
-  std::fprintf(stderr, "fuzz_%s: %s\n", fuzzed_query, why.c_str());
-  std::exit(2);
-}
-
-std::vector<std::string> named_in_environment() {
-  const char* value = std::getenv("NEARMISS_SUBJECTS");
-  std::vector<std::string> names;
-  for (std::string_view rest = value == nullptr ? "" : value; !rest.empty();) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    if (comma > 0) names.emplace_back(rest.substr(0, comma));
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  return names;
-}
-
-/// Every tier of `collide`, and the subjects, plugins and commands in the environment, that answer this query. Prints
-/// their names to standard error, where `nearmiss nightly` reads them.
-std::vector<const Subject*> asked_subjects() {
-  try {
-    load_subjects_of_environment();
-  } catch (const BadSubject& e) {
-    cannot_run(e.what());
-  }
-  std::vector<const Subject*> asked;
-  const std::vector<std::string> names = named_in_environment(), added = added_subjects();
-  const auto has = [](const std::vector<std::string>& all, const std::string& name) {
-    return std::find(all.begin(), all.end(), name) != all.end();
-  };
-  for (const Subject& s : subjects()) {
-    const bool chosen = s.own || s.host != nullptr || (has(names, "added") && has(added, s.name));
-    if (chosen && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
-  }
-  for (const std::string& name : names) {
-    if (name == "added") continue;
-    const Subject* s = find_subject(name);
-    if (s == nullptr)
-      cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
-    if (s->offering(query().name).offer == Offer::not_offered) {
-      cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which does not offer this query", name));
-    }
-    if (std::find(asked.begin(), asked.end(), s) == asked.end()) asked.push_back(s);
-  }
-  std::string line;
-  for (const Subject* s : asked) line += " " + s->name;
-  std::fprintf(stderr, "asks:%s\n", line.c_str());
-  return asked;
-}
-
-Answer ask(const Subject& subject, const Case& c) try { return ask_here(subject, c); } catch (const std::exception& e) {
+Answer ask(const Asked& asked, const Case& c) try { return asked.answer(c.values); } catch (const std::exception& e) {
   return Answer::without(Answer::Status::broke, e.what());
 }
 
-std::string description(const Subject& subject, const Finding& f) {
-  std::string text = fmt::format("{}: {}", subject.name, name_of(f.verdict));
-  if (f.disagreement != Disagreement::none) text += fmt::format(", {}", name_of(f.disagreement));
-  if (!f.clause.empty()) text += fmt::format(" ({})", f.clause);
-  if (f.backward) text += fmt::format(", backward error above {} epsilon", f.backward->above);
-  return text;
-}
-
-std::string case_file(const Case& c, const std::string& note) {
-  auto j = case_to_json(c);
-  j["note"] = note;
-  return j.dump(2) + '\n';
-}
-
-std::uint64_t content_hash(const Case& c) {  // FNV-1a
-  std::uint64_t h = 0xcbf29ce484222325;
-  for (std::uint8_t byte : case_to_bytes(c)) h = (h ^ byte) * 0x100000001b3;
-  return h;
-}
-
-/// Most files for one kind of finding, so that one common bug does not fill the disk.
-constexpr int most_files_of_a_kind = 100;
-
-void store(const std::filesystem::path& folder, const Case& c, const Subject& subject, const Finding& f) {
-  static std::map<std::string, int> written;
-  int& count = written[fmt::format("{} {} {}", subject.name, name_of(f.disagreement), f.clause)];
-  if (count == most_files_of_a_kind) return;
-  ++count;
-  const std::string name = fmt::format("{}-{}-{:016x}.json", query().name, subject.name, content_hash(c));
-  try {
-    write_file(folder / name, case_file(c, description(subject, f)));
-  } catch (const IoError& e) {
-    cannot_run(e.what());
-  }
-}
-
-void report(const Case& c, const Subject& subject, const Finding& f) {
-  const char* folder = std::getenv("NEARMISS_FUZZ_REPORTS");
-  if (folder != nullptr && *folder != '\0') return store(folder, c, subject, f);
-  const std::string note = description(subject, f);
-  std::fprintf(stderr, "%s\n%s%s", note.c_str(), case_file(c, note).c_str(), case_to_cpp(c).c_str());
-  std::abort();
-}
-
-/// Aborts, so that the case becomes an artifact of this target. Judging the artifact repeats the error.
-[[noreturn]] void end_with(const InternalError& error, const Subject& subject) {
-  const std::string note = fmt::format("internal error: {}: {}", subject.name, error.what());
-  std::fprintf(stderr, "%s\n%s", note.c_str(), case_file(error.question(), note).c_str());
-  std::abort();
-}
-
-Finding judged(const Case& c, const Subject& subject) try {
-  return confirmed(c, ask(subject, c), subject.standard_for(query().name), Detail::verdict);
+Finding judged(const Asked& asked, const Case& c) try {
+  return confirmed(c, ask(asked, c), asked.standard, Detail::verdict);
 } catch (const InternalError& error) {
-  end_with(error, subject);
+  end_with(error, *asked.subject);
 }
 
-void examine(const Case& c) {
-  static const std::vector<const Subject*> asked = asked_subjects();
-  for (const Subject* s : asked) {
-    if (s->scalar != c.scalar) continue;
-    Case inside = c;
-    if (!fit(inside, s->offering(query().name).required)) continue;
-    const Finding f = judged(inside, *s);
-    if (f.is_proved() || f.verdict == Verdict::broke) report(inside, *s, f);
+/// Asks the subject and judges its answer. Returns how bad the answer is.
+double examine(const Case& c, const Asked& asked, std::size_t slot) {
+  const Finding f = judged(asked, c);
+  note_answer(slot, f);
+  if (slot == 0) note_case(c, f);
+  if (f.is_proved() || f.verdict == Verdict::broke) report(c, *asked.subject, f);
+  return badness(f);
+}
+
+void examine(const Case& c, const std::vector<Asked>& all) {
+  double worst = 0;
+  std::size_t slot = 0;
+  for (const Asked& asked : all) {
+    if (asked.subject->scalar != c.scalar) continue;
+    if (asked.standard.required.empty()) {
+      worst = std::max(worst, examine(c, asked, slot++));
+    } else if (Case inside = c; fit(inside, asked.standard.required)) {
+      worst = std::max(worst, examine(inside, asked, slot++));
+    }
   }
+  remember(c, worst);
+}
+
+/// Copies the case to libFuzzer's buffer; 0 where it does not fit.
+std::size_t put(const Case& c, std::uint8_t* data, std::size_t max_size) {
+  const std::vector<std::uint8_t> bytes = case_to_bytes(c);
+  if (bytes.size() > max_size) return 0;
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
 }
 
 }  // namespace
-}  // namespace nearmiss
+}  // namespace nearmiss::fuzz
+
+using namespace nearmiss;
 
 /// Returns -1 for bytes that are not a case: libFuzzer then does not add them to the corpus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  auto c = nearmiss::case_from_bytes(nearmiss::query(), {data, size});
+  static const std::vector<fuzz::Asked> asked = fuzz::asked_subjects(fuzz::query());
+  auto c = case_from_bytes(fuzz::query(), {data, size});
   if (!c) return -1;
   c->origin = "fuzz";
-  nearmiss::examine(*c);
+  fuzz::examine(*c, asked);
   return 0;
 }
 
@@ -174,29 +92,42 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
-/// Half of the mutations are the generator's mutators, which keep a case valid and bring it near a special
-/// configuration; the others are libFuzzer's own mutations of bytes. Bytes that are not a case are replaced by a
-/// generated case.
+/// A quarter of the mutations are libFuzzer's own mutations of bytes; the others change the case (fuzz/mutation.hpp).
+/// Bytes that are not a case are replaced by a generated case.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
-  using namespace nearmiss;
-  auto c = case_from_bytes(query(), {data, size});
-  if (c && seed % 2 == 0) return LLVMFuzzerMutate(data, size, max_size);
+  auto c = case_from_bytes(fuzz::query(), {data, size});
+  if (c && seed % 4 == 0) return LLVMFuzzerMutate(data, size, max_size);
   if (c) {
-    mutate(*c, seed);
+    fuzz::change(*c, seed);
   } else {
-    c = generate(query(), seed % 4 < 2 ? Scalar::float32 : Scalar::float64, seed, 0);
+    c = fuzz::fresh_case(fuzz::query(), seed);
   }
-  const std::vector<std::uint8_t> bytes = case_to_bytes(*c);
-  if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::copy(bytes.begin(), bytes.end(), data);
-  return bytes.size();
+  const std::size_t filled = fuzz::put(*c, data, max_size);
+  return filled != 0 ? filled : LLVMFuzzerMutate(data, size, max_size);
+}
+
+extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
+                                                 const std::uint8_t* data2, std::size_t size2, std::uint8_t* out,
+                                                 std::size_t max_out, unsigned int seed) {
+  auto c = case_from_bytes(fuzz::query(), {data1, size1});
+  const auto other = case_from_bytes(fuzz::query(), {data2, size2});
+  if (!c) return 0;
+  if (other) fuzz::cross_over(*c, *other, seed);
+  return fuzz::put(*c, out, max_out);
 }
 
 /// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never
 /// valid.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-  static std::vector<char*> arguments(*argv, *argv + *argc);
+  static std::vector<char*> arguments;
+  for (int i = 0; i < *argc; ++i) {
+    if (std::strcmp((*argv)[i], "--abort-on-violation") == 0) {
+      fuzz::abort_on_violation();
+    } else {
+      arguments.push_back((*argv)[i]);
+    }
+  }
   static char no_length_control[] = "-len_control=0";
   arguments.insert(arguments.begin() + 1, no_length_control);
   *argc = static_cast<int>(arguments.size());

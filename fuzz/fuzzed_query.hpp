@@ -1,6 +1,69 @@
-/// The query of a fuzz target. CMake writes its definition, the only source that the targets do not share.
+/// What a fuzz target has of its own; it shares everything else with the other targets. CMake writes a source for each
+/// target, which uses the macros at the end.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
 namespace nearmiss {
+
+/// The query's name.
 extern const char* const fuzzed_query;
-}
+
+/// The counters of numeric features (fuzz/feedback.hpp). libFuzzer finds them by their section, which must be part of
+/// the program and not of a shared library. It clears them before each execution.
+inline constexpr std::size_t feature_counters = std::size_t{1} << 14;
+extern "C" std::uint8_t nearmiss_feature_counters[feature_counters];
+
+/// A function that aborts. Its name contains query, subject and kind of the finding, and is the frame of a stack trace
+/// by which a fuzzing service tells findings apart.
+struct AbortFrame {
+  const char* subject;  ///< the subject's name; nullptr: any other subject
+  const char* kind;     ///< as name_of(Disagreement) with '_' for ' '; "broke"; "internal_error"
+  void (*abort)();
+};
+extern const std::span<const AbortFrame> abort_frames;
+
+}  // namespace nearmiss
+
+/// Every kind of finding.
+#define NEARMISS_KINDS(X, query, subject, name)                                                                       \
+  X(query, subject, name, false_hit)                                                                                  \
+  X(query, subject, name, false_miss) X(query, subject, name, wrong_time) X(query, subject, name, negative_time)      \
+      X(query, subject, name, wrong_place) X(query, subject, name, wrong_normal) X(query, subject, name, wrong_depth) \
+          X(query, subject, name, wrong_direction) X(query, subject, name, wrong_weight)                              \
+              X(query, subject, name, wrong_flag) X(query, subject, name, wrong_index)                                \
+                  X(query, subject, name, wrong_combination) X(query, subject, name, off_the_surface)                 \
+                      X(query, subject, name, not_finite) X(query, subject, name, not_unit)                           \
+                          X(query, subject, name, broke) X(query, subject, name, internal_error)
+
+/// The compiler must neither merge the functions, which are alike, nor end them with a jump, which leaves no frame:
+/// hence the statement that differs, and a call that is not known to end.
+#define NEARMISS_ABORT_FUNCTION(query, subject, name, kind)        \
+  extern "C" [[gnu::noinline]] void query##_##subject##_##kind() { \
+    asm volatile("# " #query " " #subject " " #kind);              \
+    nearmiss_abort();                                              \
+    asm volatile("# the end of " #query " " #subject " " #kind);   \
+  }
+#define NEARMISS_ABORT_ENTRY(query, subject, name, kind) {name, #kind, query##_##subject##_##kind},
+
+#define NEARMISS_ABORT_FUNCTIONS(query, subject, name) NEARMISS_KINDS(NEARMISS_ABORT_FUNCTION, query, subject, name)
+#define NEARMISS_ABORT_ENTRIES(query, subject, name) NEARMISS_KINDS(NEARMISS_ABORT_ENTRY, query, subject, name)
+
+/// SUBJECTS(X, query) calls X(query, identifier, name) for each subject.
+#define NEARMISS_FUZZ_TARGET(query, SUBJECTS)                                                                \
+  const char* const nearmiss::fuzzed_query = #query;                                                         \
+  extern "C" {                                                                                               \
+  __attribute__((section("__libfuzzer_extra_counters")))                                                     \
+  std::uint8_t nearmiss_feature_counters[nearmiss::feature_counters];                                        \
+  }                                                                                                          \
+  extern "C" [[gnu::noinline]] void nearmiss_abort() { std::abort(); }                                       \
+  SUBJECTS(NEARMISS_ABORT_FUNCTIONS, query)                                                                  \
+  NEARMISS_ABORT_FUNCTIONS(query, any_other_subject, nullptr)                                                \
+  namespace {                                                                                                \
+  constexpr nearmiss::AbortFrame frames[] = {SUBJECTS(NEARMISS_ABORT_ENTRIES, query)                         \
+                                                 NEARMISS_ABORT_ENTRIES(query, any_other_subject, nullptr)}; \
+  }                                                                                                          \
+  const std::span<const nearmiss::AbortFrame> nearmiss::abort_frames = frames;

@@ -219,6 +219,8 @@ class Judgement {
       here_ = x_.exactly();
     }
     f_.truth_yes = here_.may_be_yes;
+    f_.branches = here_.branches;
+    f_.right_answers = here_.answers;
     decision_differs_ = f_.truth_yes != answer_.yes;
   }
   void judge_whole() {
@@ -459,6 +461,12 @@ bool exact_decision(const Case& question) {
   const Examination x(question, none);
   const Enclosure here = x.within(0);
   return (here.decided() ? here : x.exactly()).may_be_yes;
+}
+
+double decision_margin(const Case& question) {
+  const FloatingPointScope standard_modes;
+  const Answer none{};
+  return Examination(question, none).margin().value_or(Backward{-1}).above;
 }
 
 Truth truth_of(const Case& question) {

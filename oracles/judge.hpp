@@ -1,6 +1,7 @@
 /// The judge: compares an answer with the oracle's and returns a finding with numbers.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -93,6 +94,8 @@ struct Finding {
   double forward_absolute = 0;         ///< the same distance in the worst number's own unit
   int worst = -1;                      ///< index of the worst number among the query's outputs
   double unit_error = 0;               ///< |normal| - 1, in units of epsilon; 0 where the answer has no normal
+  std::uint64_t branches = 0;          ///< the branches of the oracle that reported right answers (Enclosure::branches)
+  std::uint32_t right_answers = 0;     ///< how many right answers the oracle reported; more than one: a tie
 
   std::vector<MemberFinding> members;  ///< every member that differs; empty for a wrong combination
   int headline = -1;                   ///< index in `members` of the one that breaks or differs most; -1: none
@@ -118,6 +121,11 @@ Finding judge(const Case& question, const Answer& answer, const Standard& standa
 
 /// The exact decision alone, at the least cost. Thread-safe.
 bool exact_decision(const Case& question);
+
+/// The margin to the nearest flip of the decision, a lower bound on the ladder: every input within so many epsilon has
+/// the same decision. Negative where the intervals cannot decide even the case itself. As in Truth, without the
+/// answers.
+double decision_margin(const Case& question);
 
 /// The exact answers to a case, for people: all of them, and the margin to the nearest flip of the decision.
 struct Truth {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "impl/catalogue/query_ids.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {

@@ -11,6 +11,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
+#include "impl/catalogue/query_ids.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -8,6 +8,7 @@
 
 #include "impl/catalogue/named_leaves.hpp"
 #include "impl/catalogue/query.hpp"
+#include "impl/catalogue/query_ids.hpp"
 
 namespace nearmiss {
 
@@ -36,8 +37,20 @@ std::optional<Invalid> broken_inputs(std::span<const double> values) {
   return Invalid{broken->field.text(), broken->value, std::string(broken->rule)};
 }
 
+constexpr QueryId all_ids[] = {
+#define NEARMISS_QUERY(query) QueryId::query,
+#include "impl/catalogue/catalogue.def"
+#undef NEARMISS_QUERY
+};
+
+constexpr bool links_are_queries(std::span<const Link> links) {
+  return std::ranges::all_of(links,
+                             [](const Link& l) { return std::ranges::find(all_ids, l.to) != std::end(all_ids); });
+}
+
 template <class Inputs>
 Query make_query(QueryId id, std::string_view name) {
+  static_assert(links_are_queries(Inputs::traits.links), "a link names a query that the catalogue does not have");
   using A = typename Inputs::Answer;
   return {id,
           name,
@@ -46,7 +59,8 @@ Query make_query(QueryId id, std::string_view name) {
           fields_of<A>(),
           Layout::of<A>(),
           broken_inputs<Inputs>,
-          Inputs::traits};
+          Inputs::traits,
+          0};
 }
 
 }  // namespace
@@ -106,15 +120,21 @@ std::string_view name_of(Role role) {
 }
 
 std::span<const Query> catalogue() {
-  static const std::vector<Query> queries = {
+  static const std::vector<Query> queries = [] {
+    std::vector<Query> all = {
 #define NEARMISS_QUERY(query) make_query<inputs::query<double>>(QueryId::query, #query),
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
-  };
+    };
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].index = i;
+    return all;
+  }();
   return queries;
 }
 
-const Query& query_of(QueryId id) { return catalogue()[std::size_t(id)]; }
+const Query& query_of(QueryId id) {
+  return *std::ranges::find_if(catalogue(), [id](const Query& q) { return q.id == id; });
+}
 
 const Query* find_query(std::string_view name) {
   for (const Query& q : catalogue()) {

@@ -44,6 +44,7 @@ struct Query {
   /// The first rule that the inputs break, if any. Expects inputs.size() values.
   std::optional<Invalid> (*broken)(std::span<const double> values);
   Traits traits;
+  std::size_t index = 0;  ///< in the catalogue
 
   /// "location", "corners.2.point": the name of the member's outputs without their component.
   std::string member_name(std::size_t part) const;

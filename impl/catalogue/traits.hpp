@@ -10,12 +10,14 @@
 
 namespace nearmiss {
 
-/// The identifiers of the queries, in the order of the catalogue.
-enum class QueryId {
-#define NEARMISS_QUERY(query) query,
-#include "impl/catalogue/catalogue.def"
-#undef NEARMISS_QUERY
-};
+/// The identifier of a query: the FNV-1a hash of its name. Only query_ids.hpp lists the queries of the catalogue, so
+/// that a new query changes no other header.
+enum class QueryId : std::uint64_t;
+consteval QueryId query_id(std::string_view name) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : name) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3;
+  return QueryId(hash);
+}
 
 /// A reason for several right answers: the role of the member in which they differ, or a cone of normals.
 enum class Tie : std::uint8_t { position, normal, depth, weight, index, cone };
@@ -76,7 +78,7 @@ struct Link {
   };
 
   Kind kind;
-  QueryId to;
+  QueryId to;  ///< query_id(NAME): catalogue.cpp asserts that the catalogue has this query
   std::array<Renamed, 3> renamed{};
   Set set{};
   bool times_alone = false;                  ///< only the decision and the time are equal

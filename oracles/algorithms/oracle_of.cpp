@@ -34,7 +34,7 @@ std::vector<Oracle> every_oracle() {
 
 const Oracle& oracle_of(const Query& query) {
   static const std::vector<Oracle> oracles = every_oracle();
-  return oracles[std::size_t(query.id)];
+  return oracles[query.index];
 }
 
 }  // namespace nearmiss

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <source_location>
 #include <vector>
 
 #include "impl/catalogue/layout.hpp"
@@ -58,6 +59,12 @@ class EnclosureAccumulator {
   /// set, `set` holds the distances of the vectors that belong to the set.
   void count(bool yes, const Errors& errors, std::size_t given, const SetDistance& set);
   void count_everything();
+  using Place = std::source_location;
+  /// Notes the branch of the algorithm that reports an answer.
+  void note(const Place& from) {
+    result_.branches |= std::uint64_t{1} << (from.line() * 0x9e3779b1u >> 26);
+    ++result_.answers;
+  }
   /// The part of `set` that remains known where the given places and the set have different units: the distances of
   /// normals.
   SetDistance without_units(SetDistance set) const;
@@ -97,21 +104,35 @@ template <class N, class A>
 class AnswerSink : public EnclosureAccumulator {
  public:
   using EnclosureAccumulator::EnclosureAccumulator;
+  using Place = EnclosureAccumulator::Place;
+
+  // `from` is the place of the call, for Enclosure::branches.
 
   /// "No", without further numbers, is a right answer.
-  void no() { put(false, A{}, {}, 0); }
+  void no(const Place& from = Place::current()) { put(from, false, A{}, {}, 0); }
   /// `a` is a right answer; only its first `leaves` leaves have a meaning.
-  void no(const A& a, std::size_t leaves) { put(false, a, {}, leaves); }
-  void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given()) { put(true, a, normals, Answer::capacity); }
+  void no(const A& a, std::size_t leaves, const Place& from = Place::current()) { put(from, false, a, {}, leaves); }
+  void yes(const A& a, const Normals<N>& normals = Normals<N>::as_given(), const Place& from = Place::current()) {
+    put(from, true, a, normals, Answer::capacity);
+  }
   /// The same; only the first `leaves` leaves are compared, and the other ones may have any value.
-  void yes(const A& a, const Normals<N>& normals, std::size_t leaves) { put(true, a, normals, leaves); }
+  void yes(const A& a, const Normals<N>& normals, std::size_t leaves, const Place& from = Place::current()) {
+    put(from, true, a, normals, leaves);
+  }
   /// Every answer of a set is right: `a` is one of them or, for intervals, encloses them all.
-  void yes(const A& a, const SetDistance& set) { put(true, a, Normals<N>::as_given(), Answer::capacity, set); }
+  void yes(const A& a, const SetDistance& set, const Place& from = Place::current()) {
+    put(from, true, a, Normals<N>::as_given(), Answer::capacity, set);
+  }
   /// Any answer may be right, for example after a division by a number that may be zero.
-  void everything() { count_everything(); }
+  void everything(const Place& from = Place::current()) {
+    note(from);
+    count_everything();
+  }
 
  private:
-  void put(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set = {}) {
+  void put(const Place& from, bool yes, const A& a, const Normals<N>& normals, std::size_t leaves,
+           const SetDistance& set = {}) {
+    note(from);
     if (scaling_ == nullptr) return add(yes, a, normals, leaves, set);
     add(yes, in_units_of_the_input(a, leaves), normals, leaves, without_units(set));
   }

@@ -59,6 +59,10 @@ struct Enclosure {
   /// The largest such upper bound over all answers: every exact answer with the given decision is at most this far
   /// away.
   double ulps_at_most_of_any = 0;
+  /// The branches of the algorithm that reported an answer: each sets one of 64 bits, by its place in the source. With
+  /// several pieces of a shape in one loop, all of them are one branch.
+  std::uint64_t branches = 0;
+  std::uint32_t answers = 0;  ///< how many answers were reported
 
   bool decided() const { return may_be_yes != may_be_no; }
 };

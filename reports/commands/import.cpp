@@ -6,6 +6,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/nyu_ccd.hpp"
+#include "impl/catalogue/query_ids.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"

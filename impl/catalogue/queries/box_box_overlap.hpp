@@ -18,8 +18,8 @@ struct box_box_overlap {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::same_decision, .to = QueryId::box_box_penetration},
-      {.kind = Link::Kind::implied_decision, .to = QueryId::box_box_conservative},
+      {.kind = Link::Kind::same_decision, .to = query_id("box_box_penetration")},
+      {.kind = Link::Kind::implied_decision, .to = query_id("box_box_conservative")},
   };
   static constexpr Traits traits{.operands = {"box 1", "box 2"},
                                  .grows = true,

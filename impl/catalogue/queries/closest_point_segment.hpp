@@ -18,7 +18,7 @@ struct closest_point_segment {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::prepared, .to = QueryId::closest_point_segment_unit},
+      {.kind = Link::Kind::prepared, .to = query_id("closest_point_segment_unit")},
   };
   static constexpr Traits traits{.operands = {"the segment", "the point"}, .links = links};
 };

@@ -21,7 +21,7 @@ struct moving_point_aabox {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::implied_decision,
-       .to = QueryId::ray_aabox,
+       .to = query_id("ray_aabox"),
        .renamed = {{{"ray.origin", "point"}, {"ray.direction", "velocity"}}}},
   };
   static constexpr Traits traits{.operands = {"the point", "the aabox"}, .ties = {Tie::normal}, .links = links};

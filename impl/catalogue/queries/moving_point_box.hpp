@@ -21,7 +21,7 @@ struct moving_point_box {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::at_rest,
-       .to = QueryId::sphere_box_overlap,
+       .to = query_id("sphere_box_overlap"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
   };
   static constexpr Traits traits{.operands = {"the point", "the box"}, .ties = {Tie::cone}, .links = links};

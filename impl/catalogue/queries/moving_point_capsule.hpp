@@ -21,7 +21,7 @@ struct moving_point_capsule {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::capsule_as_sphere,
-       .to = QueryId::moving_point_sphere,
+       .to = query_id("moving_point_sphere"),
        .renamed = {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}},
        .set = {"solid", 1},
        .times_alone = true},

@@ -21,10 +21,10 @@ struct moving_point_plane {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::point_as_sphere,
-       .to = QueryId::moving_sphere_plane,
+       .to = query_id("moving_sphere_plane"),
        .renamed = {{{"sphere.center", "point"}}}},
       {.kind = Link::Kind::at_rest,
-       .to = QueryId::sphere_plane_penetration,
+       .to = query_id("sphere_plane_penetration"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
   };
   static constexpr Traits traits{.operands = {"the point", "the plane"}, .one_sided = true, .links = links};

@@ -20,9 +20,9 @@ struct moving_point_rectangle {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::halves, .to = QueryId::moving_point_triangle},
+      {.kind = Link::Kind::halves, .to = query_id("moving_point_triangle")},
       {.kind = Link::Kind::point_as_sphere,
-       .to = QueryId::moving_sphere_rectangle,
+       .to = query_id("moving_sphere_rectangle"),
        .renamed = {{{"sphere.center", "point"}}}},
   };
   static constexpr Traits traits{

@@ -23,7 +23,7 @@ struct moving_point_sphere {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::at_rest,
-       .to = QueryId::sphere_sphere_overlap,
+       .to = query_id("sphere_sphere_overlap"),
        .renamed = {{{"sphere1.center", "point"}, {"sphere1.radius", "-"}, {"sphere2", "sphere"}}}},
   };
   static constexpr Traits traits{.operands = {"the point", "the sphere"}, .ties = {Tie::cone}, .links = links};

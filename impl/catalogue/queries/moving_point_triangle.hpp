@@ -20,12 +20,12 @@ struct moving_point_triangle {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::prepared, .to = QueryId::moving_point_triangle_prepared},
+      {.kind = Link::Kind::prepared, .to = query_id("moving_point_triangle_prepared")},
       {.kind = Link::Kind::point_as_sphere,
-       .to = QueryId::moving_sphere_triangle,
+       .to = query_id("moving_sphere_triangle"),
        .renamed = {{{"sphere.center", "point"}}}},
       {.kind = Link::Kind::at_rest,
-       .to = QueryId::sphere_triangle_overlap,
+       .to = query_id("sphere_triangle_overlap"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
   };
   static constexpr Traits traits{.operands = {"the point", "the triangle"}, .one_sided = true, .links = links};

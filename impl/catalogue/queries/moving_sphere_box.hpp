@@ -20,15 +20,17 @@ struct moving_sphere_box {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::within_any_time, .to = QueryId::moving_sphere_passes_box, .set = {"forever", 1}},
+      {.kind = Link::Kind::within_any_time, .to = query_id("moving_sphere_passes_box"), .set = {"forever", 1}},
       {.kind = Link::Kind::contained_ball,
-       .to = QueryId::moving_sphere_sphere,
+       .to = query_id("moving_sphere_sphere"),
        .renamed = {{{"fixed.center", "box.center"}}}},
-      {.kind = Link::Kind::sphere_as_point, .to = QueryId::moving_point_box, .renamed = {{{"point", "sphere.center"}}}},
+      {.kind = Link::Kind::sphere_as_point,
+       .to = query_id("moving_point_box"),
+       .renamed = {{{"point", "sphere.center"}}}},
       {.kind = Link::Kind::box_as_point,
-       .to = QueryId::moving_sphere_sphere,
+       .to = query_id("moving_sphere_sphere"),
        .renamed = {{{"fixed.center", "box.center"}, {"fixed.radius", "-"}}}},
-      {.kind = Link::Kind::at_rest, .to = QueryId::sphere_box_overlap},
+      {.kind = Link::Kind::at_rest, .to = query_id("sphere_box_overlap")},
   };
   static constexpr Traits traits{.operands = {"the sphere", "the box"},
                                  .grows = true,

@@ -21,13 +21,13 @@ struct moving_sphere_capsule {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::contained_ball,
-       .to = QueryId::moving_sphere_sphere,
+       .to = query_id("moving_sphere_sphere"),
        .renamed = {{{"fixed.center", "capsule.p0"}}}},
       {.kind = Link::Kind::sphere_as_point,
-       .to = QueryId::moving_point_capsule,
+       .to = query_id("moving_point_capsule"),
        .renamed = {{{"point", "sphere.center"}}}},
       {.kind = Link::Kind::capsule_as_sphere,
-       .to = QueryId::moving_sphere_sphere,
+       .to = query_id("moving_sphere_sphere"),
        .renamed = {{{"fixed.center", "capsule.p0"}, {"fixed.radius", "capsule.radius"}}}},
   };
   static constexpr Traits traits{

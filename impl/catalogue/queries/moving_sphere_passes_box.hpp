@@ -29,7 +29,7 @@ struct moving_sphere_passes_box {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::contained_ball,
-       .to = QueryId::moving_sphere_passes_sphere,
+       .to = query_id("moving_sphere_passes_sphere"),
        .renamed = {{{"fixed.center", "box.center"}}}},
   };
   static constexpr Traits traits{.operands = {"the sphere", "the box"}, .grows = true, .links = links};

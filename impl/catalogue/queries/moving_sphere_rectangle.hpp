@@ -20,7 +20,7 @@ struct moving_sphere_rectangle {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::halves, .to = QueryId::moving_sphere_triangle},
+      {.kind = Link::Kind::halves, .to = query_id("moving_sphere_triangle")},
   };
   static constexpr Traits traits{.operands = {"the sphere", "the rectangle"},
                                  .one_sided = true,

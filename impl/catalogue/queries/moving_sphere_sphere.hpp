@@ -20,9 +20,9 @@ struct moving_sphere_sphere {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::within_any_time, .to = QueryId::moving_sphere_passes_sphere, .set = {"forever", 1}},
+      {.kind = Link::Kind::within_any_time, .to = query_id("moving_sphere_passes_sphere"), .set = {"forever", 1}},
       {.kind = Link::Kind::at_rest,
-       .to = QueryId::sphere_sphere_overlap,
+       .to = query_id("sphere_sphere_overlap"),
        .renamed = {{{"sphere1", "sphere"}, {"sphere2", "fixed"}}}},
   };
   static constexpr Traits traits{.grows = true, .ties = {Tie::cone}, .links = links};

@@ -20,7 +20,7 @@ struct moving_sphere_triangle {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::at_rest, .to = QueryId::sphere_triangle_overlap},
+      {.kind = Link::Kind::at_rest, .to = query_id("sphere_triangle_overlap")},
   };
   static constexpr Traits traits{.operands = {"the sphere", "the triangle"},
                                  .one_sided = true,

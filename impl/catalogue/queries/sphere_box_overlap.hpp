@@ -17,12 +17,12 @@ struct sphere_box_overlap {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::same_decision, .to = QueryId::sphere_box_penetration},
+      {.kind = Link::Kind::same_decision, .to = query_id("sphere_box_penetration")},
       {.kind = Link::Kind::contained_ball,
-       .to = QueryId::sphere_sphere_overlap,
+       .to = query_id("sphere_sphere_overlap"),
        .renamed = {{{"sphere1", "sphere"}, {"sphere2.center", "box.center"}}}},
       {.kind = Link::Kind::box_as_point,
-       .to = QueryId::sphere_sphere_overlap,
+       .to = query_id("sphere_sphere_overlap"),
        .renamed = {{{"sphere1", "sphere"}, {"sphere2.center", "box.center"}, {"sphere2.radius", "-"}}}},
   };
   static constexpr Traits traits{.operands = {"the sphere", "the box"}, .grows = true, .links = links};

@@ -18,7 +18,7 @@ struct sphere_box_penetration {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::box_as_point,
-       .to = QueryId::sphere_sphere_penetration,
+       .to = query_id("sphere_sphere_penetration"),
        .renamed = {{{"sphere1", "sphere"}, {"sphere2.center", "box.center"}, {"sphere2.radius", "-"}}},
        .except = {"contact", "normal"}},
   };

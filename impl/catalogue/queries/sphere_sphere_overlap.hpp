@@ -17,7 +17,7 @@ struct sphere_sphere_overlap {
   }
 
   static constexpr Link links[] = {
-      {.kind = Link::Kind::same_decision, .to = QueryId::sphere_sphere_penetration},
+      {.kind = Link::Kind::same_decision, .to = query_id("sphere_sphere_penetration")},
   };
   static constexpr Traits traits{
       .operands = {"sphere 1", "sphere 2"}, .grows = true, .exchange = Exchange::always, .links = links};

@@ -28,28 +28,27 @@ inline CornerContacts<T> corner_contacts_in_lanes(const Lanes<T>& middle, const 
   const L height_low = around - reach_z, height_high = around + reach_z;
   const L lowest = smaller(height_low, height_high), pairwise = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
   const L depth = (zero - smaller(pairwise, pairwise.template shuffled<1, 0, 3, 2>())) / norm, overlap = zero <= depth;
-  CornerContacts<T> contacts;
-  contacts.depth = depth.first();
-  contacts.normal = to_vec3((n / norm) & overlap);
   const auto& [x, y, z] = frame.axes();
   const L side_x = x * half.template broadcast<0>(), side_y = y * half.template broadcast<1>();
   const L side_z = z * half.template broadcast<2>();
   const L behind_low = (height_low <= zero) & overlap, behind_high = (height_high <= zero) & overlap;
   const int behind = behind_low.bits() | behind_high.bits() << 4;
   const auto corner = [&](int i, const L& place, const L& mask) {
-    contacts.corners[i].behind = (behind >> i & 1) != 0;
-    contacts.corners[i].point = to_vec3(place & mask);
+    return Corner<T>{(behind >> i & 1) != 0, to_vec3(place & mask)};
   };
-  const L left = middle - side_x, right = middle + side_x;
-  const auto around_z = [&](int i, const L& place, const L& low, const L& high) {
-    corner(i, place - side_z, low);
-    corner(i + 4, place + side_z, high);
-  };
-  around_z(0, left - side_y, behind_low.template broadcast<0>(), behind_high.template broadcast<0>());
-  around_z(1, right - side_y, behind_low.template broadcast<1>(), behind_high.template broadcast<1>());
-  around_z(2, left + side_y, behind_low.template broadcast<2>(), behind_high.template broadcast<2>());
-  around_z(3, right + side_y, behind_low.template broadcast<3>(), behind_high.template broadcast<3>());
-  return contacts;
+  const L left_low = middle - side_x - side_y, right_low = middle + side_x - side_y;
+  const L left_high = middle - side_x + side_y, right_high = middle + side_x + side_y;
+  // Every member at once: an answer that is zeroed first takes half as long again, since a corner has padding.
+  return {depth.first(),
+          to_vec3((n / norm) & overlap),
+          {corner(0, left_low - side_z, behind_low.template broadcast<0>()),
+           corner(1, right_low - side_z, behind_low.template broadcast<1>()),
+           corner(2, left_high - side_z, behind_low.template broadcast<2>()),
+           corner(3, right_high - side_z, behind_low.template broadcast<3>()),
+           corner(4, left_low + side_z, behind_high.template broadcast<0>()),
+           corner(5, right_low + side_z, behind_high.template broadcast<1>()),
+           corner(6, left_high + side_z, behind_high.template broadcast<2>()),
+           corner(7, right_high + side_z, behind_high.template broadcast<3>())}};
 }
 
 }  // namespace detail

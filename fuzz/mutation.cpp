@@ -1,0 +1,102 @@
+#include "fuzz/mutation.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "corpus/case_builder.hpp"
+#include "corpus/codec.hpp"
+#include "corpus/float_order.hpp"
+#include "corpus/generator.hpp"
+
+namespace nearmiss::fuzz {
+
+namespace {
+
+/// A change of one number by a number of ulps; of 0 ulps: none.
+struct Step {
+  std::size_t number = 0;
+  int ulps = 0;
+};
+
+/// The largest step of a walk: 2^20 ulps.
+constexpr int longest_step = 1 << 20;
+
+/// What is known of a case that was executed.
+struct Known {
+  std::uint64_t hash = 0;
+  double badness = 0;
+  Step step;  ///< the step that led to it from a case with better answers
+};
+
+/// Direct-mapped: a new case replaces another one with the same low bits.
+std::array<Known, 1 << 12> known_cases;
+
+Known& slot_of(std::uint64_t hash) { return known_cases[hash % known_cases.size()]; }
+
+std::uint64_t hash_of(const Case& c) {
+  std::uint64_t h = 0xcbf29ce484222325;  // FNV-1a
+  for (const std::uint8_t byte : case_to_bytes(c)) h = (h ^ byte) * 0x100000001b3;
+  return h;
+}
+
+/// The last step, and the cases before and after it.
+struct Taken {
+  std::uint64_t child = 0;
+  double parents_badness = 0;
+  Step step;
+} taken;
+
+bool is_real(Role role) { return role != Role::flag && role != Role::index; }
+
+/// Moves one number by some ulps. False, without a change, where the result breaks a rule.
+bool apply(Case& c, Step step) {
+  if (!is_real(c.query->inputs[step.number].role)) return false;
+  const double before = c.values[step.number];
+  double& x = c.values[step.number];
+  x = moved_by_ulps(x, step.ulps, c.scalar);
+  if (std::isfinite(x) && !c.query->broken(c.values)) return true;
+  x = before;
+  return false;
+}
+
+/// A step in a new direction: a power of two of ulps, small ones more often.
+Step new_step(const Case& c, Random& random) {
+  const int size = 1 << random.below(1 + random.below(20));
+  return {random.below(c.values.size()), random.one_in(2) ? size : -size};
+}
+
+/// Walks by ulps. A step that made the answers worse is repeated with twice its size.
+void walk(Case& c, Random& random) {
+  const Known known = slot_of(hash_of(c));
+  const bool is_known = known.hash == hash_of(c);
+  Step step = is_known && known.step.ulps != 0 && random.one_in(2) ? known.step : new_step(c, random);
+  if (!apply(c, step)) return;
+  if (std::abs(step.ulps) < longest_step) step.ulps *= 2;
+  taken = {hash_of(c), is_known ? known.badness : 0, step};
+}
+
+}  // namespace
+
+Case fresh_case(const Query& query, unsigned seed) {
+  return generate(query, seed % 2 == 0 ? Scalar::float32 : Scalar::float64, seed, 0);
+}
+
+void change(Case& c, unsigned seed) {
+  Random random(seed);
+  if (random.one_in(3)) return walk(c, random);
+  mutate(c, random.bits());
+}
+
+void cross_over(Case& c, const Case& other, unsigned seed) {
+  Random random(seed);
+  static_cast<void>(other);
+  walk(c, random);
+}
+
+void remember(const Case& c, double badness) {
+  const std::uint64_t hash = hash_of(c);
+  const bool by_step = taken.child == hash && badness > taken.parents_badness;
+  slot_of(hash) = {hash, badness, by_step ? taken.step : Step{}};
+}
+
+}  // namespace nearmiss::fuzz
