@@ -65,14 +65,6 @@ void examine(const Case& c, const std::vector<Asked>& all) {
   remember(c, worst);
 }
 
-/// Copies the case to libFuzzer's buffer; 0 where it does not fit.
-std::size_t put(const Case& c, std::uint8_t* data, std::size_t max_size) {
-  const std::vector<std::uint8_t> bytes = case_to_bytes(c);
-  if (bytes.size() > max_size) return 0;
-  std::copy(bytes.begin(), bytes.end(), data);
-  return bytes.size();
-}
-
 }  // namespace
 }  // namespace nearmiss::fuzz
 
@@ -92,6 +84,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
+/// Copies the case to libFuzzer's buffer; 0 where it does not fit.
+static std::size_t put(const Case& c, std::uint8_t* data, std::size_t max_size) {
+  const std::vector<std::uint8_t> bytes = case_to_bytes(c);
+  if (bytes.size() > max_size) return 0;
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
+}
+
 /// A quarter of the mutations are libFuzzer's own mutations of bytes; the others change the case (fuzz/mutation.hpp).
 /// Bytes that are not a case are replaced by a generated case.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
@@ -103,7 +103,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   } else {
     c = fuzz::fresh_case(fuzz::query(), seed);
   }
-  const std::size_t filled = fuzz::put(*c, data, max_size);
+  const std::size_t filled = put(*c, data, max_size);
   return filled != 0 ? filled : LLVMFuzzerMutate(data, size, max_size);
 }
 
@@ -114,7 +114,7 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
   const auto other = case_from_bytes(fuzz::query(), {data2, size2});
   if (!c) return 0;
   if (other) fuzz::cross_over(*c, *other, seed);
-  return fuzz::put(*c, out, max_out);
+  return put(*c, out, max_out);
 }
 
 /// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never

@@ -4,14 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
+#include <thread>
 
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/engine/fuzz_targets.hpp"
+#include "reports/engine/fuzz_night.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/engine/night_changes.hpp"
 #include "reports/engine/property_tests.hpp"
 #include "reports/engine/relations_run.hpp"
 #include "reports/engine/replay.hpp"
@@ -27,9 +29,11 @@ namespace fs = std::filesystem;
 using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
-/// The shares of the total time for properties, of which half is for relations, and for fuzzing; and the share of the
-/// fuzzing time for judging the cases that it found.
-constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1;
+/// The shares of the total time for properties, of which half is for relations, and for fuzzing; the shares of the
+/// fuzzing time for judging the cases that it found, and for minimising corpora.
+constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1, merging_share = 0.25;
+static_assert(fuzzing_share * merging_share <= 0.1, "corpora are minimised in at most a tenth of the night");
+constexpr std::uint64_t most_jobs = 1024;
 
 Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
   return a + std::chrono::duration_cast<Clock::duration>((b - a) * share);
@@ -47,6 +51,7 @@ class Expectations : public Sink {
     }
   }
   std::uint64_t compared = 0;
+  std::uint64_t of_ours = 0;  ///< unexpected findings of subjects whose night it is
   Json unexpected = Json::array();
 
  private:
@@ -54,6 +59,7 @@ class Expectations : public Sink {
     ++compared;
     const std::string_view verdict = name_of(found.finding.verdict), fault = name_of(found.finding.disagreement);
     if (e.verdict == verdict && (e.disagreement.empty() || e.disagreement == fault)) return;
+    if (is_ours(e.subject)) ++of_ours;
     unexpected.push_back({{"file", stored_->file.filename().string()},
                           {"query", found.question.query->name},
                           {"subject", e.subject},
@@ -63,8 +69,8 @@ class Expectations : public Sink {
   const StoredCase* stored_ = nullptr;
 };
 
-/// Asks every stored case of every subject.
-void replay_stored(Run& run) {
+/// Asks every stored case of every subject. Returns the number of unexpected findings of subjects whose night it is.
+std::uint64_t replay_stored(Run& run) {
   run.set_activity("stored cases");
   std::uint64_t cases = 0;
   Expectations expectations;
@@ -78,18 +84,31 @@ void replay_stored(Run& run) {
   }
   run.note("stored",
            {{"cases", cases}, {"expectations", expectations.compared}, {"unexpected", expectations.unexpected}});
+  return expectations.of_ours;
+}
+
+/// Asks the cases of earlier nights' reports again. Returns the files of those that were asked.
+std::set<std::string> ask_again(Run& run, const std::vector<WrittenReport>& earlier) {
+  run.set_activity("findings of earlier nights");
+  std::set<std::string> again;
+  for (const WrittenReport& w : earlier) {
+    if (run.should_stop()) break;
+    try {
+      run.examine_by_all(read_case_or_report(run.settings().folder / w.file));
+      again.insert(w.file);
+    } catch (const BadInput&) {  // a report of another version; its kind stays known
+    }
+  }
+  return again;
 }
 
 Json outcome_json(const FuzzOutcome& o) {
-  return {{"query", o.query}, {"seconds", o.seconds}, {"executions", o.executions},
-          {"ended", o.ended}, {"failed", o.failed},   {"asked", o.asked}};
+  return {{"query", o.query},           {"seconds", o.seconds}, {"turns", o.turns},   {"executions", o.executions},
+          {"new_inputs", o.new_inputs}, {"ended", o.ended},     {"failed", o.failed}, {"asked", o.asked}};
 }
 
 /// The results of the fuzz targets.
-struct Fuzzing {
-  std::vector<FuzzOutcome> ran;
-  std::vector<std::string> no_time;  ///< queries whose target had no time left
-
+struct Fuzzing : FuzzNightOutcome {
   std::size_t failed() const {
     return std::size_t(std::count_if(ran.begin(), ran.end(), [](const FuzzOutcome& o) { return o.failed; }));
   }
@@ -127,27 +146,6 @@ ForeignSubjects foreign_subjects() {
   return foreign;
 }
 
-/// Runs each target for the same time, at least a second; so the last targets may have no time left. The seed selects
-/// the first target, so that the others take turns to have none.
-Fuzzing run_targets(Run& run, std::vector<FuzzTarget> targets, Clock::time_point until) {
-  std::rotate(targets.begin(), targets.begin() + std::ptrdiff_t(run.settings().seed % targets.size()), targets.end());
-  Fuzzing all;
-  const ForeignSubjects foreign = foreign_subjects();
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const std::string query(targets[i].query->name);
-    const double left = seconds_until(until);
-    if (left < 1 || run.should_stop()) {
-      all.no_time.push_back(query);
-      continue;
-    }
-    run.set_activity(fmt::format("fuzzing {}", query));
-    const double share = left / double(targets.size() - i);
-    all.ran.push_back(fuzz(targets[i], {run.settings().folder, foreign, unsigned(std::max(1.0, share)),
-                                        [&] { run.tick(); }, [&] { return run.should_stop(); }}));
-  }
-  return all;
-}
-
 /// The case in a file that a fuzz target left: JSON, or an artifact of libFuzzer in its query's folder.
 std::optional<Case> fuzzed_case(const fs::path& file) {
   if (file.extension() == ".json") return read_case_or_report(file);
@@ -181,7 +179,8 @@ Json examine_fuzzed(Run& run) {
   return {{"files", files.size()}, {"examined", examined}, {"unreadable", unreadable}};
 }
 
-/// Related cases of every subject. Returns 0, 1 for broken promises, or InternalError's exit code.
+/// Related cases of every subject. Returns 0, 1 for broken promises of a subject whose night it is, or InternalError's
+/// exit code.
 int relate(Run& run, Clock::time_point until) {
   run.set_activity("relations");
   std::vector<const Relation*> all;
@@ -197,7 +196,8 @@ int relate(Run& run, Clock::time_point until) {
                          {"oracle", related.contradicted()},
                          {"reports", related.reports()}});
   fmt::print("relations: {}\n", related.summary());
-  return related.contradicted() > 0 ? InternalError::exit_code : related.bad() > 0 ? 1 : 0;
+  if (related.contradicted() > 0) return InternalError::exit_code;
+  return related.bad_of([](const Subject& s) { return is_ours(s.name); }) > 0 ? 1 : 0;
 }
 
 /// Runs the property tests with fresh seeds. True where one failed.
@@ -228,20 +228,34 @@ class NightlyCommand : public Command {
     return {
         "nightly",
         "examine every subject for a given time: stored and generated cases, relations, properties, fuzzing",
-        {"First every subject answers every stored case (seeds and regressions), and the findings are "
-         "compared with the stored expectations. Then new cases are generated for all queries and subjects. A "
-         "sixth of the time goes to properties: half of it to relations between answers, as in 'nearmiss "
-         "relations', and half to the property tests of this build, which ask the tiers of collide new cases "
-         "with fresh seeds. In the last third of the time the fuzz targets run as separate processes, and "
-         "their cases are judged and reported like all others. They ask the tiers of collide, plugins, "
-         "commands, and the subjects of NEARMISS_ADD that they were built with. Where the fuzz targets are "
-         "not built, the summary and the index say so, and the generated cases get their time. A target that "
-         "ends with an error (for example of a sanitizer) makes the exit code 1, and so does a failed "
-         "property.",
-         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss "
-         "relations', properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of "
-         "the fuzz targets, and fuzz/ for their files and messages. Give the same folder every night to keep "
-         "the corpus."},
+        {"First every subject answers the cases of earlier nights' reports in the run folder, and every stored case "
+         "(seeds "
+         "and regressions), whose findings are compared with the stored expectations. Then new cases are generated for "
+         "all queries and subjects. A sixth of the time goes to properties: half of it to relations between answers, "
+         "as "
+         "in 'nearmiss relations', and half to the property tests of this build, which ask the tiers of collide new "
+         "cases "
+         "with fresh seeds. In the last third of the time the fuzz targets run as separate processes, --jobs of them "
+         "at "
+         "once, and their cases are judged and reported like all others. Each target has a turn; then those that find "
+         "most have more. A quarter of that third minimises the corpora that have doubled. The targets ask the tiers "
+         "of "
+         "collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where the fuzz "
+         "targets "
+         "are not built, the summary and the index say so, and the generated cases get their time.",
+         "The end of the output compares the night with the earlier nights in the same folder, by query, subject and "
+         "kind of "
+         "finding: new, worse (a proved bound of at least twice the earlier ones), known, and fixed (asked again, and "
+         "right "
+         "now). The first line is about the subjects whose night it is: collide, plugins, commands and subjects of "
+         "NEARMISS_ADD. They alone decide the exit status: 1 for a new or worse finding, a finding that a stored case "
+         "does not "
+         "expect, a broken relation, a failed property, or a fuzz target that ends with an error.",
+         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss relations', "
+         "properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of the fuzz targets, "
+         "fuzz/ for their files and messages, and fixed/ for earlier reports whose findings are fixed. Give the same "
+         "folder "
+         "every night to keep the corpus and to compare."},
         judging_exit_status(),
         {{"nearmiss nightly --minutes 60", "One hour."},
          {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
@@ -252,6 +266,8 @@ class NightlyCommand : public Command {
                         most_minutes);
     add_whole_number(app, "--seed", seed_, "The seed of the generator. Default: a random one, which is printed", 0,
                      std::numeric_limits<std::uint64_t>::max());
+    add_whole_number(app, "-j,--jobs", jobs_, "How many fuzz targets run at once. Default: the number of processors", 1,
+                     most_jobs);
     add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
     app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
         ->type_name("DIR")
@@ -277,7 +293,9 @@ class NightlyCommand : public Command {
     fmt::print("seed {}, for {}, into {}\n{}\n", seed, duration_text(seconds), run.settings().folder.string(),
                targets_text(found));
     std::fflush(stdout);
-    replay_stored(run);
+    const std::vector<WrittenReport> earlier = run.kept().written();
+    const std::set<std::string> again = ask_again(run, earlier);
+    const std::uint64_t unexpected = replay_stored(run);
     const double later = (found.targets.empty() ? 0 : fuzzing_share);
     run.set_until(between(begin, end, 1 - later - properties_share));
     run.set_activity("generated cases");
@@ -286,15 +304,25 @@ class NightlyCommand : public Command {
     const int related = relate(run, between(begin, end, 1 - later - properties_share / 2));
     bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;
     const std::string fuzzing = fuzz_all(run, found, end, failed);
+    const NightChanges changes(earlier, run.written_now(), again);
+    run.note("night", changes.to_json());
     run.finish();
-    fmt::print("\n{}\n{}{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
-               run.kept().worst_text(), run.summary(), fuzzing);
+    put_aside_fixed(changes, earlier, run.settings().folder);
+    fmt::print("\n{}\n{}{}\n{}\n{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
+               run.kept().worst_text(), changes.text(run.settings().folder), unexpected_text(unexpected), run.summary(),
+               fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
-    const int code = std::max(related, run.exit_code());
-    return code == InternalError::exit_code || !failed ? code : 1;
+    if (std::max(related, run.exit_code()) == InternalError::exit_code) return InternalError::exit_code;
+    if (failed || unexpected > 0 || changes.is_regression()) return 1;
+    return run.shortfall() ? 2 : 0;
   }
 
  private:
+  static std::string unexpected_text(std::uint64_t unexpected) {
+    if (unexpected == 0) return "";
+    return fmt::format("{} that stored cases do not expect: \"stored\" in index.json\n",
+                       plural_text(unexpected, "finding"));
+  }
   static std::string targets_text(const FuzzTargets& found) {
     if (found.targets.empty()) {
       return fmt::format(
@@ -307,13 +335,23 @@ class NightlyCommand : public Command {
   }
   /// Runs the fuzz targets and adds their results to the index. Sets `failed` where a target ended with an error.
   /// Returns the text for the summary.
-  static std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end, bool& failed) {
+  std::string fuzz_all(Run& run, const FuzzTargets& found, Clock::time_point end, bool& failed) const {
     Json note{{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}};
     if (found.targets.empty()) {
       run.note("fuzz", note);
       return "not built";
     }
-    const Fuzzing all = run_targets(run, found.targets, between(Clock::now(), end, 1 - judging_share));
+    FuzzNight night{run.settings().folder,
+                    foreign_subjects(),
+                    jobs(),
+                    between(Clock::now(), end, 1 - judging_share - merging_share),
+                    [&] { run.tick(); },
+                    [&] { return run.should_stop(); },
+                    [&](const std::string& what) { run.set_activity(what); }};
+    const Fuzzing all{fuzz_in_turns(found.targets, night)};
+    night.until = between(Clock::now(), end, merging_share / (judging_share + merging_share));
+    const MergeOutcome merged = merge_corpora(found.targets, night);
+    note["merged"] = {{"queries", merged.merged}, {"before", merged.before}, {"after", merged.after}};
     for (const FuzzOutcome& o : all.ran) note["targets"].push_back(outcome_json(o));
     note["no_time"] = all.no_time;
     note["state"] = all.ran.empty() ? "no time" : "ran";
@@ -329,8 +367,10 @@ class NightlyCommand : public Command {
                        unknown.empty() ? "" : fmt::format(", built without {}", list_text(unknown)));
   }
 
+  unsigned jobs() const { return unsigned(jobs_.value_or(std::max(1u, std::thread::hardware_concurrency()))); }
+
   std::optional<double> minutes_;
-  std::optional<std::uint64_t> seed_;
+  std::optional<std::uint64_t> seed_, jobs_;
   std::string out_, targets_;
 };
 

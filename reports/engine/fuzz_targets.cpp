@@ -29,6 +29,9 @@ namespace fs = std::filesystem;
 constexpr auto grace = 3s;
 /// The same where the whole run is cancelled.
 constexpr auto short_grace = 300ms;
+/// The most resident memory of a target, in MiB: libFuzzer stores the case and ends the target. An exact answer takes a
+/// few MiB, and the address sanitizer as much again.
+constexpr int most_mebibytes = 2048;
 /// libFuzzer's limit for one case: beyond it, it stores the case and ends the target.
 constexpr int seconds_for_one_case = 10;
 
@@ -69,19 +72,13 @@ FuzzTargets targets_in(const fs::path& folder, std::span<const Query* const> que
   return found;
 }
 
-void put_seeds(const Query& query, const fs::path& corpus) {
-  for (const StoredCase& s : stored_cases(query)) {
-    const std::vector<std::uint8_t> bytes = case_to_bytes(s.question);
-    write_file(corpus / ("seed-" + s.file.stem().string()),
-               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  }
-}
-
-std::uint64_t executions_in(const fs::path& log) {
-  static constexpr std::string_view key = "stat::number_of_executed_units:";
+/// A number of the statistics that libFuzzer prints at its end: "stat::KEY: N".
+std::uint64_t statistic_in(const fs::path& log, std::string_view key) {
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with(key)) return std::strtoull(line.c_str() + key.size(), nullptr, 10);
+    const std::size_t at = line.find("stat::");
+    if (at == std::string::npos || line.compare(at + 6, key.size(), key) != 0) continue;
+    return std::strtoull(line.c_str() + at + 6 + key.size() + 1, nullptr, 10);
   }
   return 0;
 }
@@ -122,45 +119,93 @@ FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<c
   return none;
 }
 
-FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget) {
-  const std::string query(target.query->name);
-  const fs::path corpus = budget.run_folder / "corpus" / query, reports = budget.run_folder / "fuzz";
-  const fs::path artifacts = reports / query, log = reports / (query + ".log");
-  fs::create_directories(corpus);
-  fs::create_directories(artifacts);
-  put_seeds(*target.query, corpus);
-  const auto begin = Clock::now();
-  const std::vector<std::string> arguments{target.file.string(),
-                                           corpus.string(),
-                                           fmt::format("-max_total_time={}", budget.seconds),
-                                           fmt::format("-artifact_prefix={}/", artifacts.string()),
-                                           "-print_final_stats=1",
-                                           fmt::format("-timeout={}", seconds_for_one_case)};
-  std::vector<std::string> environment = environment_for_added(budget.foreign);
-  environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
-  Program program;
-  program.arguments = arguments;
-  program.environment = environment;
-  program.log = log.string();
-  SupervisedProcess child(program, Confinement::none());
-  bool end_requested = false, is_forced = false;
-  for (auto deadline = begin + std::chrono::seconds(budget.seconds) + grace; !child.has_ended(50);) {
-    budget.tick();
-    if (!end_requested && (Clock::now() > deadline || budget.cancelled())) {
-      child.send(SIGINT);  // libFuzzer prints its statistics and leaves
-      end_requested = true;
-      deadline = Clock::now() + (budget.cancelled() ? short_grace : grace);
-    }
-    if (!end_requested || Clock::now() <= deadline) continue;
-    child.end();
-    is_forced = true;
+void put_seeds(const Query& query, const fs::path& run_folder) {
+  const fs::path corpus = run_folder / "corpus" / query.name;
+  make_folder(corpus);
+  for (const StoredCase& s : stored_cases(query)) {
+    const std::vector<std::uint8_t> bytes = case_to_bytes(s.question);
+    write_file(corpus / ("seed-" + s.file.stem().string()),
+               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
-  FuzzOutcome o{query,
-                std::chrono::duration<double>(Clock::now() - begin).count(),
-                executions_in(log),
-                is_forced ? "ended by force: it did not end when it was told to" : child.exit_text(),
-                child.failed_to_start() != 0 || (child.exit_code() != 0 && !end_requested),
-                asked_in(log)};
+}
+
+namespace {
+
+Program program_of(const FuzzTarget& target, const FuzzBudget& budget, const fs::path& log) {
+  const fs::path reports = budget.run_folder / "fuzz";
+  Program p;
+  p.arguments = {target.file.string(),
+                 (budget.run_folder / "corpus" / target.query->name).string(),
+                 fmt::format("-max_total_time={}", budget.seconds),
+                 fmt::format("-artifact_prefix={}/", (reports / target.query->name).string()),
+                 "-print_final_stats=1",
+                 fmt::format("-timeout={}", seconds_for_one_case),
+                 fmt::format("-rss_limit_mb={}", most_mebibytes)};
+  p.environment = environment_for_added(budget.foreign);
+  p.environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
+  p.log = log.string();
+  return p;
+}
+
+/// The first of fuzz/QUERY-1.log, fuzz/QUERY-2.log … that does not exist.
+fs::path free_name_like(const fs::path& log) {
+  for (int n = 1;; ++n) {
+    const fs::path name = log.parent_path() / fmt::format("{}-{}.log", log.stem().string(), n);
+    if (!fs::exists(name)) return name;
+  }
+}
+
+}  // namespace
+
+struct RunningTarget::State {
+  State(const FuzzTarget& target, const FuzzBudget& budget)
+      : query(target.query->name),
+        log(budget.run_folder / "fuzz" / (query + ".log")),
+        deadline(begin + std::chrono::seconds(budget.seconds) + grace),
+        child(program_of(target, budget, log), Confinement::none()) {}
+
+  std::string query;
+  fs::path log;
+  Clock::time_point begin = Clock::now(), deadline;
+  SupervisedProcess child;
+  bool end_requested = false, is_forced = false;
+};
+
+RunningTarget::RunningTarget(const FuzzTarget& target, const FuzzBudget& budget) {
+  make_folder(budget.run_folder / "corpus" / target.query->name);
+  make_folder(budget.run_folder / "fuzz" / target.query->name);
+  state_ = std::make_unique<State>(target, budget);
+}
+
+RunningTarget::~RunningTarget() = default;
+
+bool RunningTarget::has_ended(int milliseconds, bool cancelled) {
+  State& s = *state_;
+  if (s.child.has_ended(milliseconds)) return true;
+  if (!s.end_requested && (Clock::now() > s.deadline || cancelled)) {
+    s.child.send(SIGINT);  // libFuzzer prints its statistics and leaves
+    s.end_requested = true;
+    s.deadline = Clock::now() + (cancelled ? Clock::duration(short_grace) : Clock::duration(grace));
+  }
+  if (s.end_requested && Clock::now() > s.deadline) {
+    s.child.end();
+    s.is_forced = true;
+  }
+  return false;
+}
+
+FuzzOutcome RunningTarget::outcome() {
+  State& s = *state_;
+  FuzzOutcome o;
+  o.query = s.query;
+  o.seconds = std::chrono::duration<double>(Clock::now() - s.begin).count();
+  o.executions = statistic_in(s.log, "number_of_executed_units");
+  o.new_inputs = statistic_in(s.log, "new_units_added");
+  o.ended = s.is_forced ? "ended by force: it did not end when it was told to" : s.child.exit_text();
+  o.failed = s.child.failed_to_start() != 0 || (s.child.exit_code() != 0 && !s.end_requested);
+  o.asked = asked_in(s.log);
+  std::error_code error;
+  if (o.failed) fs::copy_file(s.log, free_name_like(s.log), error);  // the next turn replaces the log
   return o;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +33,8 @@ struct FuzzOutcome {
   std::string query;
   double seconds = 0;
   std::uint64_t executions = 0;    ///< 0 where the target did not report it
+  std::uint64_t new_inputs = 0;    ///< inputs that it added to its corpus; 0 where it did not report it
+  unsigned turns = 1;              ///< how often it ran
   std::string ended;               ///< "left with exit code 0"
   bool failed = false;             ///< ended by itself with a code other than 0
   std::vector<std::string> asked;  ///< the subjects it asked; empty where it did not report them
@@ -51,12 +53,27 @@ struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
   ForeignSubjects foreign;           ///< also asked
   unsigned seconds = 1;
-  std::function<void()> tick;  ///< called about 20 times a second while the target runs
-  std::function<bool()> cancelled;
 };
 
-/// Copies the stored seeds into the corpus, then runs the target. Its environment has
-/// NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz and environment_for_added(); its messages go to fuzz/QUERY.log.
-FuzzOutcome fuzz(const FuzzTarget& target, const FuzzBudget& budget);
+/// A fuzz target that runs. Its environment has NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz and environment_for_added(); its
+/// messages go to fuzz/QUERY.log, and to fuzz/QUERY-N.log where it ends with an error.
+class RunningTarget {
+ public:
+  RunningTarget(const FuzzTarget& target, const FuzzBudget& budget);
+  ~RunningTarget();
+
+  /// Waits for the end at most so long. Ends a target that does not end in its time. With `cancelled`, tells it to end
+  /// at once.
+  bool has_ended(int milliseconds, bool cancelled);
+  /// The result. Call it once, after the end.
+  FuzzOutcome outcome();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Copies the stored seeds of the query into the corpus of the run folder.
+void put_seeds(const Query& query, const std::filesystem::path& run_folder);
 
 }  // namespace nearmiss

@@ -199,6 +199,13 @@ RelationTally RelationsRun::sum() const {
   return all;
 }
 std::uint64_t RelationsRun::bad() const { return sum().bad(); }
+std::uint64_t RelationsRun::bad_of(const std::function<bool(const Subject&)>& some) const {
+  RelationTally all;
+  for (const auto& [key, t] : tallies_) {
+    if (some(*key.subject)) all.add(t);
+  }
+  return all.bad();
+}
 std::uint64_t RelationsRun::contradicted() const { return sum().oracle + internal_errors_.count(); }
 
 Json RelationsRun::to_json() const {

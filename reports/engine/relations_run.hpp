@@ -63,6 +63,8 @@ class RelationsRun {
   std::string summary() const;
   nlohmann::ordered_json to_json() const;
   std::uint64_t bad() const;
+  /// The same of some subjects.
+  std::uint64_t bad_of(const std::function<bool(const Subject&)>& some) const;
   /// The number of errors of Nearmiss itself, on one case or on related cases.
   std::uint64_t contradicted() const;
   std::uint64_t pairs() const { return sum().cases; }

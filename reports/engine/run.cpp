@@ -182,6 +182,12 @@ void Run::finish() {
   finished_ = true;
 }
 
+std::vector<WrittenReport> Run::written_now() const {
+  std::vector<WrittenReport> now = kept_.written();
+  std::erase_if(now, [](const WrittenReport& w) { return w.earlier; });
+  return now;
+}
+
 std::optional<std::string> Run::shortfall() const {
   const std::string index = (settings_.folder / "index.json").string();
   if (interrupted()) {

@@ -84,6 +84,8 @@ class Run {
   const InternalErrors& internal_errors() const { return campaign_.internal_errors(); }
   const Counts& counts() const { return counts_; }
   const KeptReports& kept() const { return kept_; }
+  /// The reports of this run alone.
+  std::vector<WrittenReport> written_now() const;
   const RunSettings& settings() const { return settings_; }
   /// 0; 1 for violations; 2 for a shortfall() without violations; InternalError::exit_code after an internal error.
   int exit_code() const;
