@@ -232,7 +232,8 @@ bool start_on_surface(CaseBuilder& d) {
   if (!has_contact(d, mover)) return false;
   const Contact c = make_contact(d, *mover);
   d.set_vector(mover->positions[0], c.place);
-  d.set_vector(d.plan.velocities.front(), motion(d, c, d.random.between(-1, 1) * d.random.between(1, 3)));
+  const int way = d.random.between(-1, 1), speed = d.random.between(1, 3);
+  d.set_vector(d.plan.velocities.front(), motion(d, c, way * speed));
   return true;
 }
 

@@ -41,6 +41,12 @@ std::array<Numbers, 3> axes_of(const CaseBuilder& d, std::size_t begin) {
            {2 * (x * z + w * y) / n, 2 * (y * z - w * x) / n, (w * w - x * x - y * y + z * z) / n}}};
 }
 
+/// A power of two with that range of exponents, of either sign.
+double signed_power(Random& random, int low, int high) {
+  const double sign = random.sign();
+  return sign * random.power_of_two(low, high);
+}
+
 /// Two boxes whose axes longest[0] and longest[1] are nearly parallel.
 struct CrossedBoxes {
   std::array<const Operand*, 2> box;
@@ -64,7 +70,7 @@ Quaternion draw_crossing(CaseBuilder& d, const std::array<std::size_t, 2>& longe
   const double sign = d.random.sign(), first = sign * d.random.uniform(0.4, 2.5),
                second = sign * d.random.uniform(0.4, 2.5);
   const double length1 = std::sqrt(1 + first * first), length2 = std::sqrt(1 + second * second);
-  const double half_angle = 0.5 * d.random.sign() * d.random.uniform(0.75, 2.6) * d.random.power_of_two(-22, -9);
+  const double power = signed_power(d.random, -23, -10), half_angle = power * d.random.uniform(0.75, 2.6);
   Quaternion tilt{0, 0, 0, 1}, roll{0, 0, 0, 1};  // roll: from (1, second) to (1, first) about the long axis
   tilt[u] = half_angle / length1, tilt[v] = half_angle * first / length1;
   roll[i] = first - second, roll[3] = length1 * length2 + 1 + first * second;
@@ -76,7 +82,9 @@ void draw_rotations(CaseBuilder& d, CrossedBoxes& c) {
   Quaternion first{0, 0, 0, 1};
   c.longest[0] = d.random.below(3);
   c.longest[1] = upright ? c.longest[0] : d.random.below(3);
-  if (!upright) std::generate(first.begin(), first.end(), [&] { return d.random.uniform(0.125, 1) * d.random.sign(); });
+  if (!upright) {
+    for (double& x : first) x = d.random.sign(), x *= d.random.uniform(0.125, 1);
+  }
   const Quaternion second = product(first, draw_crossing(d, c.longest));
   for (std::size_t k = 0; k < 4; ++k)
     d.set(d.plan.rotations[0] + k, first[k]), d.set(d.plan.rotations[1] + k, second[k]);
@@ -137,7 +145,7 @@ struct Skimming {
 
 /// About the place at which the motion is nearest to the capsule: beside the axis, or before its first end.
 Numbers draw_place(CaseBuilder& d, const Skimming& p) {
-  const double off = p.reach * (1 + d.random.sign() * d.random.power_of_two(-d.orders(18, 44), -4));
+  const double off = p.reach * (1 + signed_power(d.random, -d.orders(18, 44), -4));
   if (!d.random.one_in(3)) return sum(sum(p.first, p.axis, d.random.uniform(0, 1)), p.aside, off);
   const Numbers toward = unit_of(sum(p.aside, p.along, -d.random.uniform(0, 2)));
   return sum(p.first, toward, off);
@@ -145,8 +153,8 @@ Numbers draw_place(CaseBuilder& d, const Skimming& p) {
 
 /// The axis, tilted by up to a sixteenth along the surface and, in half of the cases, toward it or away from it.
 Numbers draw_tilted(CaseBuilder& d, const Skimming& p) {
-  const double sideways = d.random.sign() * d.random.power_of_two(-20, -5);
-  const double inwards = d.random.one_in(2) ? 0 : d.random.sign() * d.random.power_of_two(-20, -5);
+  const double sideways = signed_power(d.random, -20, -5);
+  const double inwards = d.random.one_in(2) ? 0 : signed_power(d.random, -20, -5);
   return sum(sum(p.along, outer(p.along, p.aside), sideways), p.aside, inwards);
 }
 
@@ -169,7 +177,7 @@ bool crossed_edges(CaseBuilder& d) {
   measure(d, c);
   const double half_length = d.unit * d.random.uniform(0.5, 2);
   const double thickness = draw_thickness(d, c, half_length);
-  const double gap = d.random.sign() * d.random.power_of_two(-20, -3) * thickness;
+  const double gap = signed_power(d.random, -20, -3) * thickness;
   const Numbers center = d.random_vector(thickness * d.random.power_of_two(0, 4));
   const double along = d.random.one_in(2) ? 0 : 0.25 * half_length * d.random.uniform(-1, 1);
   d.set_vector(c.box[0]->positions[0], center);
