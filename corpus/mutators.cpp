@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/case_builder.hpp"
+#include "corpus/constructions.hpp"
 
 namespace nearmiss {
 
@@ -416,10 +416,6 @@ bool touch_by_position(CaseBuilder& d) {
   return true;
 }
 
-/// Integers that are the sides of a box with an integer diagonal; the diagonal comes last.
-constexpr int whole_diagonals[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7},   {1, 4, 8, 9},   {4, 4, 7, 9},  {2, 6, 9, 11},
-                                      {3, 4, 0, 5}, {5, 12, 0, 13}, {8, 15, 0, 17}, {7, 24, 0, 25}};
-
 /// A sphere or capsule touches an edge or a vertex of another operand, or another sphere or capsule, off every axis and
 /// yet exactly: its radius is the integer diagonal of a box with integer sides. A box is unrotated.
 bool touch_at_edge_or_vertex(CaseBuilder& d) {
@@ -678,6 +674,7 @@ constexpr Mutator table[] = {
     {"zero-component", "one number of a vector is 0", zero_component},
     {"between-positions", "a position on the segment or in the plane of others", between_positions},
     {"sliver", "three corners nearly on a line: 1e-1 ... 1e-16 off it", sliver},
+    {"true-rectangle", "four corners of an exact rectangle, upright or tilted", true_rectangle},
     {"coincident-things", "two things are the same set", coincident_things},
     {"contained", "one thing deep inside of another", contained},
     {"zero-size", "one size is 0", zero_size},
@@ -697,6 +694,8 @@ constexpr Mutator table[] = {
     {"touch-at-edge-or-vertex", "a round thing touches an edge, a vertex or a round thing off every axis",
      touch_at_edge_or_vertex},
     {"touch-by-diagonals", "two boxes as far apart as their half diagonals are long", touch_by_diagonals},
+    {"crossed-edges", "two long, thin boxes, apart or not along the cross product of nearly parallel edges alone",
+     crossed_edges},
     {"mirrored", "a shape its own mirror image in a plane through another: as near to both halves", mirrored},
     {"touch-by-plane", "a plane across an axis that just reaches a shape", touch_by_plane},
     {"zero-velocity", "no motion", zero_velocity},
@@ -709,6 +708,10 @@ constexpr Mutator table[] = {
     {"orthogonal", "a velocity or direction at an exact right angle to another one or to an edge", orthogonal},
     {"grazing", "motion along a touching face, from the touch on or before it", grazing},
     {"head-on", "motion straight against a face or away from it, from the touch on or before it", head_on},
+    {"along-capsule", "motion from far away nearly along a capsule's axis, nearly touching its side or an end",
+     along_capsule},
+    {"start-on-surface", "a start exactly on a surface, moving in, along it or out", start_on_surface},
+    {"limit-at-contact", "a time limit that is the exact time of contact, or an ulp off", limit_at_contact},
     {"scaled-velocity", "the same motion, much slower or faster", scaled_velocity},
     {"far-offset", "everything far from the origin", far_offset},
     {"scaled-lengths", "all lengths times a power of two", scaled_lengths},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "corpus/case_builder.hpp"
@@ -28,13 +29,6 @@ double draw_sizes(CaseBuilder& d, const Operand& operand) {
   return sum / double(operand.sizes.size());
 }
 
-void put(CaseBuilder& d, const Operand& operand, const Placed& at) {
-  const bool single = operand.positions.size() == 1;
-  for (std::size_t v : operand.positions) {
-    d.set_vector(v, single ? at.center : plus(at.center, d.random_vector(1.5 * d.unit)));
-  }
-}
-
 /// A vector of about unit length.
 Numbers draw_direction(CaseBuilder& d) {
   Numbers x = d.random_vector(1);
@@ -42,6 +36,44 @@ Numbers draw_direction(CaseBuilder& d) {
   if (length < 0.125) return {0, 0, 1};
   for (double& component : x) component /= length;
   return x;
+}
+
+using Corners = std::array<Numbers, 4>;
+
+Corners parallelogram(const Numbers& corner, const Numbers& side, const Numbers& other) {
+  return {corner, plus(corner, side), plus(plus(corner, side), other), plus(corner, other)};
+}
+
+/// The spacing of the scalar's numbers at the largest coordinate.
+double spacing_at(const CaseBuilder& d, const Corners& corners) {
+  double largest = d.unit / 2;
+  for (const Numbers& c : corners) largest = std::max({largest, std::abs(c[0]), std::abs(c[1]), std::abs(c[2])});
+  return std::ldexp(1.0, std::ilogb(largest) - d.orders(23, 52));
+}
+
+/// A tilted rectangle around the place, as exact as the scalar allows: a corner and two sides are rounded to the
+/// spacing of the largest coordinate, so that their sums are exact.
+void put_rectangle(CaseBuilder& d, const Operand& operand, const Placed& at) {
+  const Numbers u = draw_direction(d), any = draw_direction(d);
+  Numbers v{u[1] * any[2] - u[2] * any[1], u[2] * any[0] - u[0] * any[2], u[0] * any[1] - u[1] * any[0]};
+  if (v == Numbers{}) v = {-u[2], 0, u[0]};
+  const double length = d.unit * d.random.uniform(0.5, 3), width = d.unit * d.random.uniform(0.5, 3);
+  Numbers corner = plus(plus(at.center, u, -length / 2), v, -width / 2), side = plus({}, u, length),
+          other = plus({}, v, width);
+  const double step = spacing_at(d, parallelogram(corner, side, other));
+  for (Numbers* part : {&corner, &side, &other}) {
+    for (double& x : *part) x = std::nearbyint(x / step) * step;
+  }
+  const Corners corners = parallelogram(corner, side, other);
+  for (std::size_t i = 0; i < 4; ++i) d.set_vector(operand.positions[i], corners[i]);
+}
+
+void put(CaseBuilder& d, const Operand& operand, const Placed& at) {
+  const bool single = operand.positions.size() == 1;
+  if (operand.positions.size() == 4 && d.random.one_in(2)) return put_rectangle(d, operand, at);
+  for (std::size_t v : operand.positions) {
+    d.set_vector(v, single ? at.center : plus(at.center, d.random_vector(1.5 * d.unit)));
+  }
 }
 
 /// Places the first operand near the origin, the others at distances comparable with the extents of both.

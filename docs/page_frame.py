@@ -18,7 +18,8 @@ import subprocess
 import sys
 
 # The headers of the columns that name something. All other columns have figures.
-NAMES = {"query", "subject", "library", "program", "batches", "part", "scalar", "class", "stored case", "the bug and its fix"}
+NAMES = {"query", "subject", "library", "program", "batches", "part", "scalar", "class", "configuration", "stored case",
+         "the bug and its fix"}
 NUMBER = re.compile(r"[+-]?\d+(?:[.,]\d+)*(?:e[+-]?\d+)?")
 # The line about the machine: it begins with the date of the measurement.
 MACHINE = r"^\d{4}-\d\d-\d\d; .*$"

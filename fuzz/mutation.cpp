@@ -5,6 +5,7 @@
 
 #include "corpus/case_builder.hpp"
 #include "corpus/codec.hpp"
+#include "corpus/crossover.hpp"
 #include "corpus/float_order.hpp"
 #include "corpus/generator.hpp"
 
@@ -83,13 +84,24 @@ Case fresh_case(const Query& query, unsigned seed) {
 
 void change(Case& c, unsigned seed) {
   Random random(seed);
-  if (random.one_in(3)) return walk(c, random);
+  switch (random.below(8)) {
+    case 0:
+    case 1:
+    case 2: return walk(c, random);
+    case 3:
+      if (snap_to_touching(c, random.bits())) return;
+      break;
+    case 4:
+      if (take_number_of_stored_case(c, random.bits())) return;
+      break;
+    default: break;
+  }
   mutate(c, random.bits());
 }
 
 void cross_over(Case& c, const Case& other, unsigned seed) {
   Random random(seed);
-  static_cast<void>(other);
+  if (cross(c, other, random.bits())) return;
   walk(c, random);
 }
 
