@@ -235,14 +235,14 @@ class NightlyCommand : public Command {
          "as "
          "in 'nearmiss relations', and half to the property tests of this build, which ask the tiers of collide new "
          "cases "
-         "with fresh seeds. In the last third of the time the fuzz targets run as separate processes, --jobs of them "
+         "with fresh seeds. The last third is for the fuzz targets. Corpora that have doubled are minimised first, in "
          "at "
-         "once, and their cases are judged and reported like all others. Each target has a turn; then those that find "
-         "most have more. A quarter of that third minimises the corpora that have doubled. The targets ask the tiers "
-         "of "
-         "collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where the fuzz "
-         "targets "
-         "are not built, the summary and the index say so, and the generated cases get their time.",
+         "most a quarter of that third. Then the targets run as separate processes, --jobs of them at once: each has a "
+         "turn, and those that find most have more. Their cases are judged and reported like all others. The targets "
+         "ask "
+         "the tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where "
+         "the "
+         "fuzz targets are not built, the summary and the index say so, and the generated cases get their time.",
          "The end of the output compares the night with the earlier nights in the same folder, by query, subject and "
          "kind of "
          "finding: new, worse (a proved bound of at least twice the earlier ones), known, and fixed (asked again, and "
@@ -341,16 +341,17 @@ class NightlyCommand : public Command {
       run.note("fuzz", note);
       return "not built";
     }
+    const Clock::time_point now = Clock::now();
     FuzzNight night{run.settings().folder,
                     foreign_subjects(),
                     jobs(),
-                    between(Clock::now(), end, 1 - judging_share - merging_share),
+                    between(now, end, merging_share),
                     [&] { run.tick(); },
                     [&] { return run.should_stop(); },
                     [&](const std::string& what) { run.set_activity(what); }};
-    const Fuzzing all{fuzz_in_turns(found.targets, night)};
-    night.until = between(Clock::now(), end, merging_share / (judging_share + merging_share));
     const MergeOutcome merged = merge_corpora(found.targets, night);
+    night.until = between(now, end, 1 - judging_share);
+    const Fuzzing all{fuzz_in_turns(found.targets, night)};
     note["merged"] = {{"queries", merged.merged}, {"before", merged.before}, {"after", merged.after}};
     for (const FuzzOutcome& o : all.ran) note["targets"].push_back(outcome_json(o));
     note["no_time"] = all.no_time;

@@ -223,7 +223,6 @@ bool merge(const FuzzTarget& target, const FuzzNight& night, const fs::path& cor
 
 FuzzNightOutcome fuzz_in_turns(const std::vector<FuzzTarget>& targets, const FuzzNight& night) {
   make_folder(night.run_folder / "fuzz");
-  settle_corpora(targets, night.run_folder);
   Turns turns(targets, night);
   turns.run();
   return turns.outcome();
@@ -236,6 +235,8 @@ MergeOutcome merge_corpora(const std::vector<FuzzTarget>& targets, const FuzzNig
     std::uint64_t inputs;
     double factor;
   };
+  make_folder(night.run_folder / "fuzz");
+  settle_corpora(targets, night.run_folder);
   std::vector<Grown> grown;
   for (const FuzzTarget& t : targets) {
     const fs::path corpus = night.run_folder / "corpus" / t.query->name;

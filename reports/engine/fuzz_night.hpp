@@ -42,10 +42,11 @@ struct MergeOutcome {
 };
 
 /// Minimises the corpora that have doubled since they were last minimised: keeps the inputs that add a feature. Those
-/// that grew most come first. Stops at night.until. A killed merge loses nothing, and the next one continues it.
+/// that grew most come first. Stops at night.until. A killed merge loses nothing, and the next call continues it. Call
+/// it before the targets run. Throws IoError where a folder cannot be written.
 MergeOutcome merge_corpora(const std::vector<FuzzTarget>& targets, const FuzzNight& night);
 
-/// Completes or undoes what a killed merge_corpora() left. Call it before the targets run.
+/// Completes or undoes what a killed merge left. merge_corpora() begins with it.
 void settle_corpora(const std::vector<FuzzTarget>& targets, const std::filesystem::path& run_folder);
 
 }  // namespace nearmiss

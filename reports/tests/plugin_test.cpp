@@ -18,7 +18,8 @@ std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/lib" + n
 TEST(Plugin, IsListedWithWhatItOffers) {
   const Ran ran = nearmiss({"list", "--plugin", plugin("skim_plugin"), "--json"});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  for (const json& q : json::parse(ran.out).at("queries")) {
+  const json list = json::parse(ran.out);
+  for (const json& q : list.at("queries")) {
     const bool offered = q.at("query") == "sphere_sphere_overlap" || q.at("query") == "moving_point_sphere" ||
                          q.at("query") == "closest_point_segment";
     EXPECT_EQ(q.at("subjects").at("skim"), offered ? "answers" : "not offered") << q.at("query");

@@ -9,6 +9,19 @@
 
 namespace nearmiss {
 
+/// True in a build with the address sanitizer, in which programs are slow.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool is_sanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
 struct Ran {
   int exit_code = -1;
   std::string out, err;

@@ -162,7 +162,8 @@ TEST(Requires, APluginSaysItByBits) {
   const std::string plugin = NEARMISS_PLUGINS "/libneeds_sizes.so";
   const Ran listed = nearmiss({"list", "--plugin", plugin, "--json"});
   ASSERT_EQ(listed.exit_code, 0) << listed.err;
-  for (const json& q : json::parse(listed.out).at("queries")) {
+  const json list = json::parse(listed.out);
+  for (const json& q : list.at("queries")) {
     const bool offered = q.at("query") == "sphere_sphere_overlap";
     EXPECT_EQ(q.at("requires").contains("misbehaves"), offered) << q.at("query");
     if (offered) {
