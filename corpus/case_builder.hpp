@@ -28,7 +28,7 @@ class Random {
   }
   /// 0 ... n - 1, for n at most 2^32.
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(((bits() >> 32) * n) >> 32); }
-  int between(int low, int high) { return low + int(below(std::size_t(high - low + 1))); }
+  int between(int low, int high) { return low + int(below(std::size_t(high - low) + 1)); }
   bool one_in(std::size_t n) { return below(n) == 0; }
   double sign() { return one_in(2) ? -1.0 : 1.0; }
   double uniform(double low, double high) { return low + (high - low) * (double(bits() >> 11) * 0x1p-53); }

@@ -37,14 +37,14 @@ FollowUps counterpart(Case other, std::function<Answer(const Answer&)> image) {
           [&query, image](const Answer& own, std::span<const Answer> others) {
             return compare(query, own.status == Answer::Status::answered ? image(own) : own, others[0]);
           },
-          image,
+          std::move(image),
           true,
           true};
 }
 
 FollowUps ordered(std::vector<Case> others, std::function<Agreement(const Answer&, std::span<const Answer>)> compare) {
   return {std::move(others),
-          [compare](const Answer& own, std::span<const Answer> answers) {
+          [compare = std::move(compare)](const Answer& own, std::span<const Answer> answers) {
             const auto answered = [](const Answer& a) { return a.status == Answer::Status::answered; };
             if (!answered(own) || !std::all_of(answers.begin(), answers.end(), answered)) return Agreement::same;
             return compare(own, answers);

@@ -319,7 +319,7 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
   requested_ = end_of_request;
   requested_since_ = Clock::now();
   numbers_got_ = 0;
-  if (child_ && child_->unread().size() > 0) {
+  if (child_ && !child_->unread().empty()) {
     this->end();  // the host wrote without a request
   }
   if (!child_) {

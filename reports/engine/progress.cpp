@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "reports/findings/text.hpp"
@@ -50,7 +51,7 @@ std::string Progress::line(std::uint64_t done, std::optional<std::uint64_t> tota
 
 std::string duration_text(double seconds) {
   if (seconds < 10) return fmt::format("{:.1f} s", std::max(0.0, seconds));
-  const auto s = std::uint64_t(seconds + 0.5);
+  const auto s = std::uint64_t(std::llround(seconds));
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
   if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
   return fmt::format("{} s", s);
