@@ -12,6 +12,7 @@ option(NEARMISS_WERROR "Treat warnings as errors" OFF)
 set(NEARMISS_SANITIZE "" CACHE STRING "Sanitizers, separated by commas: address,undefined")
 option(NEARMISS_COVERAGE "Instrument for coverage" OFF)
 option(NEARMISS_LIBFUZZER "Link fuzz targets with libFuzzer (clang only); otherwise with a plain main" OFF)
+set(NEARMISS_EXAMINER "" CACHE PATH "With NEARMISS_LIBFUZZER: the folder of a release build. Fuzz targets link its oracles and codecs; otherwise these are compiled here")
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -71,3 +72,11 @@ if(NEARMISS_LIBFUZZER)  # the coverage counters of libFuzzer; only fuzz targets 
   target_link_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 target_include_directories(nearmiss_flags INTERFACE ${PROJECT_SOURCE_DIR})
+
+# Marks a target that examines and is not examined. Fuzz targets do not instrument it: they run ten times as fast, and
+# libFuzzer counts only the coverage of the subjects.
+function(nearmiss_examines target)
+  if(NEARMISS_LIBFUZZER)
+    target_compile_options(${target} PRIVATE -fno-sanitize=all)
+  endif()
+endfunction()
