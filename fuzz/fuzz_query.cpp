@@ -1,5 +1,6 @@
 /// The fuzz target of the query fuzzed_query: bytes become a case, the tiers of `collide` answer it, and the judge
-/// judges the answers. A violation aborts the process and prints the case.
+/// judges the answers. A violation aborts the process and prints the case. Built with NEARMISS_FUZZ_SUBJECTS, a target
+/// asks the subjects of that list instead of the tiers.
 ///
 /// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas; "added": those of NEARMISS_ADD that
 ///                         offer this query
@@ -21,8 +22,8 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
 #include "fuzz/fuzzed_query.hpp"
+#include "fuzz/mutation.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/subject/provenance.hpp"
 #include "impl/subject/subject.hpp"
@@ -42,10 +43,16 @@ const Query& query() {
   std::exit(2);
 }
 
-std::vector<std::string> named_in_environment() {
-  const char* value = std::getenv("NEARMISS_SUBJECTS");
+#ifdef NEARMISS_FUZZ_SUBJECTS
+constexpr const char* instead_of_tiers = NEARMISS_FUZZ_SUBJECTS;
+#else
+constexpr const char* instead_of_tiers = "";
+#endif
+
+/// The names in a list that is separated by commas.
+std::vector<std::string> names_in(const char* list) {
   std::vector<std::string> names;
-  for (std::string_view rest = value == nullptr ? "" : value; !rest.empty();) {
+  for (std::string_view rest = list == nullptr ? "" : list; !rest.empty();) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     if (comma > 0) names.emplace_back(rest.substr(0, comma));
     rest.remove_prefix(std::min(comma + 1, rest.size()));
@@ -53,8 +60,8 @@ std::vector<std::string> named_in_environment() {
   return names;
 }
 
-/// Every tier of `collide`, and the subjects, plugins and commands in the environment, that answer this query. Prints
-/// their names to standard error, where `nearmiss nightly` reads them.
+/// Every tier of `collide` or the subjects of NEARMISS_FUZZ_SUBJECTS, and the subjects, plugins and commands in the
+/// environment, that answer this query. Prints their names to standard error, where `nearmiss nightly` reads them.
 std::vector<const Subject*> asked_subjects() {
   try {
     load_subjects_of_environment();
@@ -62,21 +69,24 @@ std::vector<const Subject*> asked_subjects() {
     cannot_run(e.what());
   }
   std::vector<const Subject*> asked;
-  const std::vector<std::string> names = named_in_environment(), added = added_subjects();
+  const bool tiers = *instead_of_tiers == '\0';
+  std::vector<std::string> names = names_in(instead_of_tiers);
+  for (std::string& name : names_in(std::getenv("NEARMISS_SUBJECTS"))) names.push_back(std::move(name));
+  const std::vector<std::string> added = added_subjects();
   const auto has = [](const std::vector<std::string>& all, const std::string& name) {
     return std::find(all.begin(), all.end(), name) != all.end();
   };
   for (const Subject& s : subjects()) {
-    const bool chosen = s.own || s.host != nullptr || (has(names, "added") && has(added, s.name));
+    const bool chosen = (s.own && tiers) || s.host != nullptr || (has(names, "added") && has(added, s.name));
     if (chosen && s.offering(query().name).offer != Offer::not_offered) asked.push_back(&s);
   }
   for (const std::string& name : names) {
     if (name == "added") continue;
     const Subject* s = find_subject(name);
     if (s == nullptr)
-      cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
+      cannot_run(fmt::format("the subject \"{}\" was asked for, and it is none of this build", name));
     if (s->offering(query().name).offer == Offer::not_offered) {
-      cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which does not offer this query", name));
+      cannot_run(fmt::format("the subject \"{}\" was asked for, and it does not offer this query", name));
     }
     if (std::find(asked.begin(), asked.end(), s) == asked.end()) asked.push_back(s);
   }
@@ -180,18 +190,14 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   using namespace nearmiss;
-  auto c = case_from_bytes(query(), {data, size});
-  if (c && seed % 2 == 0) return LLVMFuzzerMutate(data, size, max_size);
-  if (c) {
-    mutate(*c, seed);
-  } else {
-    c = generate(query(), seed % 4 < 2 ? Scalar::float32 : Scalar::float64, seed, 0);
-  }
-  const std::vector<std::uint8_t> bytes = case_to_bytes(*c);
+  if (seed % 2 == 0 && case_from_bytes(query(), {data, size})) return LLVMFuzzerMutate(data, size, max_size);
+  const std::vector<std::uint8_t> bytes = mutated_case(query(), {data, size}, seed);
   if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
   std::copy(bytes.begin(), bytes.end(), data);
   return bytes.size();
 }
+
+#ifndef NEARMISS_FUZZING_ENGINE  // another engine's main has other arguments; a file of options takes this one's place
 
 /// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never
 /// valid.
@@ -205,4 +211,5 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   return 0;
 }
 
+#endif
 #endif
