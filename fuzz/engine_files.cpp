@@ -1,6 +1,6 @@
 /// Writes the files that fuzzing engines read beside a target: FOLDER/fuzz_QUERY.dict, the bytes of special numbers in
-/// both scalars, and FOLDER/fuzz_QUERY.options, libFuzzer's options and the address sanitizer's, as OSS-Fuzz reads them.
-/// Usage: engine_files QUERY FOLDER
+/// both scalars, and FOLDER/fuzz_QUERY.options, libFuzzer's options and the address sanitizer's, as OSS-Fuzz reads
+/// them. Usage: engine_files QUERY FOLDER
 #include <fmt/format.h>
 
 #include <bit>

@@ -83,8 +83,7 @@ std::vector<const Subject*> asked_subjects() {
   for (const std::string& name : names) {
     if (name == "added") continue;
     const Subject* s = find_subject(name);
-    if (s == nullptr)
-      cannot_run(fmt::format("the subject \"{}\" was asked for, and it is none of this build", name));
+    if (s == nullptr) cannot_run(fmt::format("the subject \"{}\" was asked for, and it is none of this build", name));
     if (s->offering(query().name).offer == Offer::not_offered) {
       cannot_run(fmt::format("the subject \"{}\" was asked for, and it does not offer this query", name));
     }

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// A case near a special configuration, as bytes: the case in `bytes` after 1 to 3 moves of the generator, or a generated
-/// case where `bytes` hold none. `seed` alone decides which.
+/// A case near a special configuration, as bytes: the case in `bytes` after 1 to 3 moves of the generator, or a
+/// generated case where `bytes` hold none. `seed` alone decides which.
 inline std::vector<std::uint8_t> mutated_case(const Query& query, std::span<const std::uint8_t> bytes,
                                               std::uint64_t seed) {
   if (auto c = case_from_bytes(query, bytes)) {
