@@ -156,9 +156,13 @@ Finding judged(const Case& c, const Subject& subject) try {
   end_with(error, subject);
 }
 
+const std::vector<const Subject*>& asked() {
+  static const std::vector<const Subject*> all = asked_subjects();
+  return all;
+}
+
 void examine(const Case& c) {
-  static const std::vector<const Subject*> asked = asked_subjects();
-  for (const Subject* s : asked) {
+  for (const Subject* s : asked()) {
     if (s->scalar != c.scalar) continue;
     Case inside = c;
     if (!fit(inside, s->offering(query().name).required)) continue;
@@ -196,19 +200,20 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   return bytes.size();
 }
 
-#ifndef NEARMISS_FUZZING_ENGINE  // another engine's main has other arguments; a file of options takes this one's place
-
-/// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never
-/// valid.
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+/// Makes the list of subjects, which would otherwise count as coverage of the first case. Disables the length control
+/// of libFuzzer: every case of a query has one of two lengths, so short inputs are never valid. For another engine,
+/// whose main has other arguments, the file of options does this.
+extern "C" int LLVMFuzzerInitialize([[maybe_unused]] int* argc, [[maybe_unused]] char*** argv) {
+  nearmiss::asked();
+#ifndef NEARMISS_FUZZING_ENGINE
   static std::vector<char*> arguments(*argv, *argv + *argc);
   static char no_length_control[] = "-len_control=0";
   arguments.insert(arguments.begin() + 1, no_length_control);
   *argc = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   *argv = arguments.data();
+#endif
   return 0;
 }
 
-#endif
 #endif
