@@ -135,12 +135,34 @@ void store(const std::filesystem::path& folder, const Case& c, const Subject& su
   }
 }
 
+/// Each kind of finding ends the process in a function of its own: a fleet of machines takes crashes with the same
+/// innermost functions for one.
+#define NEARMISS_KINDS(KIND)                                                                                   \
+  KIND(false_hit)                                                                                              \
+  KIND(false_miss) KIND(wrong_time) KIND(negative_time) KIND(wrong_place) KIND(wrong_normal) KIND(wrong_depth) \
+      KIND(wrong_direction) KIND(wrong_weight) KIND(wrong_flag) KIND(wrong_index) KIND(off_surface)            \
+          KIND(wrong_combination) KIND(not_finite) KIND(not_unit)
+#define NEARMISS_ENDING(kind) \
+  [[noreturn, gnu::noinline]] void found_##kind() { std::abort(); }
+NEARMISS_KINDS(NEARMISS_ENDING)
+[[noreturn, gnu::noinline]] void found_broken() { std::abort(); }
+
+[[noreturn]] void end_as(Disagreement kind) {
+#define NEARMISS_CALL(kind) \
+  case Disagreement::kind: found_##kind();
+  switch (kind) {
+    NEARMISS_KINDS(NEARMISS_CALL)
+    case Disagreement::none: break;  // an exception of the subject
+  }
+  found_broken();
+}
+
 void report(const Case& c, const Subject& subject, const Finding& f) {
   const char* folder = std::getenv("NEARMISS_FUZZ_REPORTS");
   if (folder != nullptr && *folder != '\0') return store(folder, c, subject, f);
   const std::string note = description(subject, f);
   std::fprintf(stderr, "%s\n%s%s", note.c_str(), case_file(c, note).c_str(), case_to_cpp(c).c_str());
-  std::abort();
+  end_as(f.disagreement);
 }
 
 /// Aborts, so that the case becomes an artifact of this target. Judging the artifact repeats the error.
