@@ -12,6 +12,7 @@ option(NEARMISS_WERROR "Treat warnings as errors" OFF)
 set(NEARMISS_SANITIZE "" CACHE STRING "Sanitizers, separated by commas: address,undefined")
 option(NEARMISS_COVERAGE "Instrument for coverage" OFF)
 option(NEARMISS_LIBFUZZER "Link fuzz targets with libFuzzer (clang only); otherwise with a plain main" OFF)
+set(NEARMISS_FUZZING_ENGINE "" CACHE STRING "With NEARMISS_LIBFUZZER: the linker's argument for another engine (a flag or a library). Builds fuzz targets alone; the compiler and its flags must bring the engine's instrumentation, as in fuzz/oss-fuzz")
 set(NEARMISS_EXAMINER "" CACHE PATH "With NEARMISS_LIBFUZZER: the folder of a release build. Fuzz targets link its oracles and codecs; otherwise these are compiled here")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -67,7 +68,7 @@ if(NEARMISS_SANITIZE)
     -fsanitize=${NEARMISS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=${NEARMISS_SANITIZE})
 endif()
-if(NEARMISS_LIBFUZZER)  # the coverage counters of libFuzzer; only fuzz targets link its main
+if(NEARMISS_LIBFUZZER AND NOT NEARMISS_FUZZING_ENGINE)  # the coverage counters of libFuzzer; only fuzz targets link its main
   target_compile_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
@@ -78,5 +79,10 @@ target_include_directories(nearmiss_flags INTERFACE ${PROJECT_SOURCE_DIR})
 function(nearmiss_examines target)
   if(NEARMISS_LIBFUZZER)
     target_compile_options(${target} PRIVATE -fno-sanitize=all)
+  endif()
+  if(NEARMISS_FUZZING_ENGINE)  # takes back every engine's instrumentation: flags of clang, and the compilers of AFL++
+    target_compile_options(${target} PRIVATE -O2 -DNDEBUG -fno-profile-instr-generate -fno-coverage-mapping
+      -fno-sanitize-coverage=trace-pc-guard,inline-8bit-counters,pc-table,indirect-calls,trace-cmp,trace-div,trace-gep,stack-depth)
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND};-E;env;AFL_NOOPT=1;${CMAKE_CXX_COMPILER_LAUNCHER}")
   endif()
 endfunction()

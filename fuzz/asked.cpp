@@ -14,10 +14,16 @@ namespace nearmiss::fuzz {
 
 namespace {
 
-std::vector<std::string> named_in_environment() {
-  const char* value = std::getenv("NEARMISS_SUBJECTS");
+#ifdef NEARMISS_FUZZ_SUBJECTS
+constexpr const char* instead_of_tiers = NEARMISS_FUZZ_SUBJECTS;
+#else
+constexpr const char* instead_of_tiers = "";
+#endif
+
+/// The names in a list that is separated by commas.
+std::vector<std::string> names_in(const char* list) {
   std::vector<std::string> names;
-  for (std::string_view rest = value == nullptr ? "" : value; !rest.empty();) {
+  for (std::string_view rest = list == nullptr ? "" : list; !rest.empty();) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     if (comma > 0) names.emplace_back(rest.substr(0, comma));
     rest.remove_prefix(std::min(comma + 1, rest.size()));
@@ -35,19 +41,22 @@ bool offers(const Subject& s, const Query& query) { return s.offering(query.name
 const Subject& named_subject(const std::string& name, const Query& query) {
   const Subject* s = find_subject(name);
   if (s == nullptr) {
-    cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which is no subject of this build", name));
+    cannot_run(fmt::format("the subject \"{}\" is to be asked, and this build does not have it", name));
   }
   if (!offers(*s, query)) {
-    cannot_run(fmt::format("NEARMISS_SUBJECTS names \"{}\", which does not offer this query", name));
+    cannot_run(fmt::format("the subject \"{}\" is to be asked, and it does not offer this query", name));
   }
   return *s;
 }
 
 std::vector<const Subject*> chosen_subjects(const Query& query) {
-  const std::vector<std::string> names = named_in_environment(), added = added_subjects();
+  const bool tiers = *instead_of_tiers == '\0';
+  std::vector<std::string> names = names_in(instead_of_tiers);
+  for (std::string& name : names_in(std::getenv("NEARMISS_SUBJECTS"))) names.push_back(std::move(name));
+  const std::vector<std::string> added = added_subjects();
   std::vector<const Subject*> chosen;
   for (const Subject& s : subjects()) {
-    const bool wanted = s.own || s.host != nullptr || (has(names, "added") && has(added, s.name));
+    const bool wanted = (s.own && tiers) || s.host != nullptr || (has(names, "added") && has(added, s.name));
     if (wanted && offers(s, query)) chosen.push_back(&s);
   }
   for (const std::string& name : names) {

@@ -1,5 +1,6 @@
 /// The fuzz target of the query fuzzed_query: bytes become a case, the tiers of `collide` answer it, and the judge
-/// judges the answers. A violation aborts the process and prints the case.
+/// judges the answers. A violation aborts the process and prints the case. Built with NEARMISS_FUZZ_SUBJECTS, a target
+/// asks the subjects of that list instead of the tiers.
 ///
 /// NEARMISS_SUBJECTS       more subjects to ask, by name, separated by commas; "added": those of NEARMISS_ADD that
 ///                         offer this query
@@ -65,6 +66,11 @@ void examine(const Case& c, const std::vector<Asked>& all) {
   remember(c, worst);
 }
 
+const std::vector<Asked>& all_asked() {
+  static const std::vector<Asked> all = asked_subjects(query());
+  return all;
+}
+
 }  // namespace
 }  // namespace nearmiss::fuzz
 
@@ -72,11 +78,10 @@ using namespace nearmiss;
 
 /// Returns -1 for bytes that are not a case: libFuzzer then does not add them to the corpus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::vector<fuzz::Asked> asked = fuzz::asked_subjects(fuzz::query());
   auto c = case_from_bytes(fuzz::query(), {data, size});
   if (!c) return -1;
   c->origin = "fuzz";
-  fuzz::examine(*c, asked);
+  fuzz::examine(*c, fuzz::all_asked());
   return 0;
 }
 
@@ -117,9 +122,12 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
   return put(*c, out, max_out);
 }
 
-/// Disables the length control of libFuzzer: every case of a query has one of two lengths, so short inputs are never
-/// valid.
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+/// Makes the list of subjects, which would otherwise count as coverage of the first case. Disables the length control
+/// of libFuzzer: every case of a query has one of two lengths, so short inputs are never valid. For another engine,
+/// whose main has other arguments, the file of options does this.
+extern "C" int LLVMFuzzerInitialize([[maybe_unused]] int* argc, [[maybe_unused]] char*** argv) {
+  fuzz::all_asked();
+#ifndef NEARMISS_FUZZING_ENGINE
   static std::vector<char*> arguments;
   for (int i = 0; i < *argc; ++i) {
     if (std::strcmp((*argv)[i], "--abort-on-violation") == 0) {
@@ -133,6 +141,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   *argc = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   *argv = arguments.data();
+#endif
   return 0;
 }
 

@@ -671,11 +671,92 @@ TEST(RunSchema, RejectsBrokenDocuments) {
   }
 }
 
+const fs::path sources = NEARMISS_SOURCE_FOLDER;
+
+TEST(OssFuzz, WritesAKitForALibrary) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "skim" / ".git");
+  fs::create_directory(folder / "skim" / "nearmiss");
+  fs::copy(sources / "docs" / "example-library", folder / "skim" / "nearmiss" / "adapter");
+  const std::string add = (folder / "skim/nearmiss/adapter/nearmiss.cmake").string(), kit = (folder / "kit").string();
+  const Ran ran = nearmiss({"oss-fuzz", "--subject", "skim", "--add", add, "--out", kit, "--repository",
+                            "https://example.org/me/skim.git", "--contact", "me@example.org"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(ran.out,
+            "written: " + kit + ", for skim\nleft to fill in, where OWNER stands, or by these options: --nearmiss\n");
+  std::set<std::string> files;
+  for (const auto& e : fs::recursive_directory_iterator(kit)) {
+    if (!e.is_regular_file()) continue;
+    const std::string name = fs::relative(e.path(), kit).string(), text = read_file(e.path());
+    files.insert(name);
+    for (const char* word : {"@subject@", "@project@", "@add@", "@nearmiss@", "@repository@", "@contact@", "@own@",
+                             "@kit@", "@oss@", "@cfl@"}) {
+      EXPECT_EQ(text.find(word), std::string::npos) << name << " holds " << word;
+    }
+  }
+  EXPECT_EQ(files,
+            (std::set<std::string>{".clusterfuzzlite/Dockerfile", ".clusterfuzzlite/build.sh",
+                                   ".clusterfuzzlite/project.yaml", ".github/workflows/cflite_batch.yml",
+                                   ".github/workflows/cflite_cron.yml", ".github/workflows/cflite_pr.yml", "README.md",
+                                   "oss-fuzz/Dockerfile", "oss-fuzz/build.sh", "oss-fuzz/project.yaml"}));
+  const std::string script = read_file(fs::path(kit) / "oss-fuzz/build.sh");
+  EXPECT_NE(script.find("\nexport NEARMISS_ADD=$SRC/skim/nearmiss/adapter/nearmiss.cmake "), std::string::npos)
+      << script;
+  EXPECT_NE(fs::status(fs::path(kit) / "oss-fuzz/build.sh").permissions() & fs::perms::owner_exec, fs::perms::none);
+  const std::string image = read_file(fs::path(kit) / "oss-fuzz/Dockerfile");
+  EXPECT_NE(image.find("git clone --depth 1 https://example.org/me/skim.git $SRC/skim\n"), std::string::npos) << image;
+  EXPECT_EQ(read_file(fs::path(kit) / ".clusterfuzzlite/Dockerfile").find("example.org"), std::string::npos);
+}
+
+/// The project's own files are what the command writes for a tier of collide.
+TEST(OssFuzz, WroteTheFilesOfThisProject) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"oss-fuzz", "-s", "collide-fast-double", "-o", (folder / "own").string()});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  std::size_t compared = 0;
+  for (const auto& e : fs::recursive_directory_iterator(folder / "own")) {
+    if (!e.is_regular_file()) continue;
+    const fs::path name = fs::relative(e.path(), folder / "own");
+    const fs::path own = *name.begin() == "oss-fuzz" ? sources / "fuzz" / name : sources / name;
+    EXPECT_EQ(read_file(own), read_file(e.path())) << own << ": nearmiss oss-fuzz -s collide-fast-double writes this";
+    ++compared;
+  }
+  EXPECT_EQ(compared, 9u);
+}
+
+TEST(OssFuzz, RefusesWhatItCannotUse) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "kit").string(), add = (sources / "docs/example-library/nearmiss.cmake").string();
+  const std::string full = folder.file("full", "");
+  const std::pair<std::vector<std::string>, std::string> cases[] = {
+      {{"--out", out}, "--subject is missing"},
+      {{"--subject", "skim"}, "--out is missing"},
+      {{"--subject", "skin", "--add", add, "--out", out}, add + ": it adds no subject 'skin'"},
+      {{"--subject", "fcl-of-nobody", "--out", out}, "no file of this build adds 'fcl-of-nobody'"},
+      {{"--subject", "skim", "--add", (folder / "none").string(), "--out", out}, "cannot be read"},
+      {{"--subject", "skim", "--add", add, "--out", folder.path().string()}, "is not empty"},
+      {{"--subject", "skim", "--add", add, "--out", full}, "is not empty"},
+      {{"--subject", "skim", "--add", add, "--out", out, "--repository", "git@example.org"}, "is no URL"},
+      {{"--subject", "skim", "--add", add, "--out", out, "--nearmiss", "https://a b"}, "is no URL"},
+      {{"--subject", "skim", "--add", add, "--out", out, "--contact", "me"}, "is no address"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    std::vector<std::string> all{"oss-fuzz"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Ran ran = nearmiss(all);
+    EXPECT_EQ(ran.exit_code, 2) << message;
+    EXPECT_NE(ran.err.find(message), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_FALSE(fs::exists(out)) << message;
+  }
+}
+
 TEST(Help, IsAManualForEveryCommand) {
   const Ran overview = nearmiss({"help"});
   EXPECT_EQ(overview.exit_code, 0);
   EXPECT_EQ(nearmiss({"--help"}).out, overview.out);
-  for (const char* command : {"list", "run", "nightly", "relations", "extremes", "replay", "import", "completion"}) {
+  for (const char* command :
+       {"list", "run", "nightly", "relations", "extremes", "replay", "import", "oss-fuzz", "completion"}) {
     EXPECT_NE(overview.out.find(std::string("\n    ") + command + " "), std::string::npos);
     const Ran page = nearmiss({"help", command});
     EXPECT_EQ(page.exit_code, 0);

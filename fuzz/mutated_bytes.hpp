@@ -1,0 +1,24 @@
+/// The generator's mutators as a mutation of bytes, for an engine that has neither the oracle nor the subjects.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
+
+namespace nearmiss {
+
+/// A case near a special configuration, as bytes: the case in `bytes` after 1 to 3 moves of the generator, or a
+/// generated case where `bytes` hold none. `seed` alone decides which.
+inline std::vector<std::uint8_t> mutated_case(const Query& query, std::span<const std::uint8_t> bytes,
+                                              std::uint64_t seed) {
+  if (auto c = case_from_bytes(query, bytes)) {
+    mutate(*c, seed);
+    return case_to_bytes(*c);
+  }
+  return case_to_bytes(generate(query, seed % 4 < 2 ? Scalar::float32 : Scalar::float64, seed, 0));
+}
+
+}  // namespace nearmiss
