@@ -453,6 +453,18 @@ std::vector<Alternative> each_once(std::vector<Alternative> all) {
 
 }  // namespace
 
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved) {
+  constexpr int halvings = 4;  // to 1/16
+  const FloatingPointScope standard_modes;
+  const Examination x(question, answer);
+  double above = proved.above, step = std::max(proved.above, 1.0);
+  for (int i = 0; i < halvings; ++i) {
+    step /= 2;
+    if (!x.within(above + step).may_match) above += step;
+  }
+  return above;
+}
+
 bool exact_decision(const Case& question) {
   const FloatingPointScope standard_modes;
   const Answer none{};

@@ -116,6 +116,11 @@ enum class Detail {
 /// of the oracle.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
 
+/// A lower bound of the backward error of the whole answer that is finer than the ladder: at least `proved`, the bound
+/// of judge(), and below its next rung, in steps of 1/16 of the rung (of 1 on rung 0). Like a rung it is proved by
+/// itself: no input within so many epsilon has an exact answer that matches. For an answer with the status answered.
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved);
+
 /// The exact decision alone, at the least cost. Thread-safe.
 bool exact_decision(const Case& question);
 

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
-/// The shares of the total time for properties, of which half is for relations, and for fuzzing; and the share of the
-/// fuzzing time for judging the cases that it found.
-constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1;
+/// The shares of the total time for climbing, for properties, of which half is for relations, and for fuzzing; and the
+/// share of the fuzzing time for judging the cases that it found.
+constexpr double climbing_share = 1.0 / 12, properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1;
 
 Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
   return a + std::chrono::duration_cast<Clock::duration>((b - a) * share);
@@ -181,6 +181,13 @@ Json examine_fuzzed(Run& run) {
   return {{"files", files.size()}, {"examined", examined}, {"unreadable", unreadable}};
 }
 
+/// Climbs towards the worst errors of every subject.
+void climb(Run& run) {
+  Climber climber({run.settings().queries, run.settings().subjects, run.settings().seed});
+  run.climb(climber);
+  fmt::print("climbing: {}; the worst are in worst/\n", climber.summary());
+}
+
 /// Related cases of every subject. Returns 0, 1 for broken promises, or InternalError's exit code.
 int relate(Run& run, Clock::time_point until) {
   run.set_activity("relations");
@@ -228,8 +235,10 @@ class NightlyCommand : public Command {
     return {
         "nightly",
         "examine every subject for a given time: stored and generated cases, relations, properties, fuzzing",
-        {"First every subject answers every stored case (seeds and regressions), and the findings are "
+        {"First the tiers of collide answer their stored worst cases (corpus/worst/), and every subject answers every "
+         "stored case (seeds and regressions), and the findings are "
          "compared with the stored expectations. Then new cases are generated for all queries and subjects. A "
+         "twelfth of the time goes to climbing towards the worst errors, as in 'nearmiss run --climb'. A "
          "sixth of the time goes to properties: half of it to relations between answers, as in 'nearmiss "
          "relations', and half to the property tests of this build, which ask the tiers of collide new cases "
          "with fresh seeds. In the last third of the time the fuzz targets run as separate processes, and "
@@ -238,7 +247,7 @@ class NightlyCommand : public Command {
          "not built, the summary and the index say so, and the generated cases get their time. A target that "
          "ends with an error (for example of a sanitizer) makes the exit code 1, and so does a failed "
          "property.",
-         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss "
+         "The run folder is that of 'nearmiss run --climb', with relations.json and relations/ of 'nearmiss "
          "relations', properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of "
          "the fuzz targets, and fuzz/ for their files and messages. Give the same folder every night to keep "
          "the corpus."},
@@ -277,11 +286,14 @@ class NightlyCommand : public Command {
     fmt::print("seed {}, for {}, into {}\n{}\n", seed, duration_text(seconds), run.settings().folder.string(),
                targets_text(found));
     std::fflush(stdout);
+    run.ask_worst_cases();
     replay_stored(run);
     const double later = (found.targets.empty() ? 0 : fuzzing_share);
-    run.set_until(between(begin, end, 1 - later - properties_share));
+    run.set_until(between(begin, end, 1 - later - properties_share - climbing_share));
     run.set_activity("generated cases");
     run.generate(std::nullopt);
+    run.set_until(between(begin, end, 1 - later - properties_share));
+    climb(run);
     run.set_until(end);
     const int related = relate(run, between(begin, end, 1 - later - properties_share / 2));
     bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;

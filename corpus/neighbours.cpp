@@ -1,0 +1,106 @@
+#include "corpus/neighbours.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "corpus/case_builder.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The bits of a finite float as an integer of the same order: neighbouring floats have neighbouring integers, and both
+/// zeros have 0.
+template <class Float, class Int>
+double float_moved_by(double x, std::int64_t ulps) {
+  constexpr Int lowest = std::numeric_limits<Int>::min();
+  const Int largest = std::bit_cast<Int>(std::numeric_limits<Float>::max());
+  const Int bits = std::bit_cast<Int>(Float(x));
+  const std::int64_t place = bits < 0 ? std::int64_t{lowest} - bits : std::int64_t{bits};
+  const Int moved = Int(std::clamp<std::int64_t>(place + ulps, -std::int64_t{largest}, largest));
+  return std::bit_cast<Float>(moved < 0 ? Int(lowest - moved) : moved);
+}
+
+int digits_of(Scalar s) { return s == Scalar::float32 ? 24 : 53; }
+
+bool may_move(Role role) { return role != Role::flag && role != Role::index; }
+
+bool is_valid(const Case& c) {
+  return std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); }) &&
+         !c.query->broken(c.values);
+}
+
+/// x with `bits` low bits cleared to the nearest such number, or mirrored about it.
+double without_low_bits(double x, int bits, bool mirrored, Scalar scalar) {
+  const double grid = std::ldexp(ulp(x, scalar), bits);
+  const double cleared = std::nearbyint(x / grid) * grid;
+  return rounded_to(scalar, mirrored ? cleared + (cleared - x) : cleared);
+}
+
+/// Another number of the role of number `i`, or its own value.
+double number_of_same_role(const Case& c, std::size_t i, Random& random) {
+  const std::size_t first = random.below(c.values.size());
+  for (std::size_t k = 0; k < c.values.size(); ++k) {
+    const std::size_t other = (first + k) % c.values.size();
+    if (other != i && c.query->inputs[other].role == c.query->inputs[i].role) return c.values[other];
+  }
+  return c.values[i];
+}
+
+double changed(const Case& c, std::size_t i, Random& random) {
+  constexpr std::size_t kinds = 10;  // six in ten are steps of ulps
+  constexpr int largest_exponent_step = 3;
+  const double x = c.values[i];
+  switch (random.below(kinds)) {
+    case 0: return rounded_to(c.scalar, std::ldexp(x, random.between(1, largest_exponent_step) * int(random.sign())));
+    case 1: return random.one_in(2) ? -x : number_of_same_role(c, i, random);
+    case 2: return without_low_bits(x, random.between(1, digits_of(c.scalar) - 1), true, c.scalar);
+    case 3: return without_low_bits(x, random.between(1, digits_of(c.scalar) - 1), false, c.scalar);
+    default: {
+      const std::int64_t ulps = std::int64_t{1} << random.below(std::size_t(digits_of(c.scalar)));
+      return moved_by_ulps(x, random.one_in(2) ? ulps : -ulps, c.scalar);
+    }
+  }
+}
+
+/// The index of a number that may move; the inputs of every query have one.
+std::size_t number_that_may_move(const Query& query, Random& random) {
+  std::size_t i = random.below(query.inputs.size());
+  while (!may_move(query.inputs[i].role)) i = (i + 1) % query.inputs.size();
+  return i;
+}
+
+}  // namespace
+
+double moved_by_ulps(double x, std::int64_t ulps, Scalar scalar) {
+  return scalar == Scalar::float32 ? float_moved_by<float, std::int32_t>(x, ulps)
+                                   : float_moved_by<double, std::int64_t>(x, ulps);
+}
+
+Case neighbour(const Case& of, int changes, std::uint64_t seed) {
+  constexpr int attempts = 8;
+  Random random(seed);
+  Case c = of;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    for (int k = 0; k < changes; ++k) {
+      const std::size_t i = number_that_may_move(*c.query, random);
+      c.values[i] = changed(c, i, random);
+    }
+    if (c.values != of.values && is_valid(c)) return c;
+    c.values = of.values;
+  }
+  return c;
+}
+
+std::optional<Case> beyond(std::span<const double> before, const Case& here, double factor) {
+  Case c = here;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (!may_move(c.query->inputs[i].role)) continue;
+    c.values[i] = rounded_to(c.scalar, here.values[i] + factor * (here.values[i] - before[i]));
+  }
+  return c.values != here.values && is_valid(c) ? std::optional(std::move(c)) : std::nullopt;
+}
+
+}  // namespace nearmiss
