@@ -465,6 +465,20 @@ double finer_backward(const Case& question, const Answer& answer, const Backward
   return above;
 }
 
+double estimated_backward(const Case& question, const Answer& answer, double forward_ulps) {
+  constexpr double widened = 1024;  // epsilon: far above the roundings of the intervals themselves
+  const FloatingPointScope standard_modes;
+  const Examination x(question, answer);
+  const double slope = (x.within(widened).ulps_at_most - x.within(0).ulps_at_most) / widened;
+  return slope > 0 && std::isfinite(slope) ? forward_ulps / slope : 0;
+}
+
+double decision_margin(const Case& question) {
+  const FloatingPointScope standard_modes;
+  const Answer none{};
+  return Examination(question, none).margin().value_or(Backward{-1}).above;
+}
+
 bool exact_decision(const Case& question) {
   const FloatingPointScope standard_modes;
   const Answer none{};

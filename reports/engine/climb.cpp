@@ -50,6 +50,7 @@ Climb::Climb(Settings settings) : settings_(std::move(settings)), random_(seed_o
   }
   settings_.known = std::move(exact);
   if (settings_.known.empty() || settings_.source == Source::generator) phase_ = Phase::scout;
+  if (query().outputs.empty()) guide_ = Guide::decision;
 }
 
 std::span<const Case> Climb::propose(std::size_t most) {
@@ -112,16 +113,24 @@ void Climb::fit_proposed() {
   }
 }
 
-double Climb::backward_height(const Case& c, const Answer& answer, const Backward& proved) const {
-  const double next_rung = std::max(1.0, 2 * proved.above);
+double Climb::guide_of(const Case& c, const Answer& answer, const Finding& f) const {
+  constexpr double beyond_the_flip = 1;  // a wrong decision lies beyond it; before it the guide is at most 0
+  if (guide_ == Guide::decision)
+    return answer.yes != f.truth_yes ? beyond_the_flip : -std::max(0.0, decision_margin(c));
+  return f.forward_ulps > 1 ? estimated_backward(c, answer, f.forward_ulps) : f.forward_ulps - 1;
+}
+
+Climb::Height Climb::backward_height(const Case& c, const Answer& answer, const Finding& f) const {
+  Height h{f.backward ? f.backward->above : 0, guide_of(c, answer, f)};
+  const double next_rung = std::max(1.0, 2 * h.error);
   const bool may_be_worse = phase_ != Phase::hill || next_rung > here_.height.error;
-  return may_be_worse ? finer_backward(c, answer, proved) : proved.above;
+  if (f.backward && may_be_worse) h.error = finer_backward(c, answer, *f.backward);
+  return h;
 }
 
 std::optional<Climb::Height> Climb::height_of(const Case& c, const Answer& answer, const Finding& f) const {
   if (!is_compared(f) || !std::isfinite(f.forward_ulps)) return std::nullopt;
-  if (kind() == ErrorKind::forward) return Height{f.forward_ulps, 0};
-  return Height{f.backward ? backward_height(c, answer, *f.backward) : -1.0, f.forward_ulps};
+  return kind() == ErrorKind::forward ? Height{f.forward_ulps, 0} : backward_height(c, answer, f);
 }
 
 void Climb::take(std::size_t i, const Answer& answer, const Finding& f) {
@@ -180,21 +189,25 @@ void Climb::end_hill() {
   begin_hill();
 }
 
-/// Begins at the worst start left; without one, the next round looks for starts: in turn among generated cases and
-/// around the tops of earlier hills.
+/// Begins at the worst start left.
 void Climb::begin_hill() {
   rising_ = false;
   rounds_without_rise_ = 0;
   before_.clear();
-  if (starts_.empty()) {
-    phase_ = kicks_next_ && !tops_.empty() ? Phase::kick : Phase::scout;
-    kicks_next_ = !kicks_next_;
-    return;
-  }
+  if (starts_.empty()) return look_for_starts();
   phase_ = Phase::hill;
   here_ = std::move(starts_.back());
   starts_.pop_back();
   mark_as_climbed(here_.question);
+}
+
+/// The next round looks for starts: in turn around the tops of earlier hills and among generated cases. The guides take
+/// turns every second time, so that each looks in both ways.
+void Climb::look_for_starts() {
+  phase_ = kicks_next_ && !tops_.empty() ? Phase::kick : Phase::scout;
+  kicks_next_ = !kicks_next_;
+  if (kicks_next_ && decides(query().kind) && !query().outputs.empty())
+    guide_ = guide_ == Guide::numbers ? Guide::decision : Guide::numbers;
 }
 
 }  // namespace nearmiss

@@ -45,8 +45,8 @@ class Climb {
   const Query& query() const { return *settings_.query; }
   const Subject& subject() const { return *settings_.subject; }
   ErrorKind kind() const { return settings_.kind; }
-  /// The detail that findings for take() need.
-  Detail detail() const { return kind() == ErrorKind::forward ? Detail::forward : Detail::verdict; }
+  /// The detail that findings for take() need: the exact forward error also leads to backward errors.
+  static constexpr Detail detail = Detail::forward;
 
   /// The cases of the next round, at most `most`: valid, exact in the subject's scalar. They stay until the next call.
   std::span<const Case> propose(std::size_t most);
@@ -71,10 +71,10 @@ class Climb {
   double seconds = 0;  ///< time that the climb has taken so far; of its driver
 
  private:
-  /// Orders cases. Most answers have no proved backward error; of those the forward error decides.
+  /// Orders cases. Most answers have no proved backward error: the guide orders them, and is never a record.
   struct Height {
-    double error = -1;
-    double tie_break = 0;
+    double error = 0;  ///< proved
+    double guide = 0;  ///< of a backward climb: the larger, the sooner an error may be proved nearby
     auto operator<=>(const Height&) const = default;
   };
   struct Place {
@@ -82,21 +82,27 @@ class Climb {
     Height height;
   };
   enum class Phase { known, scout, kick, hill };
+  /// What leads a backward climb where nothing is proved: the estimated backward error of the numbers, or the nearness
+  /// of the decision's flip, where a decision may be wrong.
+  enum class Guide { numbers, decision };
 
   void propose_generated(std::size_t count);
   void propose_kicks(std::size_t count);
   void propose_steps(std::size_t count);
   void fit_proposed();
   std::optional<Height> height_of(const Case& c, const Answer& answer, const Finding& f) const;
-  double backward_height(const Case& c, const Answer& answer, const Backward& proved) const;
+  double guide_of(const Case& c, const Answer& answer, const Finding& f) const;
+  Height backward_height(const Case& c, const Answer& answer, const Finding& f) const;
   void keep(const Case& c, const Height& h);
   void compare_with_record(const Case& c, const Answer& answer);
   void end_steps();
   void end_hill();
   void begin_hill();
+  void look_for_starts();
 
   Settings settings_;
   Phase phase_ = Phase::known;
+  Guide guide_ = Guide::numbers;
   std::vector<Case> proposed_;
   std::uint64_t taken_ = 0, asked_ = 0, proposed_count_ = 0, hills_ = 0;
   std::uint64_t next_generated_ = 0;

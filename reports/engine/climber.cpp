@@ -87,7 +87,7 @@ void Climber::run(Campaign& campaign, const std::function<void(const Climb&)>& t
     const auto begin = Campaign::Clock::now();
     turn(*current_);
     const Subject* subject = &current_->subject();
-    campaign.examine_searched({&subject, 1}, current_->propose(left(*current_)), current_->detail());
+    campaign.examine_searched({&subject, 1}, current_->propose(left(*current_)), Climb::detail);
     current_->end_round();
     current_->seconds += Campaign::seconds_since(begin);
   }
