@@ -14,12 +14,14 @@ namespace nearmiss {
 
 namespace {
 
-/// Cases of a round. Generated cases are cheap to be wrong about: few of them are worth a climb.
-constexpr std::size_t steps_in_round = 64, generated_in_round = 256;
+/// Cases of a round. A hill takes about as many cases as one round of generated cases.
+constexpr std::size_t steps_in_round = 64, generated_in_round = 1024;
 /// The hills that begin at the worst cases of one round of generated or known cases, or of kicks.
 constexpr std::size_t starts_from_round = 2, starts_from_known = 8;
-/// A hill counts as climbed after so many rounds without a worse case.
+/// A hill counts as climbed after so many rounds that were not higher, by this part, than a round before them: where
+/// errors are near the size of the numbers, a climb could go on ulp by ulp without end.
 constexpr int patience = 8;
+constexpr double clear_part = 1.0 / 64;
 constexpr std::size_t most_tops = 8;
 /// Numbers that a kick changes: enough to leave the hill, too few to forget it.
 constexpr int least_kick = 2, most_kick = 6;
@@ -41,6 +43,11 @@ void mark_as_climbed(Case& c) {
 }
 
 }  // namespace
+
+bool Climb::Height::clearly_above(const Height& other) const {
+  if (error != other.error) return error > other.error * (1 + clear_part);
+  return guide > other.guide + clear_part * std::abs(other.guide);
+}
 
 Climb::Climb(Settings settings) : settings_(std::move(settings)), random_(seed_of(settings_)) {
   if (settings_.stored) settings_.known.insert(settings_.known.begin(), settings_.stored->question);
@@ -177,8 +184,9 @@ void Climb::end_steps() {
     if (rising_) before_ = std::move(here_.question.values);
     here_ = std::move(found_.front());
   }
-  rounds_without_rise_ = rising_ ? 0 : rounds_without_rise_ + 1;
-  if (rounds_without_rise_ == patience) end_hill();
+  ++rounds_below_milestone_;
+  if (here_.height.clearly_above(milestone_)) milestone_ = here_.height, rounds_below_milestone_ = 0;
+  if (rounds_below_milestone_ == patience) end_hill();
 }
 
 void Climb::end_hill() {
@@ -192,12 +200,13 @@ void Climb::end_hill() {
 /// Begins at the worst start left.
 void Climb::begin_hill() {
   rising_ = false;
-  rounds_without_rise_ = 0;
+  rounds_below_milestone_ = 0;
   before_.clear();
   if (starts_.empty()) return look_for_starts();
   phase_ = Phase::hill;
   here_ = std::move(starts_.back());
   starts_.pop_back();
+  milestone_ = here_.height;
   mark_as_climbed(here_.question);
 }
 

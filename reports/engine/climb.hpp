@@ -76,6 +76,7 @@ class Climb {
     double error = 0;  ///< proved
     double guide = 0;  ///< of a backward climb: the larger, the sooner an error may be proved nearby
     auto operator<=>(const Height&) const = default;
+    bool clearly_above(const Height& other) const;
   };
   struct Place {
     Case question;
@@ -113,7 +114,8 @@ class Climb {
   Place here_;
   std::vector<double> before_;  ///< the numbers of the case before the last step up; empty at the start of a hill
   bool rising_ = false;         ///< the last round led up
-  int rounds_without_rise_ = 0;
+  Height milestone_;            ///< the height that a climb has to clear before its patience ends
+  int rounds_below_milestone_ = 0;
   std::vector<Place> found_;   ///< the worst cases of the round, the worst first
   std::vector<Place> starts_;  ///< where hills may begin, the worst last
   std::vector<Place> tops_;    ///< the worst tops of hills, the worst first
