@@ -148,15 +148,16 @@ void Climb::take(std::size_t i, const Answer& answer, const Finding& f) {
     stored_now_ = error_of(c, answer, subject().standard_for(query().name), kind()).value_or(0);
   const std::optional<Height> h = height_of(c, answer, f);
   if (!h) return;
-  if (h->error > 0 && (!record_ || h->error > record_->error)) compare_with_record(c, answer);
+  if (h->error > 0 && (!record_ || h->error > record_->error)) compare_with_record(c, answer, f);
   keep(c, *h);
 }
 
 /// Measures at full detail: the error of a record is the one that error_of() gives.
-void Climb::compare_with_record(const Case& c, const Answer& answer) {
+void Climb::compare_with_record(const Case& c, const Answer& answer, const Finding& f) {
   const std::optional<double> error = error_of(c, answer, subject().standard_for(query().name), kind());
   if (!error || !(*error > 0) || (record_ && *error <= record_->error)) return;
   record_ = WorstCase{c, subject().name, kind(), *error};
+  record_is_violation_ = f.is_proved();
 }
 
 void Climb::keep(const Case& c, const Height& h) {

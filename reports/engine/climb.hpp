@@ -58,6 +58,8 @@ class Climb {
 
   /// The worst case so far, with error_of(). Its error never decreases. Empty where no error was proved.
   const std::optional<WorstCase>& record() const { return record_; }
+  /// True where the record's answer is proved to differ by more than the subject's contract, or the measure, allows.
+  bool record_is_violation() const { return record_is_violation_; }
   /// The stored worst case's error by today's subject and judge; 0 where nothing is proved any more. Empty without a
   /// stored case, and before it was asked.
   std::optional<double> stored_now() const { return stored_now_; }
@@ -95,7 +97,7 @@ class Climb {
   double guide_of(const Case& c, const Answer& answer, const Finding& f) const;
   Height backward_height(const Case& c, const Answer& answer, const Finding& f) const;
   void keep(const Case& c, const Height& h);
-  void compare_with_record(const Case& c, const Answer& answer);
+  void compare_with_record(const Case& c, const Answer& answer, const Finding& f);
   void end_steps();
   void end_hill();
   void begin_hill();
@@ -120,6 +122,7 @@ class Climb {
   std::vector<Place> starts_;  ///< where hills may begin, the worst last
   std::vector<Place> tops_;    ///< the worst tops of hills, the worst first
   std::optional<WorstCase> record_;
+  bool record_is_violation_ = false;
   std::optional<double> stored_now_;
 };
 

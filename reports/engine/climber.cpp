@@ -136,6 +136,7 @@ std::string update_worst_case(const Climb& c) {
   if (c.stored() && !c.stored_now()) return "";  // interrupted before the stored case was asked
   const double before = c.stored() ? c.stored()->error : 0, after = c.record() ? c.record()->error : 0;
   if (before == after || was_overtaken(file, c)) return "";
+  if (c.record_is_violation()) return fmt::format("{}: not stored: the worst case breaks the contract", file.string());
   if (c.record()) {
     make_folder(file.parent_path());
     write_file(file, pretty_json(worst_case_to_json(*c.record())));

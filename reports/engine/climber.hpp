@@ -52,8 +52,9 @@ class Climber : public Sink {
 
 /// Writes the records of climbs of our own subjects into the stored worst cases (corpus/worst/), where they are worse
 /// than what the stored case gives today. Where the stored case itself gives another error today, because the subject
-/// or the judge changed, its file gets today's error, or is removed where no error is left. Returns a line for each
-/// changed file. Throws IoError where a file cannot be written.
+/// or the judge changed, its file gets today's error, or is removed where no error is left. A record that breaks its
+/// contract is not stored: it is a bug and has a report. Returns a line for each changed file and each such record.
+/// Throws IoError where a file cannot be written.
 std::vector<std::string> update_worst_cases(const Climber& climber);
 
 }  // namespace nearmiss
