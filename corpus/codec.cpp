@@ -367,7 +367,7 @@ ordered_json case_to_json(const Case& c) {
 Case case_from_json(const json& j, const std::string& where) {
   const Reader reader(where);
   reader.expect_object(j, "");
-  reader.expect_only(j, "", std::array{"query", "scalar", "inputs", "origin", "note", "expected"});
+  reader.expect_only(j, "", std::array{"query", "scalar", "inputs", "origin", "note", "expected", "worst"});
   Case c;
   c.query = reader.query(reader.member(j, "", "query"));
   c.scalar = reader.scalar(reader.member(j, "", "scalar"));

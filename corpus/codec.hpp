@@ -20,7 +20,7 @@ namespace nearmiss {
 nlohmann::ordered_json case_to_json(const Case& c);
 /// Throws BadInput, with `where` (a file name) in the message, for an unknown query, a missing, surplus or mistyped
 /// field, a number that the scalar cannot hold exactly, and for inputs that break a rule. "origin" may be missing;
-/// "note" and "expected" (see store.hpp) are allowed and ignored.
+/// "note", "expected" and "worst" (see store.hpp) are allowed and ignored.
 Case case_from_json(const nlohmann::json& j, const std::string& where);
 
 /// Nests any list of fields with its values like the inputs of a case. JSON has no numbers that are not finite: they

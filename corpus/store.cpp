@@ -64,6 +64,16 @@ Expected expectation_from(const json& j, const std::string& where, const std::st
   return e;
 }
 
+ErrorKind kind_from(const std::string& kind, const std::string& unit, const std::string& where) {
+  for (const ErrorKind k : error_kinds) {
+    if (kind == name_of(k) && unit == unit_of(k)) return k;
+  }
+  throw BadInput(
+      fmt::format("{}: worst.kind is \"{}\" and worst.unit \"{}\": they must be \"forward\" and \"ulps\", or "
+                  "\"backward\" and \"epsilon\"",
+                  where, kind, unit));
+}
+
 }  // namespace
 
 fs::path corpus_folder() {
@@ -105,6 +115,45 @@ std::vector<StoredCase> stored_cases(const Query& query) {
         throw BadInput(fmt::format("{}: query is \"{}\": it must be that of its folder", file.string(), own.name));
       }
     }
+  }
+  return all;
+}
+
+fs::path worst_case_file(const Query& query, const std::string& subject, ErrorKind kind) {
+  return corpus_folder() / "worst" / query.name / fmt::format("{}-{}.json", subject, name_of(kind));
+}
+
+WorstCase read_worst_case(const fs::path& file) {
+  const std::string where = file.string();
+  const json j = parse_json(read_file(file), where);
+  WorstCase w{case_from_json(j, where), {}, {}, 0};
+  const auto worst = j.find("worst");
+  if (worst == j.end() || !worst->is_object()) throw BadInput(fmt::format("{}: worst must be an object", where));
+  for (const auto& item : worst->items()) {
+    if (item.key() != "subject" && item.key() != "kind" && item.key() != "error" && item.key() != "unit")
+      throw BadInput(fmt::format("{}: worst.{} is unknown", where, item.key()));
+  }
+  w.subject = word(*worst, "subject", where, "worst");
+  w.kind = kind_from(word(*worst, "kind", where, "worst"), word(*worst, "unit", where, "worst"), where);
+  const auto error = worst->find("error");
+  const bool is_error = error != worst->end() && error->is_number() && error->get<double>() > 0;
+  if (!is_error) throw BadInput(fmt::format("{}: worst.error must be a number above 0", where));
+  w.error = error->get<double>();
+  return w;
+}
+
+nlohmann::ordered_json worst_case_to_json(const WorstCase& w) {
+  nlohmann::ordered_json j = case_to_json(w.question);
+  j["worst"] = {{"subject", w.subject}, {"kind", name_of(w.kind)}, {"error", w.error}, {"unit", unit_of(w.kind)}};
+  return j;
+}
+
+std::vector<WorstCase> worst_cases(const Query& query) {
+  std::vector<WorstCase> all;
+  for (const fs::path& file : json_files(corpus_folder() / "worst" / query.name)) {
+    const WorstCase& w = all.emplace_back(read_worst_case(file));
+    if (file != worst_case_file(*w.question.query, w.subject, w.kind))
+      throw BadInput(fmt::format("{}: the file must be named after its query, subject and kind", file.string()));
   }
   return all;
 }

@@ -455,18 +455,38 @@ std::vector<Alternative> each_once(std::vector<Alternative> all) {
 
 }  // namespace
 
-bool exact_decision(const Case& question) {
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved) {
+  constexpr int halvings = 4;  // to 1/16
   const FloatingPointScope standard_modes;
-  const Answer none{};
-  const Examination x(question, none);
-  const Enclosure here = x.within(0);
-  return (here.decided() ? here : x.exactly()).may_be_yes;
+  const Examination x(question, answer);
+  double above = proved.above, step = std::max(proved.above, 1.0);
+  for (int i = 0; i < halvings; ++i) {
+    step /= 2;
+    if (!x.within(above + step).may_match) above += step;
+  }
+  return above;
+}
+
+double estimated_backward(const Case& question, const Answer& answer, double forward_ulps) {
+  constexpr double widened = 1024;  // epsilon: far above the roundings of the intervals themselves
+  const FloatingPointScope standard_modes;
+  const Examination x(question, answer);
+  const double slope = (x.within(widened).ulps_at_most - x.within(0).ulps_at_most) / widened;
+  return slope > 0 && std::isfinite(slope) ? forward_ulps / slope : 0;
 }
 
 double decision_margin(const Case& question) {
   const FloatingPointScope standard_modes;
   const Answer none{};
   return Examination(question, none).margin().value_or(Backward{-1}).above;
+}
+
+bool exact_decision(const Case& question) {
+  const FloatingPointScope standard_modes;
+  const Answer none{};
+  const Examination x(question, none);
+  const Enclosure here = x.within(0);
+  return (here.decided() ? here : x.exactly()).may_be_yes;
 }
 
 Truth truth_of(const Case& question) {

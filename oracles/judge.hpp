@@ -119,13 +119,23 @@ enum class Detail {
 /// of the oracle.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
 
-/// The exact decision alone, at the least cost. Thread-safe.
-bool exact_decision(const Case& question);
+/// A lower bound of the backward error of the whole answer that is finer than the ladder: at least `proved`, the bound
+/// of judge(), and below its next rung, in steps of 1/16 of the rung (of 1 on rung 0). Like a rung it is proved by
+/// itself: no input within so many epsilon has an exact answer that matches. For an answer with the status answered.
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved);
+
+/// A guide for a search, which proves nothing and which no finding uses: the forward error over the widening of the
+/// enclosure of the exact answers for each epsilon of the inputs, so about the backward error in epsilon where it is
+/// too small to be proved. 0 where the widening cannot be told. `forward_ulps` is that of judge().
+double estimated_backward(const Case& question, const Answer& answer, double forward_ulps);
 
 /// The margin to the nearest flip of the decision, a lower bound on the ladder: every input within so many epsilon has
 /// the same decision. Negative where the intervals cannot decide even the case itself. As in Truth, without the
 /// answers.
 double decision_margin(const Case& question);
+
+/// The exact decision alone, at the least cost. Thread-safe.
+bool exact_decision(const Case& question);
 
 /// The exact answers to a case, for people: all of them, and the margin to the nearest flip of the decision.
 struct Truth {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "corpus/store.hpp"
@@ -41,6 +42,23 @@ Json requirements(const Query& query) {
   return j;
 }
 
+Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
+
+/// The contract of each subject that promises something: {NAME: {"backward", "forward", "unit", "exact_decisions"}}, in
+/// the units of collide/contract.hpp; null: no bound.
+Json contracts(const Query& query) {
+  Json j = Json::object();
+  for (const Subject& s : subjects()) {
+    const collide::Contract& c = s.offering(query.name).contract;
+    if (s.offering(query.name).offer == Offer::not_offered || promises_nothing(c)) continue;
+    j[s.name] = {{"backward", bound_json(c.backward)},
+                 {"forward", bound_json(c.forward)},
+                 {"unit", bound_json(c.unit)},
+                 {"exact_decisions", c.exact_decisions}};
+  }
+  return j;
+}
+
 Json list_json() {
   Json queries = Json::array();
   for (const Query& q : catalogue()) {
@@ -49,6 +67,7 @@ Json list_json() {
                        {"subjects", offers(q, false)},
                        {"referees", offers(q, true)},
                        {"requires", requirements(q)},
+                       {"contracts", contracts(q)},
                        {"fuzz_target", fmt::format("fuzz_{}", q.name)},
                        {"seeds", count_seeds(q)},
                        {"properties", properties_of(q)}});

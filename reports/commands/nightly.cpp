@@ -29,9 +29,10 @@ namespace fs = std::filesystem;
 using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
-/// The shares of the total time for properties, of which half is for relations, and for fuzzing; the shares of the
-/// fuzzing time for judging the cases that it found, and for minimising corpora.
-constexpr double properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1, merging_share = 0.25;
+/// The shares of the total time for climbing, for properties, of which half is for relations, and for fuzzing; the
+/// shares of the fuzzing time for judging the cases that it found, and for minimising corpora.
+constexpr double climbing_share = 1.0 / 12, properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1,
+                 merging_share = 0.25;
 static_assert(fuzzing_share * merging_share <= 0.1, "corpora are minimised in at most a tenth of the night");
 constexpr std::uint64_t most_jobs = 1024;
 
@@ -179,6 +180,13 @@ Json examine_fuzzed(Run& run) {
   return {{"files", files.size()}, {"examined", examined}, {"unreadable", unreadable}};
 }
 
+/// Climbs towards the worst errors of every subject.
+void climb(Run& run) {
+  Climber climber({run.settings().queries, run.settings().subjects, run.settings().seed});
+  run.climb(climber);
+  fmt::print("climbing: {}; the worst are in worst/\n", climber.summary());
+}
+
 /// Related cases of every subject. Returns 0, 1 for broken promises of a subject whose night it is, or InternalError's
 /// exit code.
 int relate(Run& run, Clock::time_point until) {
@@ -228,34 +236,27 @@ class NightlyCommand : public Command {
     return {
         "nightly",
         "examine every subject for a given time: stored and generated cases, relations, properties, fuzzing",
-        {"First every subject answers the cases of earlier nights' reports in the run folder, and every stored case "
-         "(seeds "
-         "and regressions), whose findings are compared with the stored expectations. Then new cases are generated for "
-         "all queries and subjects. A sixth of the time goes to properties: half of it to relations between answers, "
-         "as "
-         "in 'nearmiss relations', and half to the property tests of this build, which ask the tiers of collide new "
-         "cases "
-         "with fresh seeds. The last third is for the fuzz targets. Corpora that have doubled are minimised first, in "
-         "at "
-         "most a quarter of that third. Then the targets run as separate processes, --jobs of them at once: each has a "
-         "turn, and those that find most have more. Their cases are judged and reported like all others. The targets "
-         "ask "
-         "the tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where "
-         "the "
-         "fuzz targets are not built, the summary and the index say so, and the generated cases get their time.",
-         "The end of the output compares the night with the earlier nights in the same folder, by query, subject and "
-         "kind of "
-         "finding: new, worse (a proved bound of at least twice the earlier ones), known, and fixed (asked again, and "
-         "right "
-         "now). The first line is about the subjects whose night it is: collide, plugins, commands and subjects of "
-         "NEARMISS_ADD. They alone decide the exit status: 1 for a new or worse finding, a finding that a stored case "
-         "does not "
-         "expect, a broken relation, a failed property, or a fuzz target that ends with an error.",
-         "The run folder is that of 'nearmiss run', with relations.json and relations/ of 'nearmiss relations', "
-         "properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of the fuzz targets, "
-         "fuzz/ for their files and messages, and fixed/ for earlier reports whose findings are fixed. Give the same "
-         "folder "
-         "every night to keep the corpus and to compare."},
+        {"First the tiers of collide answer their stored worst cases (corpus/worst/). Every subject answers the "
+         "cases of earlier nights' reports in the run folder, and every stored case (seeds and regressions), whose "
+         "findings are compared with the stored expectations. Then new cases are generated for all queries and "
+         "subjects. A twelfth of the time goes to climbing towards the worst errors, as in 'nearmiss run --climb'. "
+         "A sixth goes to properties: half of it to relations between answers, as in 'nearmiss relations', and half "
+         "to the property tests of this build, which ask the tiers of collide new cases with fresh seeds. The last "
+         "third is for the fuzz targets. Corpora that have doubled are minimised first, in at most a quarter of "
+         "that third. Then the targets run as separate processes, --jobs of them at once: each has a turn, and "
+         "those that find most have more. Their cases are judged and reported like all others. The targets ask the "
+         "tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where "
+         "the fuzz targets are not built, the summary and the index say so, and the generated cases get their time.",
+         "The end of the output compares the night with the earlier nights in the same folder, by query, subject "
+         "and kind of finding: new, worse (a proved bound of at least twice the earlier ones), known, and fixed "
+         "(asked again, and right now). The first line is about the subjects whose night it is: collide, plugins, "
+         "commands and subjects of NEARMISS_ADD. They alone decide the exit status: 1 for a new or worse finding, a "
+         "finding that a stored case does not expect, a broken relation, a failed property, or a fuzz target that "
+         "ends with an error.",
+         "The run folder is that of 'nearmiss run --climb', with relations.json and relations/ of 'nearmiss "
+         "relations', properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of the "
+         "fuzz targets, fuzz/ for their files and messages, and fixed/ for earlier reports whose findings are "
+         "fixed. Give the same folder every night to keep the corpus and to compare."},
         judging_exit_status(),
         {{"nearmiss nightly --minutes 60", "One hour."},
          {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
@@ -294,12 +295,15 @@ class NightlyCommand : public Command {
                targets_text(found));
     std::fflush(stdout);
     const std::vector<WrittenReport> earlier = run.kept().written();
+    run.ask_worst_cases();
     const std::set<std::string> again = ask_again(run, earlier);
     const std::uint64_t unexpected = replay_stored(run);
     const double later = (found.targets.empty() ? 0 : fuzzing_share);
-    run.set_until(between(begin, end, 1 - later - properties_share));
+    run.set_until(between(begin, end, 1 - later - properties_share - climbing_share));
     run.set_activity("generated cases");
     run.generate(std::nullopt);
+    run.set_until(between(begin, end, 1 - later - properties_share));
+    climb(run);
     run.set_until(end);
     const int related = relate(run, between(begin, end, 1 - later - properties_share / 2));
     bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;

@@ -52,13 +52,24 @@ class RunCommand : public Command {
          "share of cases whose exact answer is yes. EXACT: the share that intervals could not decide. The "
          "sums over all queries stand below them. With --by-class a second table has a row for each of the "
          "generator's mutators, such as knife-edge contacts or long thin shapes; a case that several mutators "
-         "made is counted in each. The last line is a summary."},
+         "made is counted in each. The last line is a summary.",
+         "With --climb the run searches for the worst errors in place of asking generated cases. Each query, subject "
+         "and kind of error (forward, backward) has a climb of its own: from the worst cases known, and from generated "
+         "ones, it moves step by step, in ulps and exponents, to the neighbouring case with the largest proved error. "
+         "The climbs share the time equally; with --cases each asks so many cases. Their cases are counted and "
+         "reported like all others, but not as exact touches, and a table has the worst errors. The run folder "
+         "receives the worst case of each climb as worst/QUERY/SUBJECT-KIND.json. A forward error has no bound where "
+         "a query is badly conditioned.",
+         "Every run first asks the stored worst cases (corpus/worst/) of the chosen queries and subjects, beyond the "
+         "number of --cases. With --measure it does not."},
         judging_exit_status(),
         {{"nearmiss run", "10,000 cases for every query and subject."},
          {"nearmiss run --subject fcl --query moving_sphere_box --cases 100000 --seed 1",
           "One subject and one query, reproducibly."},
          {"nearmiss run --measure 1e-6 --subject bullet --subject ode", "Libraries that promise nothing, compared."},
-         {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."}}};
+         {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."},
+         {"nearmiss run --climb --update-worst --seconds 600 --subject collide-fast-float",
+          "Search for worse cases than the stored ones, and store them."}}};
   }
 
   void declare(CLI::App& app) override {
@@ -68,11 +79,21 @@ class RunCommand : public Command {
     app.add_flag("--by-class", by_class_,
                  "Print also each subject's findings by the generator's mutators that made the cases")
         ->disable_flag_override();
+    CLI::Option* climb =
+        app.add_flag("--climb", climb_, "Search for the worst errors in place of asking generated cases")
+            ->disable_flag_override();
+    app.add_flag("--update-worst", update_worst_,
+                 "With --climb: store the worst cases of the tiers of collide in corpus/worst/, where they are worse "
+                 "than the stored ones")
+        ->disable_flag_override()
+        ->needs(climb)
+        ->excludes("--measure");
   }
 
   int run(const CLI::App&) override {
     if (amount_.measure) set_measure({*amount_.measure, true});
     selection_.check_offered();
+    if (update_worst_) check_own();
     const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
     RunSettings settings{typed_command_line(),
@@ -83,24 +104,44 @@ class RunCommand : public Command {
                          amount_.until(),
                          by_class_};
     Run run(std::move(settings));
-    fmt::print("seed {}, {}, into {}\n{}", seed,
-               amount_.seconds ? fmt::format("for {} s", *amount_.seconds)
-                               : count_text(*amount_.number()) + " cases for each query and subject",
-               run.settings().folder.string(), measure_text(run.settings()));
+    fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
+               measure_text(run.settings()));
     std::fflush(stdout);
-    run.generate(amount_.number());
+    run.ask_worst_cases();
+    const std::string climbs = climb_ ? climb(run) : "";
+    if (!climb_) run.generate(amount_.number());
     run.finish();
     fmt::print("\n{}\n", run.counts().table());
     if (by_class_) fmt::print("{}\n", run.counts().table_by_class());
-    fmt::print("{}{}{}\n", run.counts().touches_text(), run.kept().worst_text(), run.summary());
+    fmt::print("{}{}{}{}\n", climbs, run.counts().touches_text(), run.kept().worst_text(), run.summary());
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return run.exit_code();
   }
 
  private:
+  std::string amount_text() const {
+    if (amount_.seconds) return fmt::format("{}for {} s", climb_ ? "climbing " : "", *amount_.seconds);
+    return count_text(*amount_.number()) + (climb_ ? " cases for each climb" : " cases for each query and subject");
+  }
+  void check_own() const {
+    for (const Subject* s : selection_.subjects()) {
+      if (s->own) return;
+    }
+    throw BadInput("--update-worst: worst cases are stored of the tiers of collide, and none is chosen");
+  }
+  /// Returns the table of the worst errors, and the changed files.
+  std::string climb(Run& run) const {
+    Climber climber({run.settings().queries, run.settings().subjects, run.settings().seed, amount_.number()});
+    run.climb(climber);
+    std::string text = fmt::format("{}\nclimbed: {}\n\n", climber.table(), climber.summary());
+    if (!update_worst_) return text;
+    for (const std::string& line : update_worst_cases(climber)) text += line + "\n";
+    return text + "\n";
+  }
+
   Selection selection_;
   Amount amount_{10'000, {}, {}, {}, {}, {}};
-  bool by_class_ = false;
+  bool by_class_ = false, climb_ = false, update_worst_ = false;
 };
 
 }  // namespace

@@ -55,14 +55,15 @@ Standard Campaign::standard_for(const Subject& subject, const Query& query) cons
   return settings_.standard ? settings_.standard(subject, query) : subject.standard_for(query.name);
 }
 
-void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers) {
+void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers,
+                         Detail detail) {
   constexpr std::size_t between_looks = 64;
   const Query& query = *cases.front().query;
   if (answers.size() < cases.size() && !should_stop())
     dispatcher_.pass_over(subject, query, cases.size() - answers.size());
   const Standard standard = standard_for(subject, query);
   for (std::size_t i = 0; i < answers.size() && (i % between_looks != 0 || !should_stop()); ++i) {
-    const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, Detail::verdict);
+    const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, detail);
     if (!f) continue;
     const Examined e{cases[i], subject, answers[i], *f, dispatcher_.workers().output(subject, i), i};
     for (Sink* s : sinks_) s->take(e);
@@ -85,10 +86,15 @@ void Campaign::examine(std::span<const Subject* const> subjects, std::span<const
   ask_and_judge(subjects, cases, meanwhile);
 }
 
+void Campaign::examine_searched(std::span<const Subject* const> subjects, std::span<const Case> cases, Detail detail) {
+  for (Sink* s : sinks_) s->begin_batch({});
+  ask_and_judge(subjects, cases, {}, detail);
+}
+
 void Campaign::ask_and_judge(std::span<const Subject* const> subjects, std::span<const Case> cases,
-                             const std::function<void()>& meanwhile) {
+                             const std::function<void()>& meanwhile, Detail detail) {
   dispatcher_.ask(subjects, cases, meanwhile,
-                  [&](const Subject& s, std::span<const Answer> answers) { judge_all(s, cases, answers); });
+                  [&](const Subject& s, std::span<const Answer> answers) { judge_all(s, cases, answers, detail); });
   if (!cases.empty()) hand_on_given_up(subjects, *cases.front().query);
   for (Sink* s : sinks_) s->end_batch();
   settings_.tick();

@@ -1,5 +1,5 @@
-/// The engine: schedules cases, asks subjects, judges every answer, and passes the findings to sinks. Runs, stored
-/// cases, maps of extremes and imports differ in the source of their cases and in their sinks.
+/// The engine: schedules cases, asks subjects, judges every answer, and passes the findings to sinks. Runs, climbs,
+/// stored cases, maps of extremes and imports differ in the source of their cases and in their sinks.
 #pragma once
 
 #include <chrono>
@@ -58,6 +58,9 @@ class Campaign {
   /// the subjects work. A case that does not meet a subject's preconditions counts as not asked.
   void examine(std::span<const Subject* const> subjects, std::span<const Case> cases,
                const std::function<void()>& meanwhile = {});
+  /// The same for cases that a search proposes: they are no sample, so that sinks get an empty batch, as for a case
+  /// that is examined alone. Judges with at least this detail.
+  void examine_searched(std::span<const Subject* const> subjects, std::span<const Case> cases, Detail detail);
   /// Examines one case with subjects of any scalar. For a scalar that cannot hold the case exactly it is out of domain.
   void examine_in_any_scalar(std::span<const Subject* const> subjects, const Case& question);
   /// Examines generated cases until the schedule or the time ends. Makes the next batch while the subjects work. Limits
@@ -76,8 +79,8 @@ class Campaign {
   bool keeps_waiting() const;
   Standard standard_for(const Subject& subject, const Query& query) const;
   void ask_and_judge(std::span<const Subject* const> subjects, std::span<const Case> cases,
-                     const std::function<void()>& meanwhile);
-  void judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers);
+                     const std::function<void()>& meanwhile, Detail detail = Detail::verdict);
+  void judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers, Detail detail);
   void hand_on_given_up(std::span<const Subject* const> subjects, const Query& query);
 
   Settings settings_;

@@ -131,6 +131,48 @@ void Run::generate(std::optional<std::uint64_t> cases) {
   campaign_.generate(schedule, settings_.seed);
 }
 
+void Run::ask_worst_cases() {
+  if (measure().for_all) return;
+  set_activity("worst cases");
+  for (const Query* q : settings_.queries) {
+    for (const WorstCase& w : worst_cases(*q)) {
+      if (should_stop()) return;
+      const std::vector<const Subject*> all = offering(*q);
+      const auto subject = std::find_if(all.begin(), all.end(), [&](const Subject* s) {
+        return s->name == w.subject && s->scalar == w.question.scalar;
+      });
+      if (subject != all.end()) campaign_.examine_searched({&*subject, 1}, {&w.question, 1}, Detail::verdict);
+    }
+  }
+  set_activity("");
+}
+
+/// Writes the climb's worst case if it is worse than the written one.
+void Run::write_record(const Climb& c, std::map<const Climb*, double>& written) const {
+  if (!c.record() || c.record()->error <= written[&c]) return;
+  written[&c] = c.record()->error;
+  const std::string name = fmt::format("{}-{}.json", c.subject().name, name_of(c.kind()));
+  write(std::filesystem::path("worst") / c.query().name / name, pretty_json(worst_case_to_json(*c.record())));
+}
+
+void Run::climb(Climber& climber) {
+  total_.reset();
+  listener_.to = &climber;
+  std::map<const Climb*, double> written;
+  std::map<const Climb*, std::uint64_t> hills;
+  Clock::time_point noted{};
+  climber.run(campaign_, [&](const Climb& c) {
+    set_activity(fmt::format("climbing, {}, {}", c.query().name, c.subject().name));
+    if (std::exchange(hills[&c], c.hills()) != c.hills()) write_record(c, written);
+    if (Clock::now() - noted < between_indexes) return;
+    note("climbs", climber.to_json());
+    noted = Clock::now();
+  });
+  listener_.to = nullptr;
+  for (const Climb& c : climber.climbs()) write_record(c, written);
+  note("climbs", climber.to_json());
+}
+
 void Run::note(const std::string& part, Json value) { notes_->parts[part] = std::move(value); }
 
 void Run::set_activity(std::string what) { progress_.set_activity(std::move(what)); }

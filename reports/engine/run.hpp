@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "reports/engine/campaign.hpp"
+#include "reports/engine/climber.hpp"
 #include "reports/engine/counts.hpp"
 #include "reports/engine/folder_lock.hpp"
 #include "reports/engine/kept_reports.hpp"
@@ -64,6 +65,13 @@ class Run {
   /// take turns, so that each gets the same time while it has cases left. Subjects with the same preconditions get the
   /// same cases, which meet these preconditions.
   void generate(std::optional<std::uint64_t> cases);
+  /// Asks the run's own subjects their stored worst cases (corpus/worst/). Asks nothing where a measure replaces the
+  /// contracts, within which these cases are the worst. Throws BadInput for an invalid file.
+  void ask_worst_cases();
+  /// Climbs towards the worst errors, until each climb has asked its number of cases or the time is over. Notes the
+  /// climbs in the index. The worst case of each climb becomes worst/QUERY/SUBJECT-KIND.json in the run folder, written
+  /// when it is found, at most once for each hill.
+  void climb(Climber& climber);
 
   /// True when the run was interrupted or its time is over.
   bool should_stop() const { return campaign_.should_stop(); }
@@ -100,6 +108,7 @@ class Run {
     }
   };
   std::vector<const Subject*> offering(const Query& query) const;
+  void write_record(const Climb& c, std::map<const Climb*, double>& written) const;
   void write_index(RunState state);
   void write(const std::filesystem::path& below, const std::string& text) const;
 

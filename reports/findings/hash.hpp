@@ -25,6 +25,7 @@ class Fnv1a {
     add(c.query->name);
     for (const double x : c.values) add(x);
   }
+  std::uint64_t value() const { return hash_; }
   /// Twelve hexadecimal digits.
   std::string id() const { return fmt::format("{:012x}", hash_ >> 16); }
 

@@ -43,6 +43,8 @@ TEST(List, PrintsTheAgreedJson) {
     for (const Subject& s : subjects()) {
       EXPECT_EQ(j.at("subjects").at(s.name), name_of(s.offering(q.name).offer));
       EXPECT_EQ(j.at("referees").contains(s.name), s.referee);
+      EXPECT_TRUE(!s.own || s.offering(q.name).offer == Offer::not_offered || j.at("contracts").contains(s.name))
+          << s.name;
     }
   }
 }

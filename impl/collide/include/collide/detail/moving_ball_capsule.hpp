@@ -76,7 +76,23 @@ inline Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, con
   }
   const Vec3<T> from_end = at < T(0) ? from_p0 : from_p1;
   const T time = time_to_ball<Tier>(from_end, velocity, reach);
-  if (!(time >= T(0))) return Impact<T>::miss();
+  if (!(time >= T(0))) {
+    // The ball at an end contains the disc where the cylinder ends. In real numbers, a center that enters the cylinder
+    // beyond the end, and is within the cylinder anywhere between the ends, meets the ball. Where it grazes both,
+    // rounding may let it pass the ball.
+    if constexpr (MachineNumber<T>) {
+      const T speed_along = Tier::dot(axis, velocity), end = at < T(0) ? T(0) : length;
+      const Vec3<T> across = velocity - axis * speed_along;
+      const T to_end = (end - along) / speed_along, to_other_end = (length - end - along) / speed_along;
+      T closest = -Tier::dot(beside, across) / Tier::dot(across, across);
+      if (!(closest > to_end)) closest = to_end;
+      if (closest > to_other_end) closest = to_other_end;
+      const bool crosses = to_end >= T(0) && to_other_end >= to_end && to_other_end <= std::numeric_limits<T>::max();
+      if (crosses && !(Tier::beyond_radius(beside + across * closest, reach) > T(0)))
+        return contact_beside(to_end, end, beside + across * to_end);
+    }
+    return Impact<T>::miss();
+  }
   return contact_at(time, at < T(0) ? capsule.p0 : capsule.p1, from_end + velocity * time);
 }
 
