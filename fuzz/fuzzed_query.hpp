@@ -29,18 +29,18 @@ extern const std::span<const AbortFrame> abort_frames;
 }  // namespace nearmiss
 
 /// Every kind of finding.
-#define NEARMISS_KINDS(X, query, subject, name)                                                                       \
-  X(query, subject, name, false_hit)                                                                                  \
-  X(query, subject, name, false_miss)                                                                                 \
-  X(query, subject, name, wrong_time)                                                                                 \
-  X(query, subject, name, negative_time)                                                                              \
-  X(query, subject, name, wrong_place)                                                                                \
-  X(query, subject, name, wrong_normal)                                                                               \
-  X(query, subject, name, wrong_depth) X(query, subject, name, wrong_direction) X(query, subject, name, wrong_weight) \
-      X(query, subject, name, wrong_flag) X(query, subject, name, wrong_index)                                        \
-          X(query, subject, name, wrong_combination) X(query, subject, name, off_the_surface)                         \
-              X(query, subject, name, not_finite) X(query, subject, name, not_unit) X(query, subject, name, broke)    \
-                  X(query, subject, name, internal_error)
+// clang-format off
+#define NEARMISS_KINDS(X, query, subject, name)                                           \
+  X(query, subject, name, false_hit) X(query, subject, name, false_miss)                  \
+  X(query, subject, name, wrong_time) X(query, subject, name, negative_time)              \
+  X(query, subject, name, wrong_place) X(query, subject, name, wrong_normal)              \
+  X(query, subject, name, wrong_depth) X(query, subject, name, wrong_direction)           \
+  X(query, subject, name, wrong_weight) X(query, subject, name, wrong_flag)               \
+  X(query, subject, name, wrong_index) X(query, subject, name, wrong_combination)         \
+  X(query, subject, name, off_the_surface) X(query, subject, name, not_finite)            \
+  X(query, subject, name, not_unit) X(query, subject, name, broke)                        \
+  X(query, subject, name, internal_error)
+// clang-format on
 
 /// The compiler must neither merge the functions, which are alike, nor end them with a jump, which leaves no frame:
 /// hence the statement that differs, and a call that is not known to end.

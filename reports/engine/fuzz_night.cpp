@@ -60,7 +60,7 @@ struct Contender {
   /// comes, too.
   double priority() const {
     const double waited = std::chrono::duration<double>(Clock::now() - waits_since).count();
-    return (yield + 0.5 / longest_turn) * waited;
+    return (yield + 0.5 / longest_turn) * (shortest_turn + waited);
   }
 };
 
