@@ -91,8 +91,9 @@ Answer with_degeneracy(const Case& c, double& divisor) {
   double distance2 = 0;
   for (std::size_t k = 0; k < 3; ++k) distance2 += (c.values[k] - c.values[4 + k]) * (c.values[k] - c.values[4 + k]);
   const double product = 1.7 * c.values[3] * c.values[7];
-  divisor = product > 0 ? std::abs(distance2 - product) / product : 1;
-  if (divisor == 0 || divisor > 1) return right(c);  // another formula
+  constexpr double least = 0x1p-900, most = 0x1p900;  // the square of a number outside loses digits by itself
+  divisor = product > least && product < most ? std::abs(distance2 - product) / product : 1;
+  if (!(divisor > 0 && divisor <= 1)) return right(c);  // another formula
   constexpr double fatal = 0x1p-34;
   if (divisor > fatal) return off_by(c, 1 / divisor);
   Answer apart = right(c);
