@@ -85,12 +85,12 @@ TEST(Climb, FindsAPeakThatSamplingDoesNot) {
   EXPECT_TRUE(climb.record()->question.origin.starts_with("climb from generator"));
 }
 
-/// The formula of a library divides by |d|^2 - 1.7 r1 r2, and loses digits where that is nearly zero. Where almost
-/// nothing is left of it, the library calls the balls apart. No mutator of the generator knows the factor.
+/// The formula of a library divides by |d|^2 - 1.7320508 r1 r2, and loses digits where that is nearly zero. Where
+/// almost nothing is left of it, the library calls the balls apart. Small whole numbers never meet the factor.
 Answer with_degeneracy(const Case& c, double& divisor) {
   double distance2 = 0;
   for (std::size_t k = 0; k < 3; ++k) distance2 += (c.values[k] - c.values[4 + k]) * (c.values[k] - c.values[4 + k]);
-  const double product = 1.7 * c.values[3] * c.values[7];
+  const double product = 1.7320508 * c.values[3] * c.values[7];
   constexpr double least = 0x1p-900, most = 0x1p900;  // the square of a number outside loses digits by itself
   divisor = product > least && product < most ? std::abs(distance2 - product) / product : 1;
   if (!(divisor > 0 && divisor <= 1)) return right(c);  // another formula
