@@ -144,11 +144,11 @@ std::string update_worst_case(const Climb& c) {
     std::filesystem::remove(file);
   }
   const bool changed_today = c.stored_now().value_or(before) != before;
-  return fmt::format("{}: {} {}{}", file.string(), c.record() ? fmt::format("{:.6g}", after) : "no error left,",
+  return fmt::format("{}: {} {}{}", file.string(), c.record() ? fmt::format("{}", after) : "no error left,",
                      unit_of(c.kind()),
                      !c.stored()     ? ", new"
-                     : changed_today ? fmt::format(", before {:.6g}, which today is {:.6g}", before, *c.stored_now())
-                                     : fmt::format(", before {:.6g}", before));
+                     : changed_today ? fmt::format(", before {}, which today is {}", before, *c.stored_now())
+                                     : fmt::format(", before {}", before));
 }
 
 }  // namespace
