@@ -52,15 +52,9 @@ template <class Inputs>
 Query make_query(QueryId id, std::string_view name) {
   static_assert(links_are_queries(Inputs::traits.links), "a link names a query that the catalogue does not have");
   using A = typename Inputs::Answer;
-  return {id,
-          name,
-          kind_of<A>,
-          fields_of<Inputs>(),
-          fields_of<A>(),
-          Layout::of<A>(),
-          broken_inputs<Inputs>,
-          Inputs::traits,
-          0};
+  return {
+      id, name, kind_of<A>, fields_of<Inputs>(), fields_of<A>(), Layout::of<A>(), broken_inputs<Inputs>, Inputs::traits,
+      0};
 }
 
 }  // namespace
