@@ -137,11 +137,12 @@ void store(const std::filesystem::path& folder, const Case& c, const Subject& su
 
 /// Each kind of finding ends the process in a function of its own: a fleet of machines takes crashes with the same
 /// innermost functions for one.
-#define NEARMISS_KINDS(KIND)                                                                                   \
-  KIND(false_hit)                                                                                              \
-  KIND(false_miss) KIND(wrong_time) KIND(negative_time) KIND(wrong_place) KIND(wrong_normal) KIND(wrong_depth) \
-      KIND(wrong_direction) KIND(wrong_weight) KIND(wrong_flag) KIND(wrong_index) KIND(off_surface)            \
-          KIND(wrong_combination) KIND(not_finite) KIND(not_unit)
+// clang-format off
+#define NEARMISS_KINDS(KIND) \
+  KIND(false_hit) KIND(false_miss) KIND(wrong_time) KIND(negative_time) KIND(wrong_place) \
+  KIND(wrong_normal) KIND(wrong_depth) KIND(wrong_direction) KIND(wrong_weight) KIND(wrong_flag) \
+  KIND(wrong_index) KIND(wrong_combination) KIND(off_surface) KIND(not_finite) KIND(not_unit)
+// clang-format on
 #define NEARMISS_ENDING(kind) \
   [[noreturn, gnu::noinline]] void found_##kind() { std::abort(); }
 NEARMISS_KINDS(NEARMISS_ENDING)
