@@ -168,6 +168,7 @@ function(nearmiss_finish_subjects)
   find_package(fmt REQUIRED)
   # The queries.
   add_library(nearmiss_catalogue STATIC ${PROJECT_SOURCE_DIR}/impl/catalogue/catalogue.cpp)
+  nearmiss_examines(nearmiss_catalogue)
   target_link_libraries(nearmiss_catalogue PUBLIC nearmiss_flags collide PRIVATE fmt::fmt)
   target_include_directories(nearmiss_catalogue PUBLIC ${NEARMISS_GENERATED})
   # The parts of a host other than its subject.

@@ -145,8 +145,9 @@ Numbers point_below(CaseBuilder& d, const Numbers& half, bool triangle, Numbers&
 }
 
 /// Radii of `mover` and of the block that are whole multiples of `outward`, and the place where they touch.
-Contact touch(CaseBuilder& d, const Operand& mover, bool round, bool triangle, Block b, std::array<int, 4> outward) {
-  Contact c{std::move(b), {double(outward[0]), double(outward[1]), double(outward[2])}, {}};
+Contact touch(CaseBuilder& d, const Operand& mover, bool round, bool triangle, const Block& b,
+              std::array<int, 4> outward) {
+  Contact c{b, {double(outward[0]), double(outward[1]), double(outward[2])}, {}};
   const Numbers below = point_below(d, c.block.half, triangle, c.outward);
   const double theirs = round ? 0.25 * d.random.between(1, 8) : 0, own = 0.25 * d.random.between(1, 8);
   const double unit = outward[3] * c.block.frame.length * c.block.step;
@@ -176,14 +177,14 @@ void put_plane(CaseBuilder& d, std::size_t offset, const Block& b) {
 Contact touch_plane(CaseBuilder& d, const Operand& mover, std::size_t offset) {
   Block b = draw_block(d, 0, d.vector(mover.positions[0]));
   put_plane(d, offset, b);
-  return touch(d, mover, false, false, std::move(b), {0, 0, d.random.one_in(4) ? -1 : 1, 1});
+  return touch(d, mover, false, false, b, {0, 0, d.random.one_in(4) ? -1 : 1, 1});
 }
 
 Contact touch_operand(CaseBuilder& d, const Operand& mover, const Operand& other) {
   Block b = draw_block(d, dimension_of(d, other), d.vector(other.positions[0]));
   if (is_upright_box(d, other)) b.frame = frame_of({0, 0, 0, 1});
   const bool round = other.sizes.size() == 1, triangle = other.positions.size() == 3;
-  Contact c = touch(d, mover, round, triangle, std::move(b), draw_outward(d));
+  Contact c = touch(d, mover, round, triangle, b, draw_outward(d));
   put(d, other, c.block);
   return c;
 }

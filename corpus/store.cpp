@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -78,7 +79,7 @@ ErrorKind kind_from(const std::string& kind, const std::string& unit, const std:
 
 fs::path corpus_folder() {
   const char* value = std::getenv("NEARMISS_CORPUS");
-  if (value == nullptr || *value == '\0') return NEARMISS_CORPUS_FOLDER;
+  if (value == nullptr || *value == '\0') return source_folder() + "/corpus";
   if (!fs::is_directory(value)) throw BadInput(fmt::format("NEARMISS_CORPUS is {}: there is no such folder", value));
   return value;
 }

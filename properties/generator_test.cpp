@@ -13,6 +13,7 @@
 #include <set>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -181,7 +182,7 @@ TEST(Moves, AreEachUsedForSomeQuery) {
 /// NEARMISS_WRITE_STREAMS=1 after an intended change of the generator.
 class Streams : public testing::Test {
  protected:
-  static std::filesystem::path file() { return std::filesystem::path(NEARMISS_PROPERTIES_FOLDER) / "streams.txt"; }
+  static std::filesystem::path file() { return source_folder() + "/properties/streams.txt"; }
 };
 
 TEST_F(Streams, AreTheSameOnEveryMachineAndCompiler) {
@@ -201,7 +202,7 @@ TEST_F(Streams, AreTheSameOnEveryMachineAndCompiler) {
 
 /// The words in code type in the row of docs/triage.md about moves.
 std::vector<std::string> moves_of_the_triage_page() {
-  std::ifstream page(NEARMISS_SOURCE_FOLDER "/docs/triage.md");
+  std::ifstream page(source_folder() + "/docs/triage.md");
   std::vector<std::string> names;
   for (std::string line; std::getline(page, line);) {
     if (!line.starts_with("| `origin.moves` |")) continue;

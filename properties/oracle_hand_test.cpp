@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/source_folder.hpp"
 #include "oracles/judge.hpp"
 #include "properties/hand_derived.hpp"
 #include "properties/support.hpp"
@@ -22,7 +23,7 @@ void PrintTo(const HandDerived& hand, std::ostream* out) { *out << hand.where; }
 namespace {
 
 const std::map<std::string, HandDerivedFile>& files() {
-  static const auto all = read_hand_derived(NEARMISS_PROPERTIES_FOLDER "/hand_derived");
+  static const auto all = read_hand_derived(source_folder() + "/properties/hand_derived");
   return all;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "corpus/width_ratios.hpp"
 #include "properties/support.hpp"
 
@@ -27,14 +28,14 @@ struct Bound {
   double median = bound_of_a_new_query, most = 16 * bound_of_a_new_query;
 };
 
-std::filesystem::path file() { return std::filesystem::path(NEARMISS_PROPERTIES_FOLDER) / "oracle_power.txt"; }
+std::filesystem::path file() { return source_folder() + "/properties/oracle_power.txt"; }
 
 /// By "query part".
 std::map<std::string, Bound> stored_bounds() {
   std::map<std::string, Bound> bounds;
   std::ifstream in(file());
   std::string query, part;
-  for (Bound b; in >> query >> part >> b.median >> b.most;) bounds[query + ' ' + part] = b;
+  for (Bound b; in >> query >> part >> b.median >> b.most;) bounds[fmt::format("{} {}", query, part)] = b;
   return bounds;
 }
 

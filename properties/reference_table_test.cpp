@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "corpus/source_folder.hpp"
 #include "impl/catalogue/query.hpp"
 
 namespace nearmiss {
@@ -20,7 +21,7 @@ struct Row {
 };
 
 std::vector<Row> rows_of_reference() {
-  const std::string path = NEARMISS_SOURCE_FOLDER "/docs/reference.md";
+  const std::string path = source_folder() + "/docs/reference.md";
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + " cannot be read");
   std::vector<Row> rows;

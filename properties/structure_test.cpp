@@ -14,12 +14,14 @@
 #include <string_view>
 #include <vector>
 
+#include "corpus/source_folder.hpp"
+
 namespace nearmiss {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = NEARMISS_SOURCE_FOLDER;
+const fs::path root = source_folder();
 constexpr std::string_view collide_headers = "impl/collide/include/";
 
 /// Folders of the same rank do not include each other.

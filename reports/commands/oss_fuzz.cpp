@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// The templates are those of Nearmiss's own files. Words between "@" are filled in. A line that begins with "@own@",
 /// "@kit@", "@oss@" or "@cfl@" is kept only for Nearmiss itself, for a library, for OSS-Fuzz or for ClusterFuzzLite.
-fs::path templates_folder() { return fs::path(NEARMISS_SOURCE_FOLDER) / "fuzz" / "oss-fuzz" / "templates"; }
+fs::path templates_folder() { return fs::path(source_folder()) / "fuzz" / "oss-fuzz" / "templates"; }
 
 struct Kit {
   std::map<std::string, std::string> words;  ///< the text for each word
@@ -180,7 +181,7 @@ class OssFuzzCommand : public Command {
     } else {
       for (std::string_view rest = NEARMISS_ADDED_FILES; !rest.empty();) {
         const std::size_t end = std::min(rest.find(':'), rest.size());
-        files.push_back(fs::path(NEARMISS_SOURCE_FOLDER) / rest.substr(0, end));
+        files.push_back(fs::path(source_folder()) / rest.substr(0, end));
         rest.remove_prefix(std::min(end + 1, rest.size()));
       }
     }

@@ -11,6 +11,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "corpus/source_folder.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
@@ -219,7 +220,7 @@ nlohmann::ordered_json Extremes::to_json() const {
 
 std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) {
 #ifdef NEARMISS_D3_FILE
-  std::string page = read_file(NEARMISS_SOURCE_FOLDER "/reports/extremes.html");
+  std::string page = read_file(source_folder() + "/reports/extremes.html");
   put(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
   put(page, "/*DATA*/", for_a_script(text_of(report)));
   return page;

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 using Clock = FuzzNight::Clock;
 
 /// The shortest and the longest turn, in seconds. A turn starts with the execution of the whole corpus, which a long
-/// turn repays; libFuzzer takes its time as a whole number.
-constexpr double shortest_turn = 1, longest_turn = 120;
+/// turn repays; a target takes 0.2 s to start.
+constexpr double shortest_turn = 0.5, longest_turn = 120;
 /// A first round of half of the time must give each target this much.
 constexpr double least_half = 2;
 constexpr unsigned most_failures_in_a_row = 3;
@@ -90,7 +90,7 @@ class Turns {
   FuzzNightOutcome outcome() const {
     FuzzNightOutcome o;
     for (const Contender& c : contenders_) {
-      if (c.sum) {
+      if (c.sum && (c.sum->executions > 0 || c.sum->failed)) {
         o.ran.push_back(*c.sum);
       } else {
         o.no_time.emplace_back(c.target->query->name);
@@ -108,9 +108,9 @@ class Turns {
     if (!next->sum) put_seeds(*next->target->query, night_.run_folder);
     night_.activity(fmt::format("fuzzing {}", next->target->query->name));
     const double turn = std::min(left, next->sum ? later_turn(left) : first_turn(left));
-    running_.push_back({next, std::make_unique<RunningTarget>(
-                                  *next->target, FuzzBudget{night_.run_folder, night_.foreign,
-                                                            unsigned(std::max(shortest_turn, std::floor(turn)))})});
+    running_.push_back(
+        {next, std::make_unique<RunningTarget>(
+                   *next->target, FuzzBudget{night_.run_folder, night_.foreign, std::max(shortest_turn, turn)})});
     next->is_running = true;
     return true;
   }

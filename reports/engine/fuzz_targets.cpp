@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "corpus/store.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/host/supervisor.hpp"
@@ -25,7 +26,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// How long a target may take beyond its time: to start, and to end after SIGINT.
+/// How long a target may take to end after SIGUSR1, for it executes its case to the end, and again after SIGINT.
 constexpr auto grace = 3s;
 /// The same where the whole run is cancelled.
 constexpr auto short_grace = 300ms;
@@ -55,7 +56,7 @@ std::vector<fs::path> usual_folders() {
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   const fs::path build = executable.parent_path().parent_path();
-  return {build / "fuzz", build.parent_path() / "fuzz" / "fuzz", fs::path(NEARMISS_SOURCE_FOLDER) / "build/fuzz/fuzz"};
+  return {build / "fuzz", build.parent_path() / "fuzz" / "fuzz", fs::path(source_folder()) / "build/fuzz/fuzz"};
 }
 
 FuzzTargets targets_in(const fs::path& folder, std::span<const Query* const> queries) {
@@ -131,18 +132,23 @@ void put_seeds(const Query& query, const fs::path& run_folder) {
 
 namespace {
 
+std::string without_leaks() {
+  const char* named = std::getenv("ASAN_OPTIONS");
+  return fmt::format("ASAN_OPTIONS={}{}detect_leaks=0", named == nullptr ? "" : named, named == nullptr ? "" : ":");
+}
+
 Program program_of(const FuzzTarget& target, const FuzzBudget& budget, const fs::path& log) {
   const fs::path reports = budget.run_folder / "fuzz";
   Program p;
   p.arguments = {target.file.string(),
                  (budget.run_folder / "corpus" / target.query->name).string(),
-                 fmt::format("-max_total_time={}", budget.seconds),
                  fmt::format("-artifact_prefix={}/", (reports / target.query->name).string()),
                  "-print_final_stats=1",
                  fmt::format("-timeout={}", seconds_for_one_case),
                  fmt::format("-rss_limit_mb={}", most_mebibytes)};
   p.environment = environment_for_added(budget.foreign);
   p.environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
+  p.environment.push_back(without_leaks());
   p.log = log.string();
   return p;
 }
@@ -155,20 +161,24 @@ fs::path free_name_like(const fs::path& log) {
   }
 }
 
+/// How a target was told to end. SIGUSR1 and SIGINT make libFuzzer print its statistics and leave: after the present
+/// case, and at once.
+enum class Asked { no, after_its_case, at_once, by_force };
+
 }  // namespace
 
 struct RunningTarget::State {
   State(const FuzzTarget& target, const FuzzBudget& budget)
       : query(target.query->name),
         log(budget.run_folder / "fuzz" / (query + ".log")),
-        deadline(begin + std::chrono::seconds(budget.seconds) + grace),
+        deadline(begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget.seconds))),
         child(program_of(target, budget, log), Confinement::none()) {}
 
   std::string query;
   fs::path log;
   Clock::time_point begin = Clock::now(), deadline;
   SupervisedProcess child;
-  bool end_requested = false, is_forced = false;
+  Asked asked_to_end = Asked::no;
 };
 
 RunningTarget::RunningTarget(const FuzzTarget& target, const FuzzBudget& budget) {
@@ -182,14 +192,23 @@ RunningTarget::~RunningTarget() = default;
 bool RunningTarget::has_ended(int milliseconds, bool cancelled) {
   State& s = *state_;
   if (s.child.has_ended(milliseconds)) return true;
-  if (!s.end_requested && (Clock::now() > s.deadline || cancelled)) {
-    s.child.send(SIGINT);  // libFuzzer prints its statistics and leaves
-    s.end_requested = true;
-    s.deadline = Clock::now() + (cancelled ? Clock::duration(short_grace) : Clock::duration(grace));
-  }
-  if (s.end_requested && Clock::now() > s.deadline) {
-    s.child.end();
-    s.is_forced = true;
+  if (cancelled && s.asked_to_end < Asked::at_once) s.deadline = Clock::now();
+  if (Clock::now() < s.deadline) return false;
+  s.deadline = Clock::now() + (cancelled ? Clock::duration(short_grace) : Clock::duration(grace));
+  switch (s.asked_to_end) {
+    case Asked::no:
+      s.asked_to_end = cancelled ? Asked::at_once : Asked::after_its_case;
+      s.child.send(cancelled ? SIGINT : SIGUSR1);
+      break;
+    case Asked::after_its_case:
+      s.asked_to_end = Asked::at_once;
+      s.child.send(SIGINT);
+      break;
+    case Asked::at_once:
+      s.asked_to_end = Asked::by_force;
+      s.child.end();
+      break;
+    case Asked::by_force: break;
   }
   return false;
 }
@@ -201,8 +220,9 @@ FuzzOutcome RunningTarget::outcome() {
   o.seconds = std::chrono::duration<double>(Clock::now() - s.begin).count();
   o.executions = statistic_in(s.log, "number_of_executed_units");
   o.new_inputs = statistic_in(s.log, "new_units_added");
-  o.ended = s.is_forced ? "ended by force: it did not end when it was told to" : s.child.exit_text();
-  o.failed = s.child.failed_to_start() != 0 || (s.child.exit_code() != 0 && !s.end_requested);
+  o.ended =
+      s.asked_to_end == Asked::by_force ? "ended by force: it did not end when it was told to" : s.child.exit_text();
+  o.failed = s.child.failed_to_start() != 0 || (s.child.exit_code() != 0 && s.asked_to_end == Asked::no);
   o.asked = asked_in(s.log);
   std::error_code error;
   if (o.failed) fs::copy_file(s.log, free_name_like(s.log), error);  // the next turn replaces the log

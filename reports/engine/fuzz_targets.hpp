@@ -52,11 +52,13 @@ std::vector<std::string> environment_for_added(const ForeignSubjects& foreign);
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
   ForeignSubjects foreign;           ///< also asked
-  unsigned seconds = 1;
+  double seconds = 1;                ///< from the start of the process
 };
 
-/// A fuzz target that runs. Its environment has NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz and environment_for_added(); its
-/// messages go to fuzz/QUERY.log, and to fuzz/QUERY-N.log where it ends with an error.
+/// A fuzz target that runs. It does not look for leaks: LeakSanitizer reads /proc, and ends a process whose number
+/// there is another one than its own, as it is in a host's namespace; the tests of the fuzz targets look for leaks. Its
+/// environment has NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz and environment_for_added(); its messages go to
+/// fuzz/QUERY.log, and to fuzz/QUERY-N.log where it ends with an error.
 class RunningTarget {
  public:
   RunningTarget(const FuzzTarget& target, const FuzzBudget& budget);

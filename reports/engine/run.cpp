@@ -16,6 +16,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/fit.hpp"
+#include "corpus/source_folder.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/pretty_json.hpp"
@@ -64,7 +65,7 @@ std::string_view name_of(RunState s) {
 
 std::filesystem::path runs_folder() {
   if (const char* named = std::getenv("NEARMISS_RUNS"); named != nullptr && *named != '\0') return named;
-  return NEARMISS_RUNS_FOLDER;
+  return source_folder() + "/reports/runs";
 }
 
 std::filesystem::path new_run_folder(std::uint64_t seed) {

@@ -148,7 +148,7 @@ TEST_P(BadCommandLine, SaysWhyInOneLineAndWritesNothing) {
   const Bad& bad = GetParam();
   const TemporaryFolder folder;
   const std::string file = folder.file("input", bad.text), good = folder.file("good.json", case_text("[0, 0, 0]", "1"));
-  const auto filled = [&](std::string word) {
+  const auto filled = [&](const std::string& word) {
     return word == "OUT" ? (folder / "out").string() : word == "FILE" ? file : word == "CASE" ? good : word;
   };
   std::vector<std::string> arguments;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/engine/properties.hpp"
@@ -91,7 +92,8 @@ TEST(List, NamesThePropertiesThatRunForEveryQuery) {
   const auto tests = tests_by_query();
   ASSERT_EQ(tests.size(), catalogue().size());
   std::set<std::string> everywhere = tests.begin()->second;
-  for (const auto& [query, own] : tests) {
+  for (const auto& of_query : tests) {
+    const std::set<std::string>& own = of_query.second;
     std::erase_if(everywhere, [&](const std::string& t) { return !own.contains(t) || written_by_query(t); });
   }
   for (const Query& q : catalogue()) {
@@ -679,7 +681,7 @@ TEST(RunSchema, RejectsBrokenDocuments) {
   }
 }
 
-const fs::path sources = NEARMISS_SOURCE_FOLDER;
+const fs::path sources = source_folder();
 
 TEST(OssFuzz, WritesAKitForALibrary) {
   const TemporaryFolder folder;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -67,9 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Command{"run", {"run", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
                     Command{"relations", {"relations", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
                     Command{"extremes", {"extremes", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
-                    Command{"import", {"import", "nyu-ccd", NEARMISS_SOURCE_FOLDER "/corpus/nyu-ccd/sample.csv"}},
-                    Command{"replay",
-                            {"replay", NEARMISS_SOURCE_FOLDER "/corpus/seeds/sphere_sphere_overlap/apart.json"}}),
+                    Command{"import", {"import", "nyu-ccd", source_folder() + "/corpus/nyu-ccd/sample.csv"}},
+                    Command{"replay", {"replay", source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"}}),
     [](const auto& of) { return std::string(of.param.name); });
 
 TEST(Nightly, EndsWhenItIsToldTo) {
@@ -106,7 +106,7 @@ TEST(EverySubject, IsGivenUpWhereItIsAlwaysLate) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"relations", "-q", "sphere_sphere_overlap", "--cases", "500", "--out",
                                  (folder / "r").string()},
-        std::vector<std::string>{"import", "nyu-ccd", NEARMISS_SOURCE_FOLDER "/corpus/nyu-ccd/sample.csv"}}) {
+        std::vector<std::string>{"import", "nyu-ccd", source_folder() + "/corpus/nyu-ccd/sample.csv"}}) {
     std::vector<std::string> all = arguments;
     for (const char* more : {"--patience", "0.02", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"})
       all.emplace_back(more);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -27,9 +28,9 @@ TEST_P(ExampleProgram, IsExamined) {
   const Example& e = GetParam();
   if (*e.command == '\0') GTEST_SKIP() << "this system has nothing to run it";
   const TemporaryFolder folder;
-  const Ran ran = run_program("bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", NEARMISS_SOURCE_FOLDER,
-                                       NEARMISS_PROGRAM, "run", "--command", e.command, "--subject", e.name, "--cases",
-                                       "3000", "--seed", "3", "--out", (folder / "r").string()});
+  const Ran ran = run_program(
+      "bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", source_folder(), NEARMISS_PROGRAM, "run", "--command",
+               e.command, "--subject", e.name, "--cases", "3000", "--seed", "3", "--out", (folder / "r").string()});
   ASSERT_LE(ran.exit_code, 1) << ran.err;
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   EXPECT_EQ(complaints(index, "run.schema.json"), "");

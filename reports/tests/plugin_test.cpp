@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -104,7 +105,7 @@ TEST(Plugin, KeepsItsModesOfArithmeticToItself) {
 
 TEST(Plugin, IsAskedInTheModesThatItSets) {
   const Ran ran = nearmiss({"replay", "--plugin", plugin("sets_modes"), "--subject", "misbehaves", "--json",
-                            NEARMISS_SOURCE_FOLDER "/corpus/seeds/sphere_sphere_overlap/overlap.json"});
+                            source_folder() + "/corpus/seeds/sphere_sphere_overlap/overlap.json"});
   ASSERT_LE(ran.exit_code, 1) << ran.err;
   EXPECT_EQ(json::parse(ran.out).at(0).at("answer").at("yes"), true) << ran.out;
 }

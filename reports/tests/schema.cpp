@@ -10,11 +10,12 @@
 #include <valijson/validator.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
 
 namespace nearmiss {
 
 std::string complaints(const nlohmann::json& document, const std::string& schema_name) {
-  const nlohmann::json text = nlohmann::json::parse(read_file(NEARMISS_SOURCE_FOLDER "/reports/" + schema_name));
+  const nlohmann::json text = nlohmann::json::parse(read_file(source_folder() + "/reports/" + schema_name));
   valijson::Schema schema;
   valijson::SchemaParser(valijson::SchemaParser::kDraft7)
       .populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
