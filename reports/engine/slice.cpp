@@ -123,7 +123,7 @@ bool changes_near(const Slice& slice) {
 }  // namespace
 
 std::optional<Case> touching_case(const Query& query, std::size_t number, std::uint64_t seed) {
-  constexpr std::uint64_t most_attempts = 1000;
+  constexpr std::uint64_t most_attempts = 300;
   for (std::uint64_t index = 0; index < most_attempts; ++index) {
     Case c = generate(query, Scalar::float32, seed, index);
     if (has_extreme_mutator(c) || c.values[number] == 0 || !snap_to_touching(c, seed + index)) continue;

@@ -31,7 +31,7 @@ struct SweepCounts {
   std::uint64_t violations = 0;
   std::uint64_t internal_errors = 0;
   double worst_backward = -1;                  ///< the largest proved bound of a judged answer; negative: none
-  double seconds = 0, judge_seconds = 0;       ///< of one processor: in all, and of that in the judge
+  double seconds = 0, judge_seconds = 0;       ///< of processors: in all, and of that in the judge
   std::optional<SweptViolation> first, worst;  ///< violations: at the lowest float, and with the largest bound
 
   void add(const SweepCounts& other);

@@ -68,7 +68,7 @@ TEST(SliceTruths, AreTheExactDecisionsAtEachEndAndAtRandomFloats) {
     const Slice slice(*touching, number);
     SCOPED_TRACE(case_to_json(slice.question()).dump() + slice.field().name);
     std::uint64_t proofs = 0;
-    const std::vector<TruthRange> ranges = slice.truth(0, finite_floats, [&] { return ++proofs > 100'000; });
+    const std::vector<TruthRange> ranges = slice.truth(0, finite_floats, [&] { return ++proofs > 20'000; });
     if (ranges.empty()) continue;  // a touch at many floats, of which each needs a proof of its own
     ++slices;
     ASSERT_EQ(ranges.front().begin, 0u);
@@ -83,7 +83,7 @@ TEST(SliceTruths, AreTheExactDecisionsAtEachEndAndAtRandomFloats) {
     changes += ranges.size() - 1;
   }
   EXPECT_GE(slices, 15u);
-  EXPECT_GE(changes, 2 * slices);
+  EXPECT_GE(changes, slices);
 }
 
 /// A list of ranges is the same in whatever parts it is computed.
@@ -260,7 +260,8 @@ TEST(SweepCommand, GoesOnAfterAnInterruptAndAfterAKill) {
     const std::optional<Ran> ended = stopped.wait(20);
     ASSERT_TRUE(ended.has_value());
     EXPECT_EQ(ended->exit_code, signal == SIGKILL ? -SIGKILL : 2);
-    if (signal == SIGINT) EXPECT_NE(ended->err.find("goes on from there"), std::string::npos) << ended->err;
+    const bool says_how = ended->err.find("goes on from there") != std::string::npos;
+    EXPECT_EQ(says_how, signal == SIGINT) << ended->err;
     const json half = state_in(out);
     EXPECT_EQ(complaints(half, "sweep.schema.json"), "");
     EXPECT_EQ(half["state"], signal == SIGKILL ? "running" : "interrupted");
