@@ -226,6 +226,21 @@ json without_times(json state) {
 
 json state_in(const std::filesystem::path& folder) { return json::parse(read_file(folder / "sweep.json")); }
 
+/// The results of docs/exhaustive.md.
+TEST(StoredSweeps, AreExhaustive) {
+  std::size_t found = 0;
+  for (const auto& f : std::filesystem::directory_iterator(NEARMISS_SOURCE_FOLDER "/reports/exhaustive")) {
+    const json state = json::parse(read_file(f.path()));
+    SCOPED_TRACE(f.path().string());
+    EXPECT_EQ(complaints(state, "sweep.schema.json"), "");
+    EXPECT_EQ(state["coverage"], "exhaustive");
+    EXPECT_EQ(state["valid"].get<std::uint64_t>() + state["invalid"].get<std::uint64_t>(), finite_floats);
+    for (const json& s : state["subjects"]) EXPECT_EQ(s["asked"], state["valid"]);
+    ++found;
+  }
+  EXPECT_GE(found, 2u);
+}
+
 /// About 56 million floats, of one tier.
 std::vector<std::string> some(const std::string& out) {
   return {"sweep",
