@@ -489,6 +489,13 @@ bool exact_decision(const Case& question) {
   return (here.decided() ? here : x.exactly()).may_be_yes;
 }
 
+std::optional<bool> decision_within(const Case& question, std::span<const double> moves) {
+  const FloatingPointScope standard_modes;
+  const Answer none{};
+  const Enclosure all = oracle_of(*question.query).interval(question.values, moves, none, question.scalar);
+  return all.decided() ? std::optional(all.may_be_yes) : std::nullopt;
+}
+
 Truth truth_of(const Case& question) {
   const FloatingPointScope standard_modes;
   const Answer none{};

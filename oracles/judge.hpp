@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -136,6 +137,11 @@ double decision_margin(const Case& question);
 
 /// The exact decision alone, at the least cost. Thread-safe.
 bool exact_decision(const Case& question);
+
+/// The exact decision of every input of which each number lies within `moves` (one distance per number, not negative)
+/// of the case's number, where intervals prove that it is the same for all of them. Empty: not proved. The proof allows
+/// every such input of the reals that is valid; the numbers of the case need not be numbers of its scalar. Thread-safe.
+std::optional<bool> decision_within(const Case& question, std::span<const double> moves);
 
 /// The exact answers to a case, for people: all of them, and the margin to the nearest flip of the decision.
 struct Truth {

@@ -34,6 +34,7 @@ _nearmiss() {
     -q|--query) COMPREPLY=($(compgen -W "$("$program" list --names queries 2>/dev/null)" -- "$current")); return ;;
     -s|--subject) COMPREPLY=($(compgen -W "$("$program" list --names subjects 2>/dev/null)" -- "$current")); return ;;
     -o|--out|--fuzz-targets) COMPREPLY=($(compgen -d -- "$current")); return ;;
+    --case) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --names) COMPREPLY=($(compgen -W "queries subjects" -- "$current")); return ;;
   esac
   local words=

@@ -80,6 +80,7 @@ std::vector<std::string> subject_names() {
 }
 
 CLI::Validator known_query() { return known("query", query_names); }
+CLI::Validator known_subject() { return known("subject", subject_names); }
 
 void Selection::declare_queries(CLI::App& app) {
   app.add_option("-q,--query", query, "Only this query; may be given several times. Default: all")
@@ -139,7 +140,7 @@ void Selection::declare_subjects(CLI::App& app) {
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false)
-      ->check(known("subject", subject_names));
+      ->check(known_subject());
 }
 
 std::vector<const Query*> Selection::queries() const { return chosen<Query>(query, catalogue()); }

@@ -23,6 +23,8 @@ void declare_foreign_subjects(CLI::App& app);
 
 /// Accepts the name of a query.
 CLI::Validator known_query();
+/// Accepts the name of a subject.
+CLI::Validator known_subject();
 
 /// --query and --subject, repeatable and checked. Without any, all are selected.
 struct Selection {

@@ -102,8 +102,8 @@ std::string origin_text(const Case& c) {
 /// query, with similar names.
 void check_kind(const nlohmann::json& j, const std::string& where) {
   if (!j.is_object()) return;
-  for (const auto& [member, what] :
-       {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes")}) {
+  for (const auto& [member, what] : {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes"),
+                                     std::pair("done", "the state of a sweep")}) {
     if (j.contains("schema") && j.contains(member)) {
       throw BadInput(fmt::format("{}: it is {}; what can be replayed is a case or a report", where, what));
     }
