@@ -27,11 +27,10 @@ sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball hol
 grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no table for a query of one's own"
 sed -i "\$a #include <collide/$query.hpp>" "$copy/impl/collide/include/collide/collide.hpp"
 
-# The same depth as the presets' build folders: unchanged sources come from the compiler cache.
+# The same preset and the same depth of the build folder: what did not change comes from the compiler cache.
 build=$copy/build/release
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DNEARMISS_FCL=OFF -DNEARMISS_CCD=OFF -DNEARMISS_BULLET=OFF -DNEARMISS_ODE=OFF \
-  -DNEARMISS_BENCHMARKS=OFF \
-  -DNEARMISS_ADD="$copy/docs/example-library/nearmiss.cmake" >"$copy/log" 2>&1 ||
+cmake -S "$copy" -B "$build" --preset release -DNEARMISS_BENCHMARKS=OFF -DNEARMISS_CCD=OFF \
+  -DNEARMISS_BULLET=OFF -DNEARMISS_ODE=OFF -DNEARMISS_ADD="$copy/docs/example-library/nearmiss.cmake" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "cmake refuses the new query"; }
 cmake --build "$build" --target nearmiss_cli nearmiss_properties "fuzz_$query" >"$copy/log" 2>&1 ||
   { tail -n 40 "$copy/log"; fail "the new query does not build"; }

@@ -54,7 +54,7 @@ found=$(fused "$scratch/without")
   -I "$include_folder" "$scratch/all.cpp" || fail "a query does not compile with COLLIDE_NO_LANES"
 
 for option in -ffast-math -Ofast -ffinite-math-only; do
-  if "$compiler" -std=c++20 "$option" -fsyntax-only -I "$include_folder" "$scratch/all.cpp" 2>"$scratch/said"; then
+  if "$compiler" -std=c++20 "$option" -fsyntax-only -Wfatal-errors -I "$include_folder" "$scratch/all.cpp" 2>"$scratch/said"; then
     fail "$option is accepted"
   fi
   grep -q "collide needs IEEE 754 arithmetic" "$scratch/said" || fail "$option is refused for another reason"

@@ -12,6 +12,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
 #include "corpus/generator.hpp"
+#include "corpus/source_folder.hpp"
 #include "impl/subject/provenance.hpp"
 #include "oracles/judge.hpp"
 #include "reports/engine/sweep.hpp"
@@ -229,7 +230,7 @@ json state_in(const std::filesystem::path& folder) { return json::parse(read_fil
 /// The results of docs/exhaustive.md.
 TEST(StoredSweeps, AreExhaustive) {
   std::size_t found = 0;
-  for (const auto& f : std::filesystem::directory_iterator(NEARMISS_SOURCE_FOLDER "/reports/exhaustive")) {
+  for (const auto& f : std::filesystem::directory_iterator(source_folder() + "/reports/exhaustive")) {
     const json state = json::parse(read_file(f.path()));
     SCOPED_TRACE(f.path().string());
     EXPECT_EQ(complaints(state, "sweep.schema.json"), "");
