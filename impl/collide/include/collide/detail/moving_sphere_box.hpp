@@ -83,14 +83,50 @@ struct PointPastBox {
     return positive_part(nearest - sqrt(chord2 / speed2));
   }
   bool inside() const { return !is_beyond(0) && !is_beyond(1) && !is_beyond(2); }
-  /// The face closest to a point in the box. If the point lies on faces, one of these that it does not leave.
-  NearestFace<T> nearest_face_met() const {
+  /// The face closest to a point in the box. If the point lies on faces, one of these that it does not leave. If it got
+  /// into the box by rounding, on its way to a contact, the face that it entered.
+  NearestFace<T> nearest_face_met(bool on_its_way) const {
     for (int i = 0; i < 3; ++i) {
       for (const T side : {T(-1), T(1)}) {
         if (at[i] == side * half[i] && side * step[i] <= T(0)) return {i, side, T(0)};
       }
     }
+    if (const int axis = on_its_way ? entered_axis() : -1; axis >= 0) {
+      return {axis, step[axis] > T(0) ? T(-1) : T(1), T(0)};
+    }
     return nearest_face(at, half);
+  }
+  /// Rounding may move the point past its contact, so that `away`, the vector from the box, points along the motion.
+  /// This shortens the components that leave the box until `away` is perpendicular to the motion. If no component
+  /// approaches the box, it returns the axis of the face that the motion enters nearest to the point; otherwise -1.
+  int turn_against_motion(std::array<T, 3>& away) const {
+    using detail::abs;
+    const auto leaves = [&](int i) { return (away[i] > T(0) && step[i] > T(0)) || (away[i] < T(0) && step[i] < T(0)); };
+    T leaving(0), approaching(0);
+    bool any_leaves = false, any_approaches = false;
+    for (int i = 0; i < 3; ++i) {
+      if (leaves(i)) any_leaves = true, leaving += abs(away[i] * step[i]);
+      if (!leaves(i) && away[i] != T(0) && step[i] != T(0))
+        any_approaches = true, approaching += abs(away[i] * step[i]);
+    }
+    if (!any_leaves || (any_approaches && leaving <= approaching)) return -1;
+    if (any_approaches) {
+      for (int i = 0; i < 3; ++i) {
+        if (leaves(i)) away[i] *= approaching / leaving;
+      }
+      return -1;
+    }
+    return entered_axis();
+  }
+  /// The axis of the face that the motion enters nearest to the point.
+  int entered_axis() const {
+    using detail::abs;
+    const auto from_entry = [&](int i) { return abs(at[i] + (step[i] > T(0) ? half[i] : -half[i])); };
+    int entered = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (step[i] != T(0) && (entered < 0 || from_entry(i) < from_entry(entered))) entered = i;
+    }
+    return entered;
   }
   /// True if the point does not come closer. The distance is convex, so the point never will.
   bool receding() const {
@@ -135,9 +171,12 @@ inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& veloc
         nearest[i] = clamped(path.at[i], -half[i], half[i]);
         away[i] = excess(path.at[i], half[i]);
       }
+      if constexpr (MachineNumber<T>) {
+        if (time > T(0) && face < 0) face = path.turn_against_motion(away);
+      }
       if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or moving toward one face
-        const NearestFace<T> at_face =
-            face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)} : path.nearest_face_met();
+        const NearestFace<T> at_face = face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)}
+                                                 : path.nearest_face_met(MachineNumber<T> && time > T(0));
         away = {};
         away[at_face.axis] = at_face.side;
         nearest[at_face.axis] = at_face.side * half[at_face.axis];

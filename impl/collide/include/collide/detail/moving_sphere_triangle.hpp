@@ -48,7 +48,12 @@ struct SpherePastTriangle {
   }
 
   /// True if the sphere does not move along n and does not start wholly behind the plane.
-  bool may_hit_front() const { return approach >= T(0) && height >= -(radius * n_length); }
+  bool may_hit_front() const {
+    if constexpr (MachineNumber<T>) {  // the product may underflow, not its sign
+      if (approach == T(0) && n_length > T(0) && Tier::dot(unit<Tier>(n), unit<Tier>(velocity)) > T(0)) return false;
+    }
+    return approach >= T(0) && height >= -(radius * n_length);
+  }
 
   /// n . (edge i x (point - start of the edge)): which side of edge i the point is on, positive inside. The value is
   /// the same from either end of the edge; from the closer end it is more accurate.
@@ -419,9 +424,13 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
     const L corners = larger(absolute(t.v0), larger(absolute(t.v1), absolute(t.v2)));
     const L rounding = L::splat(T(16) * limits::epsilon()) * largest_of_three(larger(absolute(center), corners));
     const L low = smaller(t.v0, smaller(t.v1, t.v2)) - rounding, high = larger(t.v0, larger(t.v1, t.v2)) + rounding;
-    if (thin || !all_three((low <= location) & (location <= high))) return fallback(sphere, velocity, triangle);
+    const L weight_sum = sum_of_three(weights);  // |n|^2, unless it is rounding error
+    const bool is_sum = n2 <= T(2) * weight_sum.first() && weight_sum.first() <= T(2) * n2;
+    if (thin || !is_sum || !all_three((low <= location) & (location <= high))) {
+      return fallback(sphere, velocity, triangle);
+    }
     return impact_from_lanes(face_time, location, n / L::splat(height < T(0) ? -n_length : n_length),
-                             yzx(weights) / sum_of_three(weights));
+                             yzx(weights) / weight_sum);
   }
 
   // The distances from each line are multiplied by the length of its edge.
