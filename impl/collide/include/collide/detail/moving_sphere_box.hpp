@@ -96,28 +96,6 @@ struct PointPastBox {
     }
     return nearest_face(at, half);
   }
-  /// Rounding may move the point past its contact, so that `away`, the vector from the box, points along the motion.
-  /// This shortens the components that leave the box until `away` is perpendicular to the motion. If no component
-  /// approaches the box, it returns the axis of the face that the motion enters nearest to the point; otherwise -1.
-  int turn_against_motion(std::array<T, 3>& away) const {
-    using detail::abs;
-    const auto leaves = [&](int i) { return (away[i] > T(0) && step[i] > T(0)) || (away[i] < T(0) && step[i] < T(0)); };
-    T leaving(0), approaching(0);
-    bool any_leaves = false, any_approaches = false;
-    for (int i = 0; i < 3; ++i) {
-      if (leaves(i)) any_leaves = true, leaving += abs(away[i] * step[i]);
-      if (!leaves(i) && away[i] != T(0) && step[i] != T(0))
-        any_approaches = true, approaching += abs(away[i] * step[i]);
-    }
-    if (!any_leaves || (any_approaches && leaving <= approaching)) return -1;
-    if (any_approaches) {
-      for (int i = 0; i < 3; ++i) {
-        if (leaves(i)) away[i] *= approaching / leaving;
-      }
-      return -1;
-    }
-    return entered_axis();
-  }
   /// The axis of the face that the motion enters nearest to the point.
   int entered_axis() const {
     using detail::abs;
@@ -170,9 +148,6 @@ inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& veloc
       for (int i = 0; i < 3; ++i) {
         nearest[i] = clamped(path.at[i], -half[i], half[i]);
         away[i] = excess(path.at[i], half[i]);
-      }
-      if constexpr (MachineNumber<T>) {
-        if (time > T(0) && face < 0) face = path.turn_against_motion(away);
       }
       if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or moving toward one face
         const NearestFace<T> at_face = face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)}
