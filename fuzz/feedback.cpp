@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "fuzz/fuzzed_query.hpp"
+#include "fuzz/statistics.hpp"
 
 namespace nearmiss::fuzz {
 
@@ -19,7 +20,8 @@ void set(Feature feature, std::initializer_list<std::uint64_t> of) {
   for (const std::uint64_t x : of) h = (h ^ x) * 0x100000001b3;
   h ^= h >> 32;
   h *= 0x9e3779b97f4a7c15;
-  nearmiss_feature_counters[h >> 50] = 1;
+  if (feedback_is_on()) nearmiss_feature_counters[h >> 50] = 1;
+  count_feature(h >> 50);
 }
 static_assert(feature_counters == std::size_t{1} << (64 - 50));
 
@@ -47,7 +49,7 @@ bool feedback_is_on() {
 }
 
 void note_case(const Case& question, const Finding& f) {
-  if (!feedback_is_on()) return;
+  if (!feedback_is_on() && !statistics_are_asked()) return;
   const std::uint64_t ties = std::min<std::uint64_t>(f.right_answers, 4);
   set(Feature::stage, {std::uint64_t(question.scalar), std::uint64_t(f.decided_by), std::uint64_t(f.truth_yes), ties});
   set(Feature::branches, {f.branches, std::uint64_t(f.truth_yes), ties});
@@ -58,7 +60,7 @@ void note_case(const Case& question, const Finding& f) {
 }
 
 void note_answer(std::size_t subject, const Finding& f) {
-  if (!feedback_is_on()) return;
+  if (!feedback_is_on() && !statistics_are_asked()) return;
   const std::uint64_t kind = std::uint64_t(f.verdict) << 8 | std::uint64_t(f.disagreement);
   set(Feature::backward, {subject, kind, backward_bucket(f)});
   set(Feature::forward, {subject, std::uint64_t(f.verdict), forward_bucket(f.forward_ulps)});

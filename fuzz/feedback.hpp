@@ -10,7 +10,8 @@
 
 namespace nearmiss::fuzz {
 
-/// False where the environment variable NEARMISS_FEEDBACK is "off": then no counter is ever set.
+/// False where the environment variable NEARMISS_FEEDBACK is "off": then no counter is ever set. Statistics count the
+/// features all the same (fuzz/statistics.hpp).
 bool feedback_is_on();
 
 /// Sets the features of the case: the rung of its margin (the distance to the nearest flip of the decision), the stage

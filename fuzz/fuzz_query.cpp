@@ -8,6 +8,9 @@
 /// NEARMISS_COMMANDS       command lines of programs to ask where they offer this query, one on each line
 /// NEARMISS_FUZZ_REPORTS   a folder: each violation becomes a case file there, and the target goes on
 /// NEARMISS_FEEDBACK       "off": no numeric features for the fuzzing engine (fuzz/feedback.hpp)
+/// NEARMISS_FUZZ_STATISTICS
+///                         a file: executions, executions per second, distinct features and the worst proved backward
+///                         error of each subject are written there as JSON at the end of the run, also before an abort
 ///
 /// The argument --abort-on-violation aborts at a violation even where NEARMISS_FUZZ_REPORTS names a folder.
 #include <algorithm>
@@ -22,6 +25,7 @@
 #include "fuzz/fuzzed_query.hpp"
 #include "fuzz/mutation.hpp"
 #include "fuzz/number_memory.hpp"
+#include "fuzz/statistics.hpp"
 #include "fuzz/violation.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
@@ -38,15 +42,17 @@ Answer ask(const Asked& asked, const Case& c) try { return asked.answer(c.values
   return Answer::without(Answer::Status::broke, e.what());
 }
 
-Finding judged(const Asked& asked, const Case& c) try {
-  return confirmed(c, ask(asked, c), asked.standard, Detail::verdict);
+Finding judged(const Asked& asked, const Case& c, const Answer& answer) try {
+  return confirmed(c, answer, asked.standard, Detail::verdict);
 } catch (const InternalError& error) {
   end_with(error, *asked.subject);
 }
 
 /// Asks the subject and judges its answer. Returns how bad the answer is.
 double examine(const Case& c, const Asked& asked, std::size_t slot) {
-  const Finding f = judged(asked, c);
+  const Answer answer = ask(asked, c);
+  const Finding f = judged(asked, c, answer);
+  count_answer(asked, c, answer, f);
   note_answer(slot, f);
   if (slot == 0) note_case(c, f);
   if (f.is_proved() || f.verdict == Verdict::broke) report(c, *asked.subject, f);
@@ -54,6 +60,7 @@ double examine(const Case& c, const Asked& asked, std::size_t slot) {
 }
 
 void examine(const Case& c, const std::vector<Asked>& all) {
+  count_execution();
   double worst = 0;
   std::size_t slot = 0;
   for (const Asked& asked : all) {
