@@ -15,11 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// A shell script in the place of a fuzz target. It reads its time from libFuzzer's option.
+/// Waits for SIGUSR1, at which libFuzzer prints its statistics and leaves.
+const char* const until_told =
+    "until_told() { trap told=1 USR1; sleep 100 & while [ -z \"$told\" ]; do wait; done; kill $!; }\n";
+
+/// A shell script in the place of a fuzz target.
 FuzzTarget target(const TemporaryFolder& folder, const Query& query, const std::string& lines) {
-  const fs::path file =
-      folder.file("fuzz_" + std::string(query.name),
-                  "#!/bin/sh\nfor a in \"$@\"; do case $a in -max_total_time=*) s=${a#*=};; esac; done\n" + lines);
+  const fs::path file = folder.file("fuzz_" + std::string(query.name), std::string("#!/bin/sh\n") + until_told + lines);
   fs::permissions(file, fs::perms::owner_all);
   return {&query, file};
 }
@@ -36,7 +38,7 @@ const FuzzOutcome* of(const FuzzNightOutcome& o, const Query& query) {
 }
 
 const char* const some_executions =
-    "sleep $s; echo 'stat::number_of_executed_units: 10'; echo 'stat::new_units_added: 0'\n";
+    "until_told; echo 'stat::number_of_executed_units: 10'; echo 'stat::new_units_added: 0'\n";
 
 TEST(FuzzNight, GivesEveryTargetATurn) {
   const TemporaryFolder folder;
@@ -52,7 +54,7 @@ TEST(FuzzNight, NamesTheTargetsThatHadNoTurn) {
   const TemporaryFolder folder;
   std::vector<FuzzTarget> targets;
   for (std::size_t i = 0; i < 4; ++i) targets.push_back(target(folder, catalogue()[i], some_executions));
-  const FuzzNightOutcome o = fuzz_in_turns(targets, night_of(folder, 1, 1500ms));
+  const FuzzNightOutcome o = fuzz_in_turns(targets, night_of(folder, 1, 700ms));
   EXPECT_EQ(o.ran.size(), 1u);
   EXPECT_EQ(o.no_time.size(), 3u);
 }
@@ -60,7 +62,7 @@ TEST(FuzzNight, NamesTheTargetsThatHadNoTurn) {
 TEST(FuzzNight, GivesMoreTurnsToATargetThatFindsNewInputs) {
   const TemporaryFolder folder;
   const Query &rich = catalogue()[0], &poor = catalogue()[1];
-  const std::string finds = "sleep $s; echo 'stat::number_of_executed_units: 10'; echo 'stat::new_units_added: 50'\n";
+  const std::string finds = "until_told; echo 'stat::number_of_executed_units: 10'; echo 'stat::new_units_added: 50'\n";
   const FuzzNightOutcome o =
       fuzz_in_turns({target(folder, poor, some_executions), target(folder, rich, finds)}, night_of(folder, 1, 9500ms));
   ASSERT_NE(of(o, rich), nullptr);
