@@ -56,8 +56,8 @@ extern const std::span<const AbortFrame> abort_frames;
 #define NEARMISS_ABORT_ENTRIES(query, subject, name) NEARMISS_KINDS(NEARMISS_ABORT_ENTRY, query, subject, name)
 
 /// Exact numbers allocate much: without the stacks of all allocations and with a small quarantine of freed memory a
-/// target runs twice as fast; looking for uses of a frame after its return costs another tenth, and the tests of the
-/// preset asan do so. ASAN_OPTIONS takes precedence.
+/// target runs twice as fast; the tests of the preset asan look for uses of a frame after
+/// its return, which costs time here. ASAN_OPTIONS takes precedence.
 #define NEARMISS_SANITIZER_OPTIONS                                                       \
   extern "C" const char* __asan_default_options() {                                      \
     return "malloc_context_size=0:quarantine_size_mb=8:detect_stack_use_after_return=0"; \

@@ -31,7 +31,8 @@ thread_local std::array<Free*, largest_block / grain + 1> free_blocks{};
 
 bool is_in_pool(const void* p) { return pool != nullptr && std::uintptr_t(p) - std::uintptr_t(pool) < pool_size; }
 
-std::size_t grains_of(std::size_t size) { return (size + grain - 1) / grain; }
+/// At least one: a free block has to hold a pointer.
+std::size_t grains_of(std::size_t size) { return size == 0 ? 1 : (size + grain - 1) / grain; }
 
 /// nullptr where the pool has no such block.
 void* take_block(std::size_t grains) {
