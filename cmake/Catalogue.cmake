@@ -1,26 +1,30 @@
-# Reads the catalogue: sets NEARMISS_QUERIES, and writes two headers, with the inputs of every query and with the function
-# of `collide` for every query.
+# Reads the catalogue: sets NEARMISS_QUERIES, and writes headers: the inputs of every query, the function of `collide` for
+# each query, and these functions of all queries.
 
 set(NEARMISS_CATALOGUE ${PROJECT_SOURCE_DIR}/impl/catalogue/catalogue.def)
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${NEARMISS_CATALOGUE})
 
 file(STRINGS ${NEARMISS_CATALOGUE} lines REGEX "^NEARMISS_QUERY\\([a-z0-9_]+\\)$")
 set(NEARMISS_QUERIES "")
-set(includes "// Written by CMake from impl/catalogue/catalogue.def.\n#pragma once\n")
-set(functions "${includes}#include \"impl/adapters/collide_function.hpp\"\n")
-set(definitions "")
+set(NEARMISS_GENERATED ${PROJECT_BINARY_DIR}/generated)
+set(written "// Written by CMake from impl/catalogue/catalogue.def.\n#pragma once\n")
+set(includes "${written}")
+set(functions "${written}")
 foreach(line IN LISTS lines)
   string(REGEX REPLACE "^NEARMISS_QUERY\\(([a-z0-9_]+)\\)$" "\\1" query ${line})
   list(APPEND NEARMISS_QUERIES ${query})
   string(APPEND includes "#include \"impl/catalogue/queries/${query}.hpp\"\n")
-  string(APPEND functions "#include <collide/${query}.hpp>\n#include \"impl/catalogue/queries/${query}.hpp\"\n")
-  string(APPEND definitions "NEARMISS_COLLIDE_FUNCTION(${query})\n")
+  string(APPEND functions "#include \"nearmiss/collide_functions/${query}.hpp\"\n")
+  set(function "${written}#include <collide/${query}.hpp>\n#include \"impl/catalogue/queries/${query}.hpp\"\n#include \"impl/adapters/collide_function.hpp\"\n")
+  file(GLOB arguments CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/impl/adapters/collide_arguments/${query}.hpp)
+  if(arguments)
+    string(APPEND function "#include \"impl/adapters/collide_arguments/${query}.hpp\"\n")
+  endif()
+  file(GENERATE OUTPUT ${NEARMISS_GENERATED}/nearmiss/collide_functions/${query}.hpp CONTENT
+    "${function}namespace nearmiss::adapters {\nNEARMISS_COLLIDE_FUNCTION(${query})\n}\n")
 endforeach()
 if(NOT NEARMISS_QUERIES)
   message(FATAL_ERROR "${NEARMISS_CATALOGUE} lists no query")
 endif()
-
-set(NEARMISS_GENERATED ${PROJECT_BINARY_DIR}/generated)
 file(GENERATE OUTPUT ${NEARMISS_GENERATED}/nearmiss/catalogue_inputs.hpp CONTENT "${includes}")
-file(GENERATE OUTPUT ${NEARMISS_GENERATED}/nearmiss/collide_functions.hpp CONTENT
-  "${functions}namespace nearmiss::adapters {\n${definitions}}\n")
+file(GENERATE OUTPUT ${NEARMISS_GENERATED}/nearmiss/collide_functions.hpp CONTENT "${functions}")

@@ -34,6 +34,14 @@ if(NEARMISS_CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 
+# Sets `share` to one of 0 ... shares - 1 that follows from the name alone: a new name changes one share.
+function(nearmiss_share_of name shares share)
+  string(MD5 hash ${name})
+  string(SUBSTRING ${hash} 0 4 hash)
+  math(EXPR number "0x${hash} % ${shares}")
+  set(${share} ${number} PARENT_SCOPE)
+endfunction()
+
 # Compiles the sources of `target` as `units` units. A source's unit follows from its name alone: a new source changes one
 # unit, and ccache keeps the others.
 function(nearmiss_unite target units)
@@ -44,9 +52,7 @@ function(nearmiss_unite target units)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   foreach(source IN LISTS sources)
     get_filename_component(name ${source} NAME)
-    string(MD5 hash ${name})
-    string(SUBSTRING ${hash} 0 4 hash)
-    math(EXPR unit "0x${hash} % ${units}")
+    nearmiss_share_of(${name} ${units} unit)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP unit_${unit})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

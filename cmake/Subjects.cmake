@@ -1,4 +1,4 @@
-# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [WITH SUBJECT] [LIBRARIES ...])
+# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [WITH SUBJECT] [PER_QUERY FOLDER] [LIBRARIES ...])
 #   NAME      its name on the command line
 #   HEADER    the adapter's header: relative to the calling file, or to the top of this project
 #   ADAPTER   the qualified name of the adapter's type
@@ -10,13 +10,16 @@
 #             their own process, do not include it
 #   WITH      another subject of the same header and libraries, added before: one source holds both, and the compiler reads
 #             the header once
+#   PER_QUERY a folder on the include path, with a header QUERY.hpp for each query. HEADER and QUERY.hpp together answer
+#             the query. The queries are then compiled in several sources, so that a change of one query compiles one of
+#             them again
 #
 # To add your own library, write a CMake file that calls this function, and pass it to CMake by -DNEARMISS_ADD=FILE
 # (docs/bring-your-own.md). The commands list, run, replay and nightly, the fuzz targets and the properties then include
 # it.
 
 function(nearmiss_add_subject name header adapter)
-  cmake_parse_arguments(arg "OWN;ISOLATED" "WITH" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OWN;ISOLATED" "WITH;PER_QUERY" "LIBRARIES" ${ARGN})
   string(MAKE_C_IDENTIFIER ${name} identifier)
   get_property(known GLOBAL PROPERTY NEARMISS_SUBJECTS)
   if(identifier IN_LIST known)
@@ -35,7 +38,7 @@ function(nearmiss_add_subject name header adapter)
       message(FATAL_ERROR "nearmiss_add_subject: ${name}: WITH names \"${arg_WITH}\", and no such subject was added before")
     endif()
     set(arg_HEADER ${header})
-    foreach(property HEADER LIBRARIES ISOLATED)
+    foreach(property HEADER LIBRARIES ISOLATED PER_QUERY)
       get_property(of_other GLOBAL PROPERTY NEARMISS_SUBJECT_${source}_${property})
       if(NOT "${of_other}" STREQUAL "${arg_${property}}")
         message(FATAL_ERROR "nearmiss_add_subject: ${name}: its ${property} is not that of ${arg_WITH}")
@@ -47,7 +50,9 @@ function(nearmiss_add_subject name header adapter)
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_HEADER ${header})
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES "${arg_LIBRARIES}")
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED ${arg_ISOLATED})
+  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_PER_QUERY "${arg_PER_QUERY}")
   set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_SOURCE ${source})
+  set_property(GLOBAL APPEND PROPERTY NEARMISS_SUBJECT_${source}_ADAPTERS ${adapter})
   set_property(GLOBAL APPEND_STRING PROPERTY NEARMISS_SUBJECT_${source}_FUNCTIONS
     "Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }\n")
   if(arg_OWN)
@@ -110,7 +115,42 @@ function(nearmiss_write_hosts file)  # SUBJECT ...
   file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${provenance}}\n")
 endfunction()
 
-# Compiles the source of a subject, and of the subjects WITH it, in a target of its own, so that the compile options of its
+# Writes the sources of a subject that is compiled PER_QUERY, apart from its main source: each holds the functions of a
+# share of the queries. Which one holds a query follows from the query's name alone (see nearmiss_unite). Sets `declared`
+# to the text by which the main source says that these functions are elsewhere, and `files` to the sources.
+function(nearmiss_write_shares identifier header folder declared files)
+  set(shares 12)
+  get_property(adapters GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ADAPTERS)
+  set(elsewhere "")
+  foreach(adapter IN LISTS adapters)
+    string(APPEND elsewhere "#define NEARMISS_QUERY(query) extern template Offering offering_of<${adapter}, inputs::query<${adapter}::Number>>(std::string_view);\n#include \"impl/catalogue/catalogue.def\"\n#undef NEARMISS_QUERY\n")
+  endforeach()
+  foreach(query IN LISTS NEARMISS_QUERIES)
+    nearmiss_share_of(${query} ${shares} share)
+    list(APPEND used ${share})
+    string(APPEND includes_${share} "#include \"${folder}/${query}.hpp\"\n")
+    foreach(adapter IN LISTS adapters)
+      string(APPEND functions_${share} "template Offering offering_of<${adapter}, inputs::${query}<${adapter}::Number>>(std::string_view);\n")
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES used)
+  set(written "")
+  foreach(share IN LISTS used)
+    set(source ${NEARMISS_GENERATED}/subjects/${identifier}_${share}.cpp)
+    file(GENERATE OUTPUT ${source} CONTENT
+"// Written by CMake: a share of the queries.
+#include \"${header}\"
+#include \"impl/subject/offering.hpp\"
+${includes_${share}}namespace nearmiss {
+${functions_${share}}}
+")
+    list(APPEND written ${source})
+  endforeach()
+  set(${declared} "${elsewhere}" PARENT_SCOPE)
+  set(${files} "${written}" PARENT_SCOPE)
+endfunction()
+
+# Compiles the sources of a subject, and of the subjects WITH it, in a target of its own, so that the compile options of its
 # libraries apply to no other source. Unless it is isolated, adds it to nearmiss_subjects for the programs that ask it in
 # their own process.
 function(nearmiss_compile_subject identifier)
@@ -129,14 +169,20 @@ function(nearmiss_compile_subject identifier)
   endif()
   set(target nearmiss_subject_${identifier})
   set(source ${NEARMISS_GENERATED}/subjects/${identifier}.cpp)
+  get_property(per_query GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_PER_QUERY)
+  set(elsewhere "")
+  set(shares "")
+  if(per_query)
+    nearmiss_write_shares(${identifier} ${header} ${per_query} elsewhere shares)
+  endif()
   file(GENERATE OUTPUT ${source} CONTENT
 "// Written by CMake: ${name}.
 #include \"${header}\"
 #include \"impl/subject/bind.hpp\"
 namespace nearmiss {
-${functions}}
+${elsewhere}${functions}}
 ")
-  add_library(${target} OBJECT ${source})
+  add_library(${target} OBJECT ${source} ${shares})
   target_link_libraries(${target} PRIVATE nearmiss_flags collide ${libraries})
   target_include_directories(${target} PRIVATE ${NEARMISS_GENERATED})
   if(NOT isolated)

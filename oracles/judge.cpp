@@ -290,11 +290,16 @@ class Judgement {
     }
     return -1;
   }
-  /// An infinite number is invalid if an exact one is at most half the largest finite number. Beyond that, or beside a
-  /// wrong decision (which has no exact number to compare with), it is judged by its distance like any other number.
+  /// An infinite number is invalid if an exact one is at most half the largest finite number, for the input and for
+  /// every other input within the promised backward error. Beyond that, or beside a wrong decision (which has no exact
+  /// number to compare with), it is judged by its distance like any other number.
   bool may_be_infinite(std::size_t i) const {
+    const auto is_beyond = [&](const Enclosure& e) {
+      return e.error[i].nearest_to_zero() <= largest_finite(question_.scalar) / 2;
+    };
     const Enclosure exact = x_.exactly();
-    return exact.may_be_yes != answer_.yes || exact.error[i].nearest_to_zero() <= largest_finite(question_.scalar) / 2;
+    if (exact.may_be_yes != answer_.yes || is_beyond(exact)) return true;
+    return std::isfinite(contract_.backward) && is_beyond(x_.within(contract_.backward));
   }
   void add_not_finite(std::size_t member, int bad) {
     MemberFinding m = member_finding(member, Disagreement::not_finite, bad);

@@ -1,43 +1,6 @@
-/// The tiers of `collide` as subjects.
+/// The tiers Fast and Accurate of `collide` as subjects, with the functions of all queries.
 #pragma once
 
-#include <collide/tiers.hpp>
-#include <collide/version.hpp>
-
-#include <string>
-
-#include "impl/adapters/collide_function.hpp"
-#include "impl/subject/adapter.hpp"
+#include "impl/adapters/collide_tiers.hpp"
 #include "nearmiss/catalogue_inputs.hpp"   // written by CMake from impl/catalogue/catalogue.def
 #include "nearmiss/collide_functions.hpp"  // likewise
-
-namespace nearmiss::adapters {
-
-/// "major.minor.patch" of the headers that this program is compiled with.
-inline std::string collide_version() {
-  const auto part = [](int number) { return std::to_string(number); };
-  return part(COLLIDE_VERSION_MAJOR) + '.' + part(COLLIDE_VERSION_MINOR) + '.' + part(COLLIDE_VERSION_PATCH);
-}
-
-/// One tier of `collide` in one scalar.
-template <class Tier, class T>
-struct Collide {
-  using Number = T;
-  static std::string version() { return collide_version(); }
-
-  template <class Q>
-  static typename Q::Answer answer(const Q& q) {
-    return ask_collide<Tier>(q);
-  }
-  template <class Q>
-  static collide::Contract contract() {
-    return CollideFunction<Q>::template contract<Tier>();
-  }
-};
-
-using CollideFastFloat = Collide<collide::Fast, float>;
-using CollideFastDouble = Collide<collide::Fast, double>;
-using CollideAccurateFloat = Collide<collide::Accurate, float>;
-using CollideAccurateDouble = Collide<collide::Accurate, double>;
-
-}  // namespace nearmiss::adapters

@@ -1,9 +1,9 @@
-/// The certified tier of `collide` as subjects.
+/// All tiers of `collide` as subjects, without the functions of the queries (nearmiss/collide_functions/QUERY.hpp).
 #pragma once
 
 #include <collide/certified.hpp>
 
-#include "impl/adapters/collide.hpp"
+#include "impl/adapters/collide_tiers.hpp"
 
 namespace nearmiss::adapters {
 

@@ -1,21 +1,11 @@
 /// Maps each query of the catalogue to its function in `collide` and the arguments of that function.
+///
+/// For each query, CMake writes nearmiss/collide_functions/QUERY.hpp. It includes the headers of the function and of
+/// the inputs, collide_arguments/QUERY.hpp if there is one, and defines CollideFunction for the query. A source that
+/// includes these headers for a few queries is compiled again only when one of those changes.
 #pragma once
 
-#include <cmath>
-#include <limits>
 #include <tuple>
-
-#include <collide/closest_point_segment_unit.hpp>
-#include <collide/closest_point_triangle_perimeter_edges.hpp>
-#include <collide/moving_point_triangle_prepared.hpp>
-#include <collide/ray_aabox.hpp>
-
-#include "impl/catalogue/queries/closest_point_segment_unit.hpp"
-#include "impl/catalogue/queries/closest_point_triangle_perimeter_edges.hpp"
-#include "impl/catalogue/queries/moving_point_triangle_prepared.hpp"
-#include "impl/catalogue/queries/moving_sphere_passes_box.hpp"
-#include "impl/catalogue/queries/moving_sphere_passes_sphere.hpp"
-#include "impl/catalogue/queries/ray_aabox.hpp"
 
 namespace nearmiss::adapters {
 
@@ -23,7 +13,7 @@ namespace nearmiss::adapters {
 template <class Q>
 struct CollideFunction;
 
-/// Defines CollideFunction for one query. Requires the headers of its function and of its inputs.
+/// Defines CollideFunction for one query. Requires the headers of the query's function and of its inputs.
 #define NEARMISS_COLLIDE_FUNCTION(query)                                              \
   template <class T>                                                                  \
   struct CollideFunction<inputs::query<T>> {                                          \
@@ -37,38 +27,18 @@ struct CollideFunction;
     }                                                                                 \
   };
 
-/// The arguments of the function in a tuple: the members of the inputs, prepared where the function takes prepared
-/// ones.
+/// The arguments of a query's function in a tuple: the members of the inputs. A specialization in
+/// collide_arguments/QUERY.hpp prepares them where the function takes prepared ones.
+template <class Q>
+struct CollideArguments {
+  template <class Tier>
+  static auto of(const Q& q) noexcept {
+    return std::apply([&](const auto&... member) { return std::tuple(q.*(member.pointer)...); }, Q::members());
+  }
+};
 template <class Tier, class Q>
 auto arguments(const Q& q) noexcept {
-  return std::apply([&](const auto&... member) { return std::tuple(q.*(member.pointer)...); }, Q::members());
-}
-template <class Tier, class T>
-auto arguments(const inputs::closest_point_segment_unit<T>& q) noexcept {
-  return std::tuple(collide::prepare_segment<Tier>(q.segment), q.point);
-}
-template <class Tier, class T>
-auto arguments(const inputs::closest_point_triangle_perimeter_edges<T>& q) noexcept {
-  return std::tuple(collide::prepare_triangle_edges<Tier>(q.triangle), q.point);
-}
-template <class Tier, class T>
-auto arguments(const inputs::moving_point_triangle_prepared<T>& q) noexcept {
-  return std::tuple(q.point, q.velocity, collide::prepare_triangle<Tier>(q.triangle));
-}
-template <class Tier, class T>
-auto arguments(const inputs::ray_aabox<T>& q) noexcept {
-  return std::tuple(collide::prepare_ray<Tier>(q.ray), collide::prepare_aabox<Tier>(q.aabox));
-}
-template <class Tier, class T>
-auto arguments(const inputs::moving_sphere_passes_box<T>& q) noexcept {
-  return std::tuple(q.sphere, q.velocity, q.box, q.forever ? std::numeric_limits<T>::infinity() : q.limit);
-}
-/// A limit that is not finite becomes NaN: the query has a flag for an unlimited motion.
-template <class Tier, class T>
-auto arguments(const inputs::moving_sphere_passes_sphere<T>& q) noexcept {
-  const bool valid = q.limit >= T(0) && std::isfinite(q.limit);
-  const T until = q.forever ? std::numeric_limits<T>::infinity() : q.limit;
-  return std::tuple(q.sphere, q.velocity, q.fixed, valid ? until : std::numeric_limits<T>::quiet_NaN());
+  return CollideArguments<Q>::template of<Tier>(q);
 }
 
 /// The answer of `collide` in the tier.

@@ -252,7 +252,7 @@ TEST(Cli, SaysWhyASubjectCannotBeRunOnAQuery) {
 }
 
 TEST(Cli, SaysWhenItsOutputCannotBeWritten) {
-  const Ran ran = run_program("sh", {"-c", std::string(NEARMISS_PROGRAM) + " list > /dev/full"});
+  const Ran ran = run_program("sh", {"-c", nearmiss_program() + " list > /dev/full"});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");
 }
@@ -261,7 +261,7 @@ TEST(Cli, SaysWhenItsOutputCannotBeWritten) {
 TEST(Cli, SaysWhenItsOutputIsClosed) {
   const TemporaryFolder folder;
   const std::string file = folder.file("case.json", case_text("[0, 0, 0]", "1"));
-  const std::string command = std::string(NEARMISS_PROGRAM) + " replay -s collide-fast-double " + file;
+  const std::string command = nearmiss_program() + " replay -s collide-fast-double " + file;
   const Ran ran = run_program("sh", {"-c", command + " <&- >&-"});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_EQ(ran.err, "nearmiss: standard output cannot be written\n");

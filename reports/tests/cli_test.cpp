@@ -62,7 +62,7 @@ TEST(List, ShowsEveryQueryAndSubject) {
 
 /// "SUITE.TEST" for each test of properties/ that runs for the query.
 std::map<std::string, std::set<std::string>> tests_by_query() {
-  const Ran ran = run_program(NEARMISS_PROPERTIES_PROGRAM, {"--gtest_list_tests"});
+  const Ran ran = run_program(properties_program(), {"--gtest_list_tests"});
   std::map<std::string, std::set<std::string>> tests;
   std::istringstream lines(ran.out);
   std::string suite;
@@ -186,7 +186,7 @@ TEST(Run, PutsNewFoldersBelowTheNamedOne) {
 TEST(Run, StopsCleanlyWhenInterrupted) {
   const TemporaryFolder folder;
   const std::string out = (folder / "r").string();
-  const std::string script = "'" NEARMISS_PROGRAM "' run -s collide-fast-double --seconds 100 --out '" + out +
+  const std::string script = "'" + nearmiss_program() + "' run -s collide-fast-double --seconds 100 --out '" + out +
                              "' & run=$!; " + "while [ ! -e '" + out + "/index.json' ]; do sleep 0.05; done; " +
                              "kill -TERM $run; wait $run";
   const Ran ran = run_program("bash", {"-c", script});
@@ -202,7 +202,7 @@ TEST(Run, StopsCleanlyWhenInterrupted) {
 TEST(Run, LeavesAFolderToTheRunThatHasIt) {
   const TemporaryFolder folder;
   const std::string out = (folder / "r").string();
-  const std::string program = "'" NEARMISS_PROGRAM "' run -s collide-fast-double --out '" + out + "'";
+  const std::string program = "'" + nearmiss_program() + "' run -s collide-fast-double --out '" + out + "'";
   const std::string script = program + " --seconds 100 >/dev/null 2>&1 & run=$!; while [ ! -e '" + out +
                              "/index.json' ]; do sleep 0.05; done; " + program + " -n 1; code=$?; kill -KILL $run; " +
                              "wait $run; sleep 0.2; " + program + " -n 1 >/dev/null; echo $code $?";
@@ -214,8 +214,8 @@ TEST(Run, LeavesAFolderToTheRunThatHasIt) {
 
 /// Runs fcl into `folder` with a limit on the size of files in KiB.
 Ran run_with_small_files(const fs::path& folder, const std::string& kibibytes, const std::string& options) {
-  return run_program("bash", {"-c", "ulimit -S -f " + kibibytes + "; exec '" NEARMISS_PROGRAM "' run -s fcl --seed 1 " +
-                                        options + " --out '" + folder.string() + "'"});
+  return run_program("bash", {"-c", "ulimit -S -f " + kibibytes + "; exec '" + nearmiss_program() +
+                                        "' run -s fcl --seed 1 " + options + " --out '" + folder.string() + "'"});
 }
 
 TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
@@ -248,7 +248,7 @@ TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
 
 TEST(Run, GoesOnWithoutAReaderOfItsOutput) {
   const TemporaryFolder folder;
-  const std::string command = "'" NEARMISS_PROGRAM "' run -s collide-fast-double -n 200 --out '" +
+  const std::string command = "'" + nearmiss_program() + "' run -s collide-fast-double -n 200 --out '" +
                               (folder / "r").string() + "' | true; echo ${PIPESTATUS[0]}";
   const Ran ran = run_program("bash", {"-c", command});
   EXPECT_EQ(ran.out, "141\n") << "ended by SIGPIPE, but not before its work was done";
@@ -267,9 +267,9 @@ TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
   bool refused = false;
   for (const char* files : {"4", "5", "6", "7", "8", "9", "10", "11"}) {
     const fs::path out = folder / files;
-    const std::string run = std::string("ulimit -n ") + files +
-                            "; exec '" NEARMISS_PROGRAM "' run -n 20 -q box_box_overlap " +
-                            "-s collide-fast-double -s collide-fast-float --out '" + out.string() + "'";
+    const std::string run = std::string("ulimit -n ") + files + "; exec '" + nearmiss_program() +
+                            "' run -n 20 -q box_box_overlap " + "-s collide-fast-double -s collide-fast-float --out '" +
+                            out.string() + "'";
     arguments = apart;
     arguments.insert(arguments.end(), {"bash", "-c",
                                        "sleep 60 & other=$!; (" + run + ") > '" + (folder / "log").string() +
@@ -551,7 +551,7 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   fs::create_directory(folder / "targets");
   const fs::path target = folder.file("targets/fuzz_moving_sphere_box", fuzz_target(seed, artifact));
   fs::permissions(target, fs::perms::owner_all);
-  const std::string plugin = NEARMISS_PLUGINS "/libskim_plugin.so";
+  const std::string plugin = plugin_file("skim_plugin");
   const Ran ran = nearmiss({"nightly", "--minutes", is_sanitized ? "1" : "0.25", "--seed", "3", "--plugin", plugin,
                             "--fuzz-targets", (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
@@ -786,8 +786,8 @@ TEST(Version, IsTold) {
 
 /// The completions of bash at the end of `words`.
 std::string completions(const std::string& words) {
-  const std::string script = "source <('" NEARMISS_PROGRAM "' completion bash); COMP_WORDS=('" NEARMISS_PROGRAM "' " +
-                             words +
+  const std::string script = "source <('" + nearmiss_program() + "' completion bash); COMP_WORDS=('" +
+                             nearmiss_program() + "' " + words +
                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _nearmiss; printf '%s ' \"${COMPREPLY[@]}\"";
   const Ran ran = run_program("bash", {"-c", script});
   EXPECT_EQ(ran.err, "");

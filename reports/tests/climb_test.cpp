@@ -285,8 +285,7 @@ TEST(RunClimb, StoresWhatItFoundWhenInterrupted) {
   const TemporaryFolder folder;
   const std::string out = (folder / "r").string();
   const std::string script =
-      "NEARMISS_CORPUS='" + folder.path().string() +
-      "' '" NEARMISS_PROGRAM
+      "NEARMISS_CORPUS='" + folder.path().string() + "' '" + nearmiss_program() +
       "' run --climb --update-worst -s collide-fast-float -q sphere_sphere_penetration "
       "--seconds 100 --out '" +
       out + "' & run=$!; while [ ! -e '" + out +

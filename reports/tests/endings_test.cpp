@@ -41,14 +41,17 @@ TEST_P(EveryCommand, EndsWhenItIsToldTo) {
     for (std::string& a : arguments) {
       if (a == "OUT") a = (folder / std::to_string(signal)).string();
     }
-    for (const char* more : {"--patience", "3000", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"})
+    for (const std::string& more :
+         std::vector<std::string>{"--patience", "3000", "--command", zoo_program(), "-s", "zoo"})
       arguments.emplace_back(more);
-    Started command(NEARMISS_PROGRAM, arguments, {mark, "NEARMISS_ZOO=always-sleeps"});
-    const auto awaits_its_subject =
-        [&] {  // the command, a supervisor, the subject; a host that only sends its hello ends soon
-          for (int i = 0; i < 1000 && processes_with(mark).size() < 3; ++i) usleep(20'000);
-          return processes_with(mark).size() >= 3;
-        };
+    Started command(nearmiss_program(), arguments, {mark, "NEARMISS_ZOO=always-sleeps"});
+    // The command, a supervisor, the subject. A host that only sends its hello may be the third process, and ends soon.
+    const auto awaits_its_subject = [&] {
+      for (int i = 0; i < 1000; ++i, usleep(20'000)) {
+        if (processes_with(mark).size() >= 3) return true;
+      }
+      return false;
+    };
     EXPECT_TRUE(awaits_its_subject());
     EXPECT_FALSE(command.wait(0.5).has_value());
     EXPECT_TRUE(awaits_its_subject());
@@ -76,8 +79,8 @@ TEST(Nightly, EndsWhenItIsToldTo) {
   const TemporaryFolder folder;
   for (const double after : {0.5, 3.0}) {
     const std::string mark = new_mark();
-    Started nightly(NEARMISS_PROGRAM,
-                    {"nightly", "--minutes", "10", "--patience", "3000", "--command", NEARMISS_ZOO_PROGRAM, "--out",
+    Started nightly(nearmiss_program(),
+                    {"nightly", "--minutes", "10", "--patience", "3000", "--command", zoo_program(), "--out",
                      (folder / std::to_string(after)).string()},
                     {mark, "NEARMISS_ZOO=always-sleeps"});
     EXPECT_FALSE(nightly.wait(after).has_value());
@@ -90,9 +93,9 @@ TEST(Nightly, EndsWhenItIsToldTo) {
 
 TEST(Run, EndsWhenItsTimeIsOver) {
   const TemporaryFolder folder;
-  Started run(NEARMISS_PROGRAM,
-              {"run", "-q", "sphere_sphere_overlap", "--seconds", "1", "--patience", "3000", "--command",
-               NEARMISS_ZOO_PROGRAM, "-s", "zoo", "-s", "collide-fast-double", "--out", (folder / "r").string()},
+  Started run(nearmiss_program(),
+              {"run", "-q", "sphere_sphere_overlap", "--seconds", "1", "--patience", "3000", "--command", zoo_program(),
+               "-s", "zoo", "-s", "collide-fast-double", "--out", (folder / "r").string()},
               {"NEARMISS_ZOO=always-sleeps"});
   const std::optional<Ran> ran = run.wait(1 + soon);
   ASSERT_TRUE(ran.has_value()) << "it goes on";
@@ -108,9 +111,10 @@ TEST(EverySubject, IsGivenUpWhereItIsAlwaysLate) {
                                  (folder / "r").string()},
         std::vector<std::string>{"import", "nyu-ccd", source_folder() + "/corpus/nyu-ccd/sample.csv"}}) {
     std::vector<std::string> all = arguments;
-    for (const char* more : {"--patience", "0.02", "--command", NEARMISS_ZOO_PROGRAM, "-s", "zoo"})
+    for (const std::string& more :
+         std::vector<std::string>{"--patience", "0.02", "--command", zoo_program(), "-s", "zoo"})
       all.emplace_back(more);
-    Started command(NEARMISS_PROGRAM, all, {"NEARMISS_ZOO=always-sleeps"});
+    Started command(nearmiss_program(), all, {"NEARMISS_ZOO=always-sleeps"});
     const std::optional<Ran> ran = command.wait(long_enough);
     ASSERT_TRUE(ran.has_value());
     EXPECT_NE((ran->out + ran->err).find("zoo was late 8 times"), std::string::npos) << ran->out << ran->err;
@@ -123,7 +127,7 @@ TEST(EverySubject, IsGivenUpWhereItIsAlwaysLate) {
 /// What whoever starts a command has set, it has as well.
 TEST(Cli, EndsWhereTheEndOfChildrenIsIgnored) {
   Started command("/usr/bin/env",
-                  {"--ignore-signal=CHLD", NEARMISS_PROGRAM, "run", "-q", "sphere_sphere_overlap", "-s",
+                  {"--ignore-signal=CHLD", nearmiss_program(), "run", "-q", "sphere_sphere_overlap", "-s",
                    "collide-fast-double", "--cases", "50", "--out", "/dev/null/none"},
                   {});
   const std::optional<Ran> ran = command.wait(soon);
@@ -137,9 +141,9 @@ TEST(Cli, StartsNoHostThatHasNotItsOwnFiles) {
     const TemporaryFolder folder;
     const Ran ran =
         run_program("bash",
-                    {"-c", "ulimit -n " + std::to_string(files) + "; exec '" NEARMISS_PROGRAM "' run --command '" +
-                               NEARMISS_ZOO_PROGRAM + "' -s zoo -q sphere_sphere_overlap --cases 100 --out '" +
-                               (folder / "r").string() + "'"},
+                    {"-c", "ulimit -n " + std::to_string(files) + "; exec '" + nearmiss_program() +
+                               "' run --command '" + zoo_program() +
+                               "' -s zoo -q sphere_sphere_overlap --cases 100 --out '" + (folder / "r").string() + "'"},
                     {"NEARMISS_ZOO=ask-json-to-output"});
     for (const std::string& text : {"\n" + ran.out, "\n" + ran.err}) {
       EXPECT_EQ(text.find("\n[{\"finding\""), std::string::npos) << files << text;
@@ -212,8 +216,8 @@ void expect_to_survive_kills(const std::vector<std::string>& command, double sec
     const fs::path out = folder / ("killed-" + std::to_string(i));
     std::vector<std::string> arguments = command;
     arguments.insert(arguments.end(),
-                     {"--seed", std::to_string(i), "--plugin", NEARMISS_PLUGINS "/libzoo.so", "--out", out.string()});
-    Started killed(NEARMISS_PROGRAM, arguments, {mark, "NEARMISS_ZOO=ask-leaves-an-orphan"});
+                     {"--seed", std::to_string(i), "--plugin", plugin_file("zoo"), "--out", out.string()});
+    Started killed(nearmiss_program(), arguments, {mark, "NEARMISS_ZOO=ask-leaves-an-orphan"});
     const double moment = std::fmod(0.618 * (i + 1), 1) * seconds;
     EXPECT_FALSE(killed.wait(moment).has_value());
     killed.send(SIGKILL);

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 struct Example {
-  const char *name, *command;
+  std::string name, command;
   bool moves;  ///< it offers moving_point_sphere as well
 };
 
@@ -26,11 +26,11 @@ class ExampleProgram : public testing::TestWithParam<Example> {};
 
 TEST_P(ExampleProgram, IsExamined) {
   const Example& e = GetParam();
-  if (*e.command == '\0') GTEST_SKIP() << "this system has nothing to run it";
+  if (e.command.empty()) GTEST_SKIP() << "this system has nothing to run it";
   const TemporaryFolder folder;
-  const Ran ran = run_program(
-      "bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", source_folder(), NEARMISS_PROGRAM, "run", "--command",
-               e.command, "--subject", e.name, "--cases", "3000", "--seed", "3", "--out", (folder / "r").string()});
+  const Ran ran = run_program("bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", source_folder(),
+                                       nearmiss_program(), "run", "--command", e.command, "--subject", e.name,
+                                       "--cases", "3000", "--seed", "3", "--out", (folder / "r").string()});
   ASSERT_LE(ran.exit_code, 1) << ran.err;
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
@@ -52,9 +52,9 @@ TEST_P(ExampleProgram, IsExamined) {
     const json report = json::parse(read_file(folder / "r" / listed.at("file").get<std::string>()));
     EXPECT_EQ(complaints(report, "report.schema.json"), "");
     const Ran without = nearmiss({"replay", (folder / "r" / listed.at("file").get<std::string>()).string()});
-    EXPECT_NE(without.err.find(std::string("it is about '") + e.name), std::string::npos) << without.err;
+    EXPECT_NE(without.err.find("it is about '" + e.name), std::string::npos) << without.err;
     const Ran again =
-        run_program("bash", {"-c", "cd /; " + report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) +
+        run_program("bash", {"-c", "cd /; " + report.at("replay").get<std::string>().replace(0, 8, nearmiss_program()) +
                                        " --json --subject " + e.name});
     EXPECT_EQ(again.exit_code, 1) << again.err;
     EXPECT_EQ(json::parse(again.out).at(0).at("id"), listed.at("id"));
@@ -63,9 +63,9 @@ TEST_P(ExampleProgram, IsExamined) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ExampleProgram,
-                         testing::Values(Example{"balls-py", NEARMISS_EXAMPLE_PY, true},
-                                         Example{"balls-js", NEARMISS_EXAMPLE_JS, true},
-                                         Example{"balls-c", NEARMISS_EXAMPLE_C, false}),
+                         testing::Values(Example{"balls-py", example_py(), true},
+                                         Example{"balls-js", example_js(), true},
+                                         Example{"balls-c", example_c(), false}),
                          [](const auto& of) {
                            std::string name = of.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');

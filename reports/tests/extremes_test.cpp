@@ -82,7 +82,7 @@ TEST(Extremes, ShowThatFloatEndsBeforeDoubleAndThatCertifiedStaysRight) {
 TEST(Extremes, WriteWhatTheyHaveWhenInterrupted) {
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string();
-  const std::string script = "'" NEARMISS_PROGRAM "' extremes --cases 100000 --out '" + out +
+  const std::string script = "'" + nearmiss_program() + "' extremes --cases 100000 --out '" + out +
                              "' & run=$!; while [ ! -e '" + out + "' ]; do sleep 0.05; done; sleep 0.3; " +
                              "kill -INT $run; wait $run";
   const Ran ran = run_program("bash", {"-m", "-c", script});
@@ -96,8 +96,8 @@ TEST(Extremes, WriteWhatTheyHaveWhenInterrupted) {
 /// The plugin loops forever on about half of all cases beyond 1e9.
 TEST(Extremes, GiveUpASubjectThatDoesNotComeBackAndSaySo) {
   const TemporaryFolder folder;
-  const json report = swept(folder, {"--plugin", NEARMISS_PLUGINS "/libmisbehaves.so", "--subject", "misbehaves",
-                                     "--query", "sphere_sphere_overlap", "--cases", "12", "--patience", "0.05"});
+  const json report = swept(folder, {"--plugin", plugin_file("misbehaves"), "--subject", "misbehaves", "--query",
+                                     "sphere_sphere_overlap", "--cases", "12", "--patience", "0.05"});
   EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
   const json& m = map_of(report, "misbehaves", "scale");
   const std::size_t rows = m.at("y").at("values").size(), columns = m.at("x").at("values").size();

@@ -24,7 +24,7 @@ Ran contradicting(std::vector<std::string> arguments, const TemporaryFolder& fol
     arguments.emplace_back(more);
   }
   arguments.push_back((folder / "r").string());
-  return run_program(NEARMISS_CONTRADICTING, arguments);
+  return run_program(contradicting_program(), arguments);
 }
 
 /// Checks the file of the engine: it is valid, and every kept case is a file with both findings.
@@ -78,7 +78,7 @@ TEST(InternalErrors, EndRelationsAndExtremes) {
 TEST(InternalErrors, EndANight) {
   const TemporaryFolder folder;
   const Ran ran =
-      run_program(NEARMISS_CONTRADICTING, {"nightly", "--minutes", "0.2", "--out", (folder / "r").string()});
+      run_program(contradicting_program(), {"nightly", "--minutes", "0.2", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
   EXPECT_NE(ran.err.find("the judge contradicts itself about sphere_sphere_overlap"), std::string::npos) << ran.err;
 }
@@ -88,7 +88,7 @@ TEST(InternalErrors, ReplayAgain) {
   contradicting({"run", "--cases", "20"}, folder);
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   const std::string file = (folder / "r" / index["internal_errors"]["kept"][0]["file"].get<std::string>()).string();
-  const Ran again = run_program(NEARMISS_CONTRADICTING, {"replay", "--subject", "collide-fast-double", file});
+  const Ran again = run_program(contradicting_program(), {"replay", "--subject", "collide-fast-double", file});
   EXPECT_EQ(again.exit_code, InternalError::exit_code);
   EXPECT_EQ(lines_with("\n", again.err), 1u) << again.err;
   EXPECT_NE(again.err.find("at first \""), std::string::npos) << again.err;

@@ -212,7 +212,7 @@ TEST(NightChanges, ReportsOfFixedKindsMoveAside) {
 TEST(Nightly, AnAddedLibrarysFindingsAreNewInTheFirstNightAndKnownInTheSecond) {
   const TemporaryFolder folder;
   const auto night = [&] {
-    return nearmiss({"nightly", "--minutes", "0.2", "--seed", "5", "--plugin", NEARMISS_PLUGINS "/libskim_plugin.so",
+    return nearmiss({"nightly", "--minutes", "0.2", "--seed", "5", "--plugin", plugin_file("skim_plugin"),
                      "--fuzz-targets", folder.path().string(), "--out", (folder / "r").string()});
   };
   const Ran first = night();

@@ -14,10 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/lib" + name + ".so"; }
-
 TEST(Plugin, IsListedWithWhatItOffers) {
-  const Ran ran = nearmiss({"list", "--plugin", plugin("skim_plugin"), "--json"});
+  const Ran ran = nearmiss({"list", "--plugin", plugin_file("skim_plugin"), "--json"});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const json list = json::parse(ran.out);
   for (const json& q : list.at("queries")) {
@@ -30,8 +28,8 @@ TEST(Plugin, IsListedWithWhatItOffers) {
 /// docs/bring-your-own.md promises these three for the example.
 TEST(Plugin, ThreeMistakesOfTheExampleAreFound) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss({"run", "--plugin", plugin("skim_plugin"), "--subject", "skim", "--cases", "20000", "--seed",
-                            "1", "--out", (folder / "r").string()});
+  const Ran ran = nearmiss({"run", "--plugin", plugin_file("skim_plugin"), "--subject", "skim", "--cases", "20000",
+                            "--seed", "1", "--out", (folder / "r").string()});
   ASSERT_EQ(ran.exit_code, 1) << ran.err;
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   std::map<std::string, std::uint64_t> violations;
@@ -54,7 +52,7 @@ TEST(Plugin, ThreeMistakesOfTheExampleAreFound) {
     EXPECT_EQ(complaints(report, "report.schema.json"), "");
     const Ran again = run_program(
         "bash",
-        {"-c", report.at("replay").get<std::string>().replace(0, 8, NEARMISS_PROGRAM) + " --subject skim --json"});
+        {"-c", report.at("replay").get<std::string>().replace(0, 8, nearmiss_program()) + " --subject skim --json"});
     EXPECT_EQ(again.exit_code, 1) << report.at("replay") << again.err;
     EXPECT_EQ(json::parse(again.out).at(0).at("id"), listed.at("id"));
   }
@@ -62,7 +60,7 @@ TEST(Plugin, ThreeMistakesOfTheExampleAreFound) {
 
 TEST(Plugin, CostsOneCaseWhateverItDoes) {
   const TemporaryFolder folder;
-  std::vector<std::string> arguments{"replay", "--json", "--plugin", plugin("misbehaves"), "-s", "misbehaves"};
+  std::vector<std::string> arguments{"replay", "--json", "--plugin", plugin_file("misbehaves"), "-s", "misbehaves"};
   for (int what = 0; what < 4; ++what) {
     const fs::path file = folder / (std::to_string(what) + ".json");
     write_file(file, R"({"query": "sphere_sphere_overlap", "scalar": "double", "inputs": {"sphere1": {"center": [)" +
@@ -99,12 +97,12 @@ json tallies_beside(std::vector<std::string> arguments) {
 /// The plugin sets flush to zero and upward rounding when it is loaded.
 TEST(Plugin, KeepsItsModesOfArithmeticToItself) {
   const json alone = tallies_beside({});
-  EXPECT_EQ(tallies_beside({"--plugin", plugin("sets_modes")}), alone);
+  EXPECT_EQ(tallies_beside({"--plugin", plugin_file("sets_modes")}), alone);
   EXPECT_GT(alone.size(), 100u);
 }
 
 TEST(Plugin, IsAskedInTheModesThatItSets) {
-  const Ran ran = nearmiss({"replay", "--plugin", plugin("sets_modes"), "--subject", "misbehaves", "--json",
+  const Ran ran = nearmiss({"replay", "--plugin", plugin_file("sets_modes"), "--subject", "misbehaves", "--json",
                             source_folder() + "/corpus/seeds/sphere_sphere_overlap/overlap.json"});
   ASSERT_LE(ran.exit_code, 1) << ran.err;
   EXPECT_EQ(json::parse(ran.out).at(0).at("answer").at("yes"), true) << ran.out;
@@ -117,7 +115,7 @@ struct Refused {
 class BadPluginFile : public testing::TestWithParam<Refused> {};
 
 TEST_P(BadPluginFile, IsRefusedInOneLine) {
-  const std::string file = plugin(GetParam().name);
+  const std::string file = plugin_file(GetParam().name);
   const Ran ran = nearmiss({"list", "--plugin", file});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_EQ(ran.out, "");

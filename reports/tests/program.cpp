@@ -34,7 +34,7 @@ Ran run_program(const std::string& program, const std::vector<std::string>& argu
 }
 
 Ran nearmiss(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
-  return run_program(NEARMISS_PROGRAM, arguments, environment);
+  return run_program(nearmiss_program(), arguments, environment);
 }
 
 Started::Started(const std::string& program, const std::vector<std::string>& arguments,

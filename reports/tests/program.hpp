@@ -22,6 +22,18 @@ inline constexpr bool is_sanitized = false;
 inline constexpr bool is_sanitized = false;
 #endif
 
+/// What the tests start: files of programs and plugins, and command lines of examples ("" without their interpreter).
+/// One generated source has their absolute paths, so that the compiler cache serves every other source to another
+/// clone.
+std::string nearmiss_program();
+std::string properties_program();
+std::string contradicting_program();
+std::string zoo_program();
+std::string plugin_file(const std::string& name);
+std::string example_c();
+std::string example_py();
+std::string example_js();
+
 struct Ran {
   int exit_code = -1;
   std::string out, err;

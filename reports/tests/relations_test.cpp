@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const std::string skim = NEARMISS_PLUGINS "/libskim_plugin.so";
+const std::string skim = plugin_file("skim_plugin");
 
 json relations_of(const fs::path& folder) { return json::parse(read_file(folder / "relations.json")); }
 

@@ -159,7 +159,7 @@ TEST(Requires, RelatedCasesOutsideAreNotCompared) {
 }
 
 TEST(Requires, APluginSaysItByBits) {
-  const std::string plugin = NEARMISS_PLUGINS "/libneeds_sizes.so";
+  const std::string plugin = plugin_file("needs_sizes");
   const Ran listed = nearmiss({"list", "--plugin", plugin, "--json"});
   ASSERT_EQ(listed.exit_code, 0) << listed.err;
   const json list = json::parse(listed.out);

@@ -267,7 +267,7 @@ TEST(SweepCommand, GoesOnAfterAnInterruptAndAfterAKill) {
   ASSERT_EQ(whole.exit_code, 0) << whole.out << whole.err;
   for (const int signal : {SIGINT, SIGKILL}) {
     const std::filesystem::path out = folder / std::to_string(signal);
-    Started stopped(NEARMISS_PROGRAM, some(out.string()), {});
+    Started stopped(nearmiss_program(), some(out.string()), {});
     for (int i = 0; i < 500; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       if (std::filesystem::exists(out / "sweep.json") && !state_in(out)["done"].empty()) break;

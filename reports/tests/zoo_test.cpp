@@ -38,8 +38,8 @@ struct Misdeed {
 void PrintTo(const Misdeed& m, std::ostream* out) { *out << m.name; }
 
 std::vector<std::string> zoo(bool plugin) {
-  if (plugin) return {"--plugin", NEARMISS_PLUGINS "/libzoo.so"};
-  return {"--command", NEARMISS_ZOO_PROGRAM};
+  if (plugin) return {"--plugin", plugin_file("zoo")};
+  return {"--command", zoo_program()};
 }
 
 /// A run of the zoo beside a well-behaved subject, or of that subject alone.

@@ -1,0 +1,33 @@
+/// What an adapter offers for one query.
+#pragma once
+
+#include "impl/subject/adapter.hpp"
+#include "impl/subject/subject.hpp"
+
+namespace nearmiss {
+
+template <class Adapter, class Q>
+Offering offering_of(std::string_view query) {
+  Offering o;
+  o.query = query;
+  if constexpr (requires(const Q& q) { Adapter::answer(q); }) {
+    o.offer = Offer::answers;
+    o.answer = [](std::span<const double> values) { return erase(Adapter::answer(inputs_from<Q>(values.data()))); };
+    if constexpr (requires { Adapter::template contract<Q>(); }) o.contract = Adapter::template contract<Q>();
+    if constexpr (requires { Adapter::template needs<Q>(); }) o.required = Adapter::template needs<Q>();
+    if constexpr (requires { Adapter::template equivalence<Q>(); }) {
+      o.how = Adapter::template equivalence<Q>();
+      if (!o.how.empty()) o.offer = Offer::by_equivalence;
+    }
+    if constexpr (requires { Adapter::template left_out<Q>(); }) {
+      const std::string left_out = Adapter::template left_out<Q>();
+      if (!left_out.empty()) o.how += (o.how.empty() ? "" : "; ") + ("without " + left_out);
+    }
+  } else {
+    o.how = "the adapter has no function for it";
+    if constexpr (requires { Adapter::template why_not<Q>(); }) o.how = Adapter::template why_not<Q>();
+  }
+  return o;
+}
+
+}  // namespace nearmiss
