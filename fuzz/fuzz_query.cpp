@@ -24,10 +24,10 @@
 #include "fuzz/feedback.hpp"
 #include "fuzz/fuzzed_query.hpp"
 #include "fuzz/mutation.hpp"
-#include "fuzz/number_memory.hpp"
 #include "fuzz/statistics.hpp"
 #include "fuzz/violation.hpp"
 #include "oracles/confirmed.hpp"
+#include "oracles/number_memory.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss::fuzz {
@@ -134,7 +134,7 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
 /// of libFuzzer: every case of a query has one of two lengths, so short inputs are never valid. For another engine,
 /// whose main has other arguments, the file of options does this.
 extern "C" int LLVMFuzzerInitialize([[maybe_unused]] int* argc, [[maybe_unused]] char*** argv) {
-  fuzz::use_pool_for_numbers();
+  use_pool_for_numbers();
   fuzz::all_asked();
 #ifndef NEARMISS_FUZZING_ENGINE
   static std::vector<char*> arguments;

@@ -6,10 +6,12 @@
 #include <cstdlib>
 
 #include "impl/host/hosts.hpp"
+#include "oracles/number_memory.hpp"
 
 int main(int argc, char** argv) try {
   constexpr int keep_what_is_set = 0;
   ::setenv("RC_PARAMS", "seed=1 max_success=200 noshrink=1", keep_what_is_set);
+  nearmiss::use_pool_for_numbers();
   nearmiss::load_subjects_of_environment();
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

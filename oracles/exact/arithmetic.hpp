@@ -11,6 +11,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <variant>
 
@@ -24,6 +25,49 @@ using Rational = CGAL::Gmpq;
 
 /// The interval [x, x] of a computed bound, which may be infinite: CGAL's conversion requires a finite number.
 inline Interval of_bound(double x) { return {x, x}; }
+
+/// k if the denominator is 2^k, otherwise nothing. Numbers of the input have such denominators, and so have their sums
+/// and products.
+inline std::optional<mp_bitcnt_t> power_of_denominator(const Rational& x) {
+  const mpz_srcptr denominator = mpq_denref(x.mpq());
+  const mp_bitcnt_t k = mpz_scan1(denominator, 0);
+  return k + 1 == mpz_sizeinbase(denominator, 2) ? std::optional(k) : std::nullopt;
+}
+/// x / 2^k in lowest terms, in place: a shift instead of a greatest common divisor.
+inline void divide_by_power(Rational& x, mp_bitcnt_t k) {
+  const mpz_ptr numerator = mpq_numref(x.mpq()), denominator = mpq_denref(x.mpq());
+  const mp_bitcnt_t common = mpz_sgn(numerator) == 0 ? k : std::min(k, mpz_scan1(numerator, 0));
+  mpz_tdiv_q_2exp(numerator, numerator, common);
+  mpz_set_ui(denominator, 1);
+  mpz_mul_2exp(denominator, denominator, k - common);
+}
+inline Rational product(const Rational& x, const Rational& y) {
+  const auto i = power_of_denominator(x), k = power_of_denominator(y);
+  if (!i || !k) return x * y;
+  Rational result;
+  mpz_mul(mpq_numref(result.mpq()), mpq_numref(x.mpq()), mpq_numref(y.mpq()));
+  divide_by_power(result, *i + *k);
+  return result;
+}
+/// x + y, or x - y where `combine` is mpz_sub.
+inline Rational combined(const Rational& x, const Rational& y, void (*combine)(mpz_ptr, mpz_srcptr, mpz_srcptr)) {
+  const auto i = power_of_denominator(x), k = power_of_denominator(y);
+  if (!i || !k) return combine == mpz_sub ? x - y : x + y;
+  Rational result;
+  const mpz_ptr numerator = mpq_numref(result.mpq());
+  const mp_bitcnt_t largest = std::max(*i, *k);
+  if (*i == *k) {
+    combine(numerator, mpq_numref(x.mpq()), mpq_numref(y.mpq()));
+  } else if (*i < *k) {
+    mpz_mul_2exp(numerator, mpq_numref(x.mpq()), *k - *i);
+    combine(numerator, numerator, mpq_numref(y.mpq()));
+  } else {
+    mpz_mul_2exp(numerator, mpq_numref(y.mpq()), *i - *k);
+    combine(numerator, mpq_numref(x.mpq()), numerator);
+  }
+  divide_by_power(result, largest);
+  return result;
+}
 
 /// a + b sqrt(c) with rational a, b, c. Holds CGAL's Sqrt_extension if there is a root, otherwise a plain rational, as
 /// in most operations. Numbers with different roots can be compared, but not added.
@@ -51,15 +95,15 @@ class Exact {
     return x.is_extended() ? Exact(-*x.extension()) : Exact(Rational(-x.rational()));
   }
   friend Exact operator+(const Exact& x, const Exact& y) {
-    if (plain(x, y)) return Exact(Rational(x.rational() + y.rational()));
+    if (plain(x, y)) return Exact(combined(x.rational(), y.rational(), mpz_add));
     return Exact(x.extended() + y.extended());
   }
   friend Exact operator-(const Exact& x, const Exact& y) {
-    if (plain(x, y)) return Exact(Rational(x.rational() - y.rational()));
+    if (plain(x, y)) return Exact(combined(x.rational(), y.rational(), mpz_sub));
     return Exact(x.extended() - y.extended());
   }
   friend Exact operator*(const Exact& x, const Exact& y) {
-    if (plain(x, y)) return Exact(Rational(x.rational() * y.rational()));
+    if (plain(x, y)) return Exact(product(x.rational(), y.rational()));
     return Exact(x.extended() * y.extended());
   }
   friend Exact operator/(const Exact& x, const Exact& y) {

@@ -96,6 +96,26 @@ bool in_cone(const RationalVector& x, const Cone& cone) {
   });
 }
 
+/// True where a face of the cone separates the box from the cone, or where the whole box lies inside or outside the
+/// unit sphere: then no unit vector is in both. This test is cheap, and decides most searches that find none.
+bool surely_without_unit_vector(const RationalBox& box, const Cone& cone) {
+  const auto is_apart = [&](const Side& s) {
+    Rational least(0), most(0);
+    for (int i = 0; i < 3; ++i) {
+      const Rational at_low = s.direction[i] * box.low[i], at_high = s.direction[i] * box.high[i];
+      least += std::min(at_low, at_high), most += std::max(at_low, at_high);
+    }
+    return least > 0 || (s.level && most < 0);
+  };
+  Rational nearest2(0), furthest2(0);
+  for (int i = 0; i < 3; ++i) {
+    const Rational near = std::clamp(Rational(0), box.low[i], box.high[i]);
+    const Rational far = std::max(CGAL::abs(box.low[i]), CGAL::abs(box.high[i]));
+    nearest2 += near * near, furthest2 += far * far;
+  }
+  return nearest2 > 1 || furthest2 < 1 || std::any_of(cone.begin(), cone.end(), is_apart);
+}
+
 /// Finds a unit vector in the intersection of a box and a cone. The intersection is convex, so it contains one if some
 /// point is at most as long as 1 and some point at least as long. The shortest point is that of the box, or lies on an
 /// edge of the intersection; the longest is a vertex, at the end of an edge.
@@ -124,7 +144,7 @@ class UnitVectorIn {
   }
 
   void search() {
-    if (box_.empty()) return;
+    if (box_.empty() || surely_without_unit_vector(box_, cone_)) return;
     RationalVector shortest;
     for (int i = 0; i < 3; ++i) shortest[i] = std::clamp(Rational(0), box_.low[i], box_.high[i]);
     if (in_cone(shortest, cone_)) add(shortest);

@@ -1,4 +1,4 @@
-#include "fuzz/number_memory.hpp"
+#include "oracles/number_memory.hpp"
 
 #include <gmp.h>
 #include <sys/mman.h>
@@ -12,7 +12,7 @@
 #include <cstring>
 #include <new>
 
-namespace nearmiss::fuzz {
+namespace nearmiss {
 
 namespace {
 
@@ -83,4 +83,4 @@ void use_pool_for_numbers() {
   mp_set_memory_functions(allocate, reallocate, release);
 }
 
-}  // namespace nearmiss::fuzz
+}  // namespace nearmiss
