@@ -115,7 +115,7 @@ which climbing found the larger error.
 
 A forward error of 2^24 ulps of float is one of the size of the number itself. Badly conditioned queries reach it in both ways.
 
-{}.
+Processor: {}.
 
 | query | subject | error | sampled | climbed | ratio | climbing ahead |
 |---|---|---|--:|--:|--:|--:|

@@ -25,6 +25,7 @@
 #include "impl/subject/subject.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
+#include "oracles/number_memory.hpp"
 
 namespace nearmiss::benchmarks {
 
@@ -197,6 +198,7 @@ int main(int argc, char** argv) {
     std::cerr << "--cases must be a positive number\n";
     return 2;
   }
+  nearmiss::use_pool_for_numbers();  // as the command line does
   benchmark::AddCustomContext("flags", NEARMISS_BENCHMARK_FLAGS);
   benchmark::AddCustomContext("processor", processor());
   benchmark::AddCustomContext("cases", std::to_string(count));

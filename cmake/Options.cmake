@@ -12,6 +12,7 @@ option(NEARMISS_WERROR "Treat warnings as errors" OFF)
 set(NEARMISS_SANITIZE "" CACHE STRING "Sanitizers, separated by commas: address,undefined")
 option(NEARMISS_COVERAGE "Instrument for coverage" OFF)
 option(NEARMISS_LIBFUZZER "Link fuzz targets with libFuzzer (clang only); otherwise with a plain main" OFF)
+option(NEARMISS_FUZZ_SHARED "Link fuzz targets with one shared library; otherwise each target is complete in itself" ON)
 set(NEARMISS_FUZZING_ENGINE "" CACHE STRING "With NEARMISS_LIBFUZZER: the linker's argument for another engine (a flag or a library). Builds fuzz targets alone; the compiler and its flags must bring the engine's instrumentation, as in fuzz/oss-fuzz")
 set(NEARMISS_EXAMINER "" CACHE PATH "With NEARMISS_LIBFUZZER: the folder of a release build. Fuzz targets link its oracles and codecs; otherwise these are compiled here")
 

@@ -12,6 +12,12 @@ namespace nearmiss {
 /// The query's name.
 extern const char* const fuzzed_query;
 
+struct Subject;
+using SubjectFunction = Subject (*)();
+/// With libFuzzer: the subjects that are compiled for each query apart (PER_QUERY of nearmiss_add_subject), in the
+/// order of their addition. Each function returns its subject with this query alone.
+extern const SubjectFunction subjects_of_query[];
+
 /// The counters of numeric features (fuzz/feedback.hpp). libFuzzer finds them by their section, which must be part of
 /// the program and not of a shared library. It clears them before each execution.
 inline constexpr std::size_t feature_counters = std::size_t{1} << 14;

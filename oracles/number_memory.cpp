@@ -27,7 +27,8 @@ std::atomic<std::size_t> pool_used{0};
 struct Free {
   Free* next;
 };
-thread_local std::array<Free*, largest_block / grain + 1> free_blocks{};
+/// Of the model for programs and libraries that are loaded at start: the address is an addition, not a call.
+[[gnu::tls_model("initial-exec")]] thread_local std::array<Free*, largest_block / grain + 1> free_blocks{};
 
 bool is_in_pool(const void* p) { return pool != nullptr && std::uintptr_t(p) - std::uintptr_t(pool) < pool_size; }
 
@@ -51,7 +52,17 @@ void* take_block(std::size_t grains) {
   std::abort();
 }
 
-void* allocate(std::size_t size) {
+void* reallocate(void* p, std::size_t old_size, std::size_t new_size) {
+  if (is_in_pool(p) && grains_of(old_size) == grains_of(new_size)) return p;
+  void* const moved = allocate_number(new_size);
+  std::memcpy(moved, p, old_size < new_size ? old_size : new_size);
+  release_number(p, old_size);
+  return moved;
+}
+
+}  // namespace
+
+void* allocate_number(std::size_t size) {
   if (pool != nullptr && size <= largest_block) {
     if (void* const block = take_block(grains_of(size))) return block;
   }
@@ -60,27 +71,17 @@ void* allocate(std::size_t size) {
   return p;
 }
 
-void release(void* p, std::size_t size) {
+void release_number(void* p, std::size_t size) {
   if (!is_in_pool(p)) return std::free(p);
   Free*& first = free_blocks[grains_of(size)];
   first = new (p) Free{first};
 }
 
-void* reallocate(void* p, std::size_t old_size, std::size_t new_size) {
-  if (is_in_pool(p) && grains_of(old_size) == grains_of(new_size)) return p;
-  void* const moved = allocate(new_size);
-  std::memcpy(moved, p, old_size < new_size ? old_size : new_size);
-  release(p, old_size);
-  return moved;
-}
-
-}  // namespace
-
 void use_pool_for_numbers() {
   void* const space =
       mmap(nullptr, pool_size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (space != MAP_FAILED) pool = static_cast<char*>(space);
-  mp_set_memory_functions(allocate, reallocate, release);
+  mp_set_memory_functions(allocate_number, reallocate, release_number);
 }
 
 }  // namespace nearmiss

@@ -13,8 +13,6 @@
 ///   template <class Q> static nearmiss::Preconditions needs();
 #pragma once
 
-#include <concepts>
-
 #include "impl/subject/offering.hpp"
 #include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
@@ -23,11 +21,7 @@ namespace nearmiss {
 template <class Adapter>
 Subject bind(std::string name) {
   using Number = typename Adapter::Number;
-  Subject s;
-  s.name = std::move(name);
-  s.version = Adapter::version();
-  s.scalar = std::same_as<Number, float> ? Scalar::float32 : Scalar::float64;
-  if constexpr (requires { Adapter::referee; }) s.referee = Adapter::referee;
+  Subject s = without_offerings<Adapter>(std::move(name));
 #define NEARMISS_QUERY(query) s.offerings.push_back(offering_of<Adapter, inputs::query<Number>>(#query));
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY

@@ -1,6 +1,9 @@
 /// What an adapter offers for one query.
 #pragma once
 
+#include <concepts>
+#include <utility>
+
 #include "impl/subject/adapter.hpp"
 #include "impl/subject/subject.hpp"
 
@@ -28,6 +31,25 @@ Offering offering_of(std::string_view query) {
     if constexpr (requires { Adapter::template why_not<Q>(); }) o.how = Adapter::template why_not<Q>();
   }
   return o;
+}
+
+/// The subject without offerings.
+template <class Adapter>
+Subject without_offerings(std::string name) {
+  Subject s;
+  s.name = std::move(name);
+  s.version = Adapter::version();
+  s.scalar = std::same_as<typename Adapter::Number, float> ? Scalar::float32 : Scalar::float64;
+  if constexpr (requires { Adapter::referee; }) s.referee = Adapter::referee;
+  return s;
+}
+
+/// The subject with one query alone.
+template <class Adapter, class Q>
+Subject bind_one(std::string name, std::string_view query) {
+  Subject s = without_offerings<Adapter>(std::move(name));
+  s.offerings.push_back(offering_of<Adapter, Q>(query));
+  return s;
 }
 
 }  // namespace nearmiss

@@ -5,6 +5,11 @@
 /// include this header, because it includes CGAL.
 #pragma once
 
+#include "oracles/number_memory.hpp"
+
+/// CGAL takes the memory of a rational number's representation from this allocator.
+#define CGAL_ALLOCATOR(T) nearmiss::NumberAllocator<T>
+
 #include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Sqrt_extension.h>
@@ -116,7 +121,7 @@ class Exact {
 
   explicit Exact(const Extended& x) {
     if (x.is_extended() && x.a1() != 0) {
-      value_ = std::make_shared<const Extended>(x);
+      value_ = std::allocate_shared<const Extended>(NumberAllocator<Extended>(), x);
     } else {
       value_ = x.a0();
     }

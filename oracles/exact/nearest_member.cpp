@@ -96,21 +96,47 @@ bool in_cone(const RationalVector& x, const Cone& cone) {
   });
 }
 
-/// True where a face of the cone separates the box from the cone, or where the whole box lies inside or outside the
+Interval enclosed(const Rational& x) { return CGAL::to_interval(x); }
+Vector<Interval> enclosed(const RationalVector& v) { return {enclosed(v[0]), enclosed(v[1]), enclosed(v[2])}; }
+
+/// A box and the directions of the sides of a cone: as they are, or enclosed by intervals.
+template <class N>
+struct BoxAndSides {
+  Vector<N> low, high;
+  std::vector<Vector<N>> sides;
+};
+BoxAndSides<Rational> exactly(const RationalBox& box, const Cone& cone) {
+  BoxAndSides<Rational> result{box.low, box.high, {}};
+  for (const Side& side : cone) result.sides.push_back(side.direction);
+  return result;
+}
+BoxAndSides<Interval> enclosed(const BoxAndSides<Rational>& exact) {
+  BoxAndSides<Interval> result{enclosed(exact.low), enclosed(exact.high), {}};
+  for (const RationalVector& side : exact.sides) result.sides.push_back(enclosed(side));
+  return result;
+}
+
+/// The line of all at + t along.
+template <class N>
+struct Line {
+  Vector<N> at, along;
+};
+
+/// True where a side of the cone separates the box from the cone, or where the whole box lies inside or outside the
 /// unit sphere: then no unit vector is in both. This test is cheap, and decides most searches that find none.
-bool surely_without_unit_vector(const RationalBox& box, const Cone& cone) {
+bool surely_without_unit_vector(const BoxAndSides<Rational>& in, const Cone& cone) {
   const auto is_apart = [&](const Side& s) {
     Rational least(0), most(0);
     for (int i = 0; i < 3; ++i) {
-      const Rational at_low = s.direction[i] * box.low[i], at_high = s.direction[i] * box.high[i];
+      const Rational at_low = s.direction[i] * in.low[i], at_high = s.direction[i] * in.high[i];
       least += std::min(at_low, at_high), most += std::max(at_low, at_high);
     }
     return least > 0 || (s.level && most < 0);
   };
   Rational nearest2(0), furthest2(0);
   for (int i = 0; i < 3; ++i) {
-    const Rational near = std::clamp(Rational(0), box.low[i], box.high[i]);
-    const Rational far = std::max(CGAL::abs(box.low[i]), CGAL::abs(box.high[i]));
+    const Rational near = std::clamp(Rational(0), in.low[i], in.high[i]);
+    const Rational far = std::max(CGAL::abs(in.low[i]), CGAL::abs(in.high[i]));
     nearest2 += near * near, furthest2 += far * far;
   }
   return nearest2 > 1 || furthest2 < 1 || std::any_of(cone.begin(), cone.end(), is_apart);
@@ -119,9 +145,15 @@ bool surely_without_unit_vector(const RationalBox& box, const Cone& cone) {
 /// Finds a unit vector in the intersection of a box and a cone. The intersection is convex, so it contains one if some
 /// point is at most as long as 1 and some point at least as long. The shortest point is that of the box, or lies on an
 /// edge of the intersection; the longest is a vertex, at the end of an edge.
+///
+/// Interval arithmetic rejects most lines: those that surely have no point in the intersection.
 class UnitVectorIn {
  public:
-  UnitVectorIn(const RationalBox& box, const Cone& cone) : box_(box), cone_(cone) { search(); }
+  UnitVectorIn(const RationalBox& box, const Cone& cone) : cone_(cone) {
+    if (box.empty()) return;
+    exact_ = exactly(box, cone);
+    if (!surely_without_unit_vector(exact_, cone)) search();
+  }
 
   std::optional<Vector<Exact>> found() const {
     if (!complete()) return std::nullopt;
@@ -144,42 +176,65 @@ class UnitVectorIn {
   }
 
   void search() {
-    if (box_.empty() || surely_without_unit_vector(box_, cone_)) return;
+    const CGAL::Protect_FPU_rounding<true> upward(CGAL_FE_UPWARD);
+    enclosed_ = enclosed(exact_);
     RationalVector shortest;
-    for (int i = 0; i < 3; ++i) shortest[i] = std::clamp(Rational(0), box_.low[i], box_.high[i]);
+    for (int i = 0; i < 3; ++i) shortest[i] = std::clamp(Rational(0), exact_.low[i], exact_.high[i]);
     if (in_cone(shortest, cone_)) add(shortest);
     for (int i = 0; i < 3; ++i) edges_of_box(i);
     for (std::size_t s = 0; s < cone_.size(); ++s) {
-      for (int i = 0; i < 3; ++i) edges_of_side_and_faces(cone_[s].direction, i);
-      for (std::size_t r = 0; r < s; ++r)
-        edge(RationalVector{0, 0, 0}, crossed(cone_[r].direction, cone_[s].direction));
+      for (int i = 0; i < 3; ++i) edges_of_side_and_faces(s, i);
+      for (std::size_t r = 0; r < s; ++r) edge_of_sides(r, s);
     }
-  }
-  static RationalVector crossed(const RationalVector& a, const RationalVector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 
   void edges_of_box(int i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    for (const Rational& y : {box_.low[j], box_.high[j]}) {
-      for (const Rational& z : {box_.low[k], box_.high[k]}) {
-        RationalVector at{0, 0, 0}, along{0, 0, 0};
-        at[j] = y, at[k] = z, along[i] = 1;
-        edge(at, along);
+    for (const bool upper_j : {false, true}) {
+      for (const bool upper_k : {false, true}) {
+        edge([&]<class N>(const BoxAndSides<N>& in) {
+          Line<N> line{{N(0), N(0), N(0)}, {N(0), N(0), N(0)}};
+          line.at[j] = upper_j ? in.high[j] : in.low[j];
+          line.at[k] = upper_k ? in.high[k] : in.low[k];
+          line.along[i] = N(1);
+          return line;
+        });
       }
     }
   }
   /// Where a plane through the origin meets the two faces across axis i.
-  void edges_of_side_and_faces(const RationalVector& direction, int i) {
-    RationalVector axis{0, 0, 0};
-    axis[i] = 1;
-    const RationalVector along = crossed(direction, axis);
+  void edges_of_side_and_faces(std::size_t s, int i) {
+    const RationalVector& direction = exact_.sides[s];
     const int j = direction[(i + 1) % 3] != 0 ? (i + 1) % 3 : (i + 2) % 3;
     if (direction[j] == 0) return;  // parallel to the faces
-    for (const Rational& x : {box_.low[i], box_.high[i]}) {
-      RationalVector at{0, 0, 0};
-      at[i] = x, at[j] = -direction[i] * x / direction[j];
-      edge(at, along);
+    for (const bool upper : {false, true}) {
+      edge([&]<class N>(const BoxAndSides<N>& in) {
+        Vector<N> axis{N(0), N(0), N(0)};
+        axis[i] = N(1);
+        Line<N> line{{N(0), N(0), N(0)}, cross(in.sides[s], axis)};
+        line.at[i] = upper ? in.high[i] : in.low[i];
+        line.at[j] = -in.sides[s][i] * line.at[i] / in.sides[s][j];
+        return line;
+      });
+    }
+  }
+  void edge_of_sides(std::size_t r, std::size_t s) {
+    edge([&]<class N>(const BoxAndSides<N>& in) {
+      return Line<N>{{N(0), N(0), N(0)}, cross(in.sides[r], in.sides[s])};
+    });
+  }
+
+  /// Calls cut(height, slope) for each half-space height + slope t <= 0 of the box and the cone.
+  template <class N, class Cut>
+  void cut_by_all(const BoxAndSides<N>& in, const Line<N>& line, const Cut& cut) const {
+    for (int i = 0; i < 3; ++i) {
+      cut(N(line.at[i] - in.high[i]), line.along[i]);
+      cut(N(in.low[i] - line.at[i]), N(-line.along[i]));
+    }
+    for (std::size_t s = 0; s < cone_.size(); ++s) {
+      const N height = dot(in.sides[s], line.at), slope = dot(in.sides[s], line.along);
+      cut(height, slope);
+      if (cone_[s].level) cut(N(-height), N(-slope));
     }
   }
 
@@ -190,40 +245,53 @@ class UnitVectorIn {
 
     /// Cuts off where height + slope t > 0.
     void cut(const Rational& height, const Rational& slope) {
+      if (empty) return;
       if (slope == 0) {
-        empty = empty || height > 0;
+        empty = height > 0;
         return;
       }
       const Rational t = -height / slope;
       if (slope > 0 && (!to || t < *to)) to = t;
       if (slope < 0 && (!from || *from < t)) from = t;
-      empty = empty || (from && to && *to < *from);
+      empty = from && to && *to < *from;
     }
   };
 
+  /// True only if no point of the line lies in the box and the cone.
+  bool surely_misses(const Line<Interval>& line) const {
+    double from = -HUGE_VAL, to = HUGE_VAL;
+    bool empty = false;
+    cut_by_all(enclosed_, line, [&](const Interval& height, const Interval& slope) {
+      if (surely_zero(slope)) {
+        empty = empty || height.inf() > 0;
+      } else if (!may_be_zero(slope)) {
+        const Interval t = -height / slope;
+        if (slope.inf() > 0 && t.sup() < to) to = t.sup();
+        if (slope.sup() < 0 && t.inf() > from) from = t.inf();
+      }
+    });
+    return empty || to < from;
+  }
+
   /// Adds the ends of the line's segment in the box and the cone, and its point nearest to the origin.
-  void edge(const RationalVector& at, const RationalVector& along) {
-    if (complete()) return;
+  template <class MakeLine>
+  void edge(const MakeLine& make_line) {
+    if (complete() || surely_misses(make_line(enclosed_))) return;
+    const auto [at, along] = make_line(exact_);
     const Rational length2 = dot(along, along);
     if (length2 == 0) return;
     Piece piece;
-    for (int i = 0; i < 3 && !piece.empty; ++i) {
-      piece.cut(at[i] - box_.high[i], along[i]);
-      piece.cut(box_.low[i] - at[i], -along[i]);
-    }
-    for (std::size_t s = 0; s < cone_.size() && !piece.empty; ++s) {
-      const Rational height = dot(cone_[s].direction, at), slope = dot(cone_[s].direction, along);
-      piece.cut(height, slope);
-      if (cone_[s].level) piece.cut(-height, -slope);
-    }
+    cut_by_all(exact_, Line<Rational>{at, along},
+               [&](const Rational& height, const Rational& slope) { piece.cut(height, slope); });
     if (piece.empty) return;
     add(moved(at, along, *piece.from));
     add(moved(at, along, *piece.to));
     add(moved(at, along, std::clamp(Rational(-dot(at, along) / length2), *piece.from, *piece.to)));
   }
 
-  const RationalBox& box_;
   const Cone& cone_;
+  BoxAndSides<Rational> exact_;
+  BoxAndSides<Interval> enclosed_;
   std::optional<RationalVector> short_, long_;
 };
 

@@ -15,6 +15,7 @@
 #include "impl/subject/floating_point.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/environment.hpp"
+#include "oracles/number_memory.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/manual_page.hpp"
 #include "reports/engine/progress.hpp"
@@ -245,6 +246,7 @@ void hold_standard_files() {
 int main(int argc, char** argv) {
   nearmiss::FloatingPointModes::standard().set();  // a library may have changed them when it was loaded
   nearmiss::hold_standard_files();
+  nearmiss::use_pool_for_numbers();
   signal(SIGCHLD, SIG_DFL);  // the parent may have it ignored, and then the end of a host would not be reported
   for (const int s : {SIGPIPE, SIGXFSZ}) signal(s, SIG_IGN);  // a failed write returns an error code instead
   const std::vector<std::string> arguments(argv + 1, argv + argc);
