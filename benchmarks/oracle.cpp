@@ -23,9 +23,9 @@
 #include "corpus/generator.hpp"
 #include "corpus/raw_numbers.hpp"
 #include "impl/subject/subject.hpp"
+#include "oracles/exact/number_memory.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
-#include "oracles/number_memory.hpp"
 
 namespace nearmiss::benchmarks {
 

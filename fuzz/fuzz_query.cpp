@@ -27,7 +27,7 @@
 #include "fuzz/statistics.hpp"
 #include "fuzz/violation.hpp"
 #include "oracles/confirmed.hpp"
-#include "oracles/number_memory.hpp"
+#include "oracles/exact/number_memory.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss::fuzz {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "impl/host/hosts.hpp"
-#include "oracles/number_memory.hpp"
+#include "oracles/exact/number_memory.hpp"
 
 int main(int argc, char** argv) try {
   constexpr int keep_what_is_set = 0;

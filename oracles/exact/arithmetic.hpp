@@ -5,7 +5,7 @@
 /// include this header, because it includes CGAL.
 #pragma once
 
-#include "oracles/number_memory.hpp"
+#include "oracles/exact/number_memory.hpp"
 
 /// CGAL takes the memory of a rational number's representation from this allocator.
 #define CGAL_ALLOCATOR(T) nearmiss::NumberAllocator<T>

@@ -15,7 +15,7 @@
 #include "impl/subject/floating_point.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/environment.hpp"
-#include "oracles/number_memory.hpp"
+#include "oracles/exact/number_memory.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/manual_page.hpp"
 #include "reports/engine/progress.hpp"

@@ -1,4 +1,4 @@
-#include "oracles/number_memory.hpp"
+#include "oracles/exact/number_memory.hpp"
 
 #include <gmp.h>
 #include <sys/mman.h>
