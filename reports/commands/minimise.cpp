@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "oracles/requirements.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/minimise.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/engine/run_folder.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class MinimiseCommand : public Command {
+ public:
+  Manual manual() const override {
+    std::vector<Manual::Line> status = judging_exit_status();
+    return {
+        "minimise",
+        "simplify the case of a finding, and show which of its numbers matter",
+        {"FILE is a case, a stored case or a report, as JSON. The subject of the report is asked simpler and simpler "
+         "cases. A simpler case is kept where the subject's answer has the same finding: the same member of the answer "
+         "is wrong in the same way, proved for the simpler case by itself, or the subject breaks for the same reason. "
+         "Simpler numbers are zeros, small integers, numbers of few digits, and numbers that the case has already. "
+         "Without a report and without --subject, every subject that offers the query is examined, and those with a "
+         "finding get a simpler case.",
+         "Then each number of the simplest case is moved alone, up and down, as long as the finding stays the same. "
+         "The page shows these ranges under \"What matters\", and names the numbers that play no part.",
+         "The report of the simplest case is written to FOLDER/QUERY/SUBJECT-FAULT-ID.json. It says under "
+         "\"minimised\" how the search ended. The result is the same each time, unless --seconds ended the search; "
+         "minimise the written report to go on."},
+        std::move(status),
+        {{"nearmiss minimise reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings of a run."},
+         {"nearmiss minimise --subject fcl --out small case.json", "The finding of one subject on a case."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
+    selection_.declare_subjects(app);
+    add_measure(app, measure_);
+    add_whole_number(app, "--questions", questions_,
+                     "How often a subject is asked at most to simplify a case. Default: 20,000", 1, 1'000'000'000);
+    add_positive_number(app, "--seconds", seconds_, "The most time to simplify a case. Default: 60", "S", 1e6);
+    add_output_folder(app, out_, "The folder. Default: reports/runs/minimised of the source tree");
+    app.add_flag("--json", json_, "Print a JSON array with the reports of the simplest cases")->disable_flag_override();
+  }
+  int run(const CLI::App&) override {
+    std::vector<Task> tasks;
+    for (const std::string& f : files_) tasks.push_back(read_task(f));
+    catch_interrupts();
+    for (const Task& t : tasks) {
+      set_measure(t.measure);
+      for (const Subject* s : t.subjects) {
+        if (!interrupted()) minimise_for(t, *s);
+      }
+    }
+    if (json_) fmt::print("{}", pretty_json(reports_));
+    if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
+    return found_ > 0 ? 1 : interrupted() ? 2 : 0;
+  }
+
+ private:
+  /// A file and the subjects that are to be asked its case.
+  struct Task {
+    std::string file;
+    Case question;
+    Measure measure;
+    std::vector<const Subject*> subjects;
+  };
+
+  Task read_task(const std::string& file) const {
+    settle_run_of(file);
+    const nlohmann::json j = parse_json(read_file(file), file);
+    const Measure measure = measure_ ? Measure{*measure_, true} : measure_of(j, file);
+    return {file, case_of(j, file), measure, subjects_for(j, file)};
+  }
+  std::vector<const Subject*> subjects_for(const nlohmann::json& j, const std::string& file) const {
+    const bool report = j.is_object() && j.contains("finding") && j.contains("subject") && j["subject"].is_object();
+    if (!report || !selection_.subject.empty()) return selection_.subjects();
+    const nlohmann::json& name = j["subject"].value("name", nlohmann::json());
+    const Subject* subject = name.is_string() ? find_subject(name.get<std::string>()) : nullptr;
+    if (subject == nullptr) {
+      throw BadInput(fmt::format("{}: it is about {}, which is no subject here; --plugin and --command add subjects",
+                                 file, one_line(name.dump(), 60)));
+    }
+    return {subject};
+  }
+
+  void minimise_for(const Task& t, const Subject& subject) {
+    const Offering& offering = subject.offering(t.question.query->name);
+    const std::optional<Case> same = in_scalar(t.question, subject.scalar);
+    if (offering.answer == nullptr || !same || !unmet_by(*same, offering.required).empty()) {
+      if (t.subjects.size() == 1) say(fmt::format("{}: {} cannot be asked this case", t.file, subject.name));
+      return;
+    }
+    progress_.set_activity(fmt::format("minimising for {}", subject.name));
+    const MinimiseLimits limits{questions_.value_or(MinimiseLimits().questions),
+                                seconds_ ? std::chrono::duration<double>(*seconds_) : MinimiseLimits().time};
+    std::optional<Minimised> m = minimise(*same, subject, limits, workers_, [this](std::uint64_t questions) {
+      progress_.show(questions, std::nullopt, std::nullopt, found_);
+    });
+    if (interrupted() && !m) return;
+    if (!m) return say(fmt::format("{}: {} has no finding against it", t.file, subject.name));
+    ++found_;
+    keep(t, subject, *m);
+  }
+  void keep(const Task& t, const Subject& subject, Minimised& m) {
+    Report& r = m.report;
+    r.question.origin = "minimise";
+    r.question.moves.clear();  // they made the case of the file
+    const fs::path file = (out_.empty() ? runs_folder() / "minimised" : fs::path(out_)) / r.question.query->name /
+                          fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
+    r.replay = replay_command(subject, file.string());
+    make_folder(file.parent_path());
+    write_file(file, pretty_json(minimised_to_json(m)));
+    if (json_) {
+      reports_.push_back(minimised_to_json(m));
+      return;
+    }
+    const Replay page{r.question, file.string(), r.truth, {r}, {}};
+    const std::string end =
+        fmt::format("This is the case of {}, minimised in {} questions. The search was ended by {}.", t.file,
+                    count_text(m.questions), name_of(m.end));
+    fmt::print("{}{}\n{}\n{}", separator(), replay_text(page), ranges_text(m), wrapped_text(end, ""));
+  }
+  /// An empty line between pages.
+  std::string separator() { return std::exchange(first_, false) ? "" : "\n"; }
+  void say(const std::string& line) const {
+    if (!json_) fmt::print("{}\n", line);
+  }
+
+  std::vector<std::string> files_;
+  Selection selection_;
+  std::optional<double> measure_, seconds_;
+  std::optional<std::uint64_t> questions_;
+  std::string out_;
+  bool json_ = false, first_ = true;
+  nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
+  Workers workers_{[] { return !interrupted(); }};
+  Progress progress_;
+  std::uint64_t found_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> minimise_command() { return std::make_unique<MinimiseCommand>(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,206 @@
+#include "reports/engine/minimise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "corpus/float_order.hpp"
+#include "corpus/shrink.hpp"
+#include "oracles/confirmed.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/findings/signature.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Tells whether a changed case still has the finding, by asking the subject and judging its answer.
+class SameFault {
+ public:
+  SameFault(const Subject& subject, Workers& workers, const std::function<void(std::uint64_t)>& tick)
+      : subject_(subject), workers_(workers), tick_(tick) {}
+
+  /// Takes the finding of this case as the one to keep. False where it has none.
+  bool begin(const Case& question) {
+    const Answer answer = workers_.ask(subject_, question);
+    for (const Detail detail : {Detail::verdict, Detail::full}) {
+      detail_ = detail;
+      const Finding f = judged(question, answer);
+      signature_ = signature_of(f);
+      if (is_bad(f)) return true;
+    }
+    return false;
+  }
+  bool holds(const Case& c) {
+    if (interrupted()) return false;
+    const Answer answer = workers_.ask(subject_, c);
+    if (interrupted()) return false;  // the worker may have given up
+    tick_(++questions_);
+    return signature_of(judged(c, answer)) == signature_;
+  }
+  std::uint64_t questions() const { return questions_; }
+
+ private:
+  Finding judged(const Case& c, const Answer& answer) const {
+    return confirmed(c, answer, subject_.standard_for(c.query->name), detail_);
+  }
+
+  const Subject& subject_;
+  Workers& workers_;
+  const std::function<void(std::uint64_t)>& tick_;
+  Detail detail_ = Detail::verdict;
+  Signature signature_;
+  std::uint64_t questions_ = 0;
+};
+
+Case simplest(const Case& question, const MinimiseLimits& limits, SameFault& fault, Minimised::End& end) {
+  const Clock::time_point begin = Clock::now();
+  const auto most = int(std::min<std::uint64_t>(limits.questions, INT_MAX));
+  end = Minimised::End::simplest;
+  const auto keeps = [&](const Case& c) {
+    if (Clock::now() - begin >= limits.time) end = Minimised::End::time;
+    return end != Minimised::End::time && fault.holds(c);
+  };
+  Case found = shrink(question, keeps, most);
+  if (interrupted()) {
+    end = Minimised::End::interrupted;
+  } else if (end != Minimised::End::time && fault.questions() >= limits.questions) {
+    end = Minimised::End::questions;
+  }
+  return found;
+}
+
+/// Finds the range of one number. Positions are those of float_order.hpp.
+class Range {
+ public:
+  Range(const Case& c, std::size_t number, SameFault& fault)
+      : case_(c), number_(number), fault_(fault), last_(order_of(c.scalar, largest_finite(c.scalar))) {}
+
+  SameFinding find() {
+    const std::int64_t at = order_of(case_.scalar, case_.values[number_]);
+    const std::int64_t low = end_of(at, -1), high = end_of(at, 1);
+    return {number_, of_order(case_.scalar, low), of_order(case_.scalar, high), !is_valid(low - 1),
+            !is_valid(high + 1)};
+  }
+
+ private:
+  Case with(std::int64_t position) const {
+    Case c = case_;
+    c.values[number_] = of_order(c.scalar, position);
+    return c;
+  }
+  bool is_valid(std::int64_t position) const {
+    return -last_ <= position && position <= last_ && !case_.query->broken(with(position).values);
+  }
+  bool is_same(std::int64_t position) { return is_valid(position) && fault_.holds(with(position)); }
+
+  /// The furthest position in this direction up to which every asked one has the finding.
+  std::int64_t end_of(std::int64_t at, int direction) {
+    const std::int64_t last = direction * last_;
+    const std::uint64_t room = std::uint64_t(last_) - std::uint64_t(direction * at);
+    std::int64_t same = at;
+    for (std::uint64_t step = 1; same != last; step *= 2) {
+      const bool beyond = step == 0 || step > room;  // 0: 2^64
+      const std::int64_t next = beyond ? last : std::int64_t(std::uint64_t(at) + std::uint64_t(direction) * step);
+      if (!is_same(next)) return border(same, next);
+      same = next;
+    }
+    return same;
+  }
+  /// Bisects between a position with the finding and one without.
+  std::int64_t border(std::int64_t same, std::int64_t other) {
+    for (std::int64_t middle = std::midpoint(same, other); middle != same; middle = std::midpoint(same, other)) {
+      (is_same(middle) ? same : other) = middle;
+    }
+    return same;
+  }
+
+  const Case& case_;
+  std::size_t number_;
+  SameFault& fault_;
+  std::int64_t last_;
+};
+
+bool has_range(const Field& f) { return f.role != Role::flag && f.role != Role::index; }
+
+std::vector<SameFinding> ranges_of(const Case& c, SameFault& fault) {
+  std::vector<SameFinding> ranges;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (has_range(c.query->inputs[i])) ranges.push_back(Range(c, i, fault).find());
+  }
+  return ranges;
+}
+
+/// An end of a range, rounded: the report has all digits.
+std::string end_text(double x, bool last) { return last ? "any" : fmt::format("{:.7g}", x); }
+
+}  // namespace
+
+std::optional<Minimised> minimise(const Case& question, const Subject& subject, const MinimiseLimits& limits,
+                                  Workers& workers, const std::function<void(std::uint64_t)>& tick) {
+  SameFault fault(subject, workers, tick);
+  if (!fault.begin(question) || interrupted()) return std::nullopt;
+  Minimised m;
+  Case found = simplest(question, limits, fault, m.end);
+  m.ranges = ranges_of(found, fault);
+  if (interrupted()) m.end = Minimised::End::interrupted, m.ranges.clear();
+  m.questions = fault.questions();
+  m.report = examine(found, subject, workers);
+  return m;
+}
+
+std::string_view name_of(Minimised::End end) {
+  switch (end) {
+    case Minimised::End::simplest: return "the lack of a simpler case";
+    case Minimised::End::questions: return "the number of questions";
+    case Minimised::End::time: return "the time";
+    case Minimised::End::interrupted: return "an interrupt";
+  }
+  return "?";
+}
+
+nlohmann::ordered_json minimised_to_json(const Minimised& m) {
+  const Query& query = *m.report.question.query;
+  nlohmann::ordered_json j = report_to_json(m.report);
+  nlohmann::ordered_json ranges = nlohmann::ordered_json::array();
+  for (const SameFinding& r : m.ranges) {
+    ranges.push_back({{"number", query.inputs[r.number].name},
+                      {"low", r.low},
+                      {"high", r.high},
+                      {"to_lowest", r.to_lowest},
+                      {"to_highest", r.to_highest}});
+  }
+  j["minimised"] = {{"questions", m.questions}, {"ended_by", name_of(m.end)}, {"same_finding", ranges}};
+  return j;
+}
+
+std::string ranges_text(const Minimised& m) {
+  if (m.ranges.empty()) return "";
+  const Case& c = m.report.question;
+  std::vector<std::vector<std::string>> rows{{"NUMBER", "VALUE", "SAME FINDING FROM", "TO"}};
+  std::string free;
+  for (const SameFinding& r : m.ranges) {
+    const std::string& name = c.query->inputs[r.number].name;
+    if (r.plays_no_part()) {
+      free += (free.empty() ? "" : ", ") + name;
+      continue;
+    }
+    rows.push_back({name, number_text(c.values[r.number], c.scalar), end_text(r.low, r.to_lowest),
+                    end_text(r.high, r.to_highest)});
+  }
+  std::string text = "What matters\n";
+  if (rows.size() > 1) text += table_text(rows, "  ", 1);
+  if (!free.empty()) text += wrapped_text("Any valid value gives the same finding: " + free + ".", "  ");
+  return text + wrapped_text(
+                    "The subject was asked with values of each number while the others stayed: both ends of a "
+                    "range, and values within it at distances that double.",
+                    "  ");
+}
+
+}  // namespace nearmiss

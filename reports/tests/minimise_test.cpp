@@ -1,0 +1,179 @@
+/// Minimising: the finding stays the same, the result is simple, and the ranges end where the finding ends.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/source_folder.hpp"
+#include "impl/subject/provenance.hpp"
+#include "reports/engine/minimise.hpp"
+#include "reports/findings/signature.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// The inputs of sphere_sphere_overlap.
+constexpr std::size_t center1_x = 0, radius1 = 3, center2_x = 4, radius2 = 7;
+
+const Subject& honest() {
+  static const Subject s = [] {
+    for (const Subject& own : own_subjects_in_process()) {
+      if (own.name == "collide-certified-float") return own;
+    }
+    throw std::logic_error("no certified tier");
+  }();
+  return s;
+}
+
+Answer right(std::span<const double> values) { return honest().offering("sphere_sphere_overlap").answer(values); }
+
+/// Answers sphere_sphere_overlap as the certified tier does, but for the cases of a mistake.
+Subject mistaken(Answer (*answer)(std::span<const double>)) {
+  Subject s = honest();
+  s.name = "mistaken";
+  std::erase_if(s.offerings, [](const Offering& o) { return o.query != "sphere_sphere_overlap"; });
+  s.offerings.at(0).answer = answer;
+  return s;
+}
+
+Answer blind_above_two_and_a_half(std::span<const double> values) {
+  Answer a = right(values);
+  if (values[radius1] > 2.5) a.yes = false;
+  return a;
+}
+
+Answer throws_above_seven(std::span<const double> values) {
+  if (values[center2_x] <= 7) return right(values);
+  return Answer::without(Answer::Status::broke, "exception: no root in [0, " + std::to_string(values[radius1]) + "]");
+}
+
+/// Two balls that overlap, with numbers of many digits.
+Case overlapping() {
+  return {
+      find_query("sphere_sphere_overlap"),
+      Scalar::float32,
+      {float(0.37), float(-1.41), float(2.23), float(3.7182817), float(1.93), float(0.57), float(-0.77), float(1.7)},
+      "test",
+      0,
+      0,
+      {}};
+}
+
+std::optional<Minimised> minimised(const Case& question, const Subject& subject, const MinimiseLimits& limits = {}) {
+  Workers workers;
+  return minimise(question, subject, limits, workers, [](std::uint64_t) {});
+}
+
+const SameFinding& range_of(const Minimised& m, std::size_t number) {
+  return *std::find_if(m.ranges.begin(), m.ranges.end(), [&](const SameFinding& r) { return r.number == number; });
+}
+
+TEST(Minimise, FindsTheSimplestCaseAndTheBordersOfAMistake) {
+  const Subject s = mistaken(blind_above_two_and_a_half);
+  const auto m = minimised(overlapping(), s);
+  ASSERT_TRUE(m.has_value());
+  EXPECT_EQ(m->end, Minimised::End::simplest);
+  EXPECT_EQ(m->report.finding.disagreement, Disagreement::false_miss);
+  EXPECT_EQ(m->report.question.values, (std::vector<double>{0, 0, 0, 4, 0, 0, 0, 0}));
+  ASSERT_EQ(m->ranges.size(), 8u);
+  const SameFinding& radius = range_of(*m, radius1);
+  EXPECT_EQ(radius.low, std::nextafter(2.5f, 3.0f));
+  EXPECT_FALSE(radius.to_lowest);
+  EXPECT_TRUE(radius.to_highest);
+  EXPECT_FALSE(radius.plays_no_part());
+  const SameFinding& x = range_of(*m, center1_x);
+  EXPECT_EQ(x.low, -4);
+  EXPECT_EQ(x.high, 4);
+  const SameFinding& other = range_of(*m, radius2);
+  EXPECT_TRUE(other.plays_no_part());
+  EXPECT_EQ(other.low, 0);
+}
+
+TEST(Minimise, KeepsTheKindOfABreakage) {
+  const Subject s = mistaken(throws_above_seven);
+  Case far = overlapping();
+  far.values[center2_x] = float(23.123);
+  const auto m = minimised(far, s);
+  ASSERT_TRUE(m.has_value());
+  EXPECT_EQ(m->report.finding.verdict, Verdict::broke);
+  EXPECT_EQ(m->report.question.values[center2_x], 8);
+  EXPECT_EQ(range_of(*m, center2_x).low, std::nextafter(7.0f, 8.0f));
+  EXPECT_TRUE(range_of(*m, radius1).plays_no_part());
+}
+
+TEST(Minimise, FindsNothingAgainstARightAnswer) {
+  const Subject s = mistaken(right);
+  EXPECT_FALSE(minimised(overlapping(), s).has_value());
+}
+
+TEST(Minimise, StopsAtItsLimitsWithACaseThatHasTheFinding) {
+  const Subject s = mistaken(blind_above_two_and_a_half);
+  const auto few = minimised(overlapping(), s, {.questions = 3, .time = std::chrono::minutes(10)});
+  ASSERT_TRUE(few.has_value());
+  EXPECT_EQ(few->end, Minimised::End::questions);
+  EXPECT_EQ(few->report.finding.disagreement, Disagreement::false_miss);
+  const auto no_time = minimised(overlapping(), s, {.questions = 1000, .time = std::chrono::seconds(0)});
+  ASSERT_TRUE(no_time.has_value());
+  EXPECT_EQ(no_time->end, Minimised::End::time);
+  EXPECT_EQ(no_time->report.question.values, overlapping().values);
+  EXPECT_FALSE(no_time->ranges.empty());
+}
+
+TEST(Minimise, IsTheSameEachTimeAndDoneAtOnce) {
+  const Subject s = mistaken(blind_above_two_and_a_half);
+  const auto once = minimised(overlapping(), s), twice = minimised(overlapping(), s);
+  EXPECT_EQ(once->questions, twice->questions);
+  const auto again = minimised(once->report.question, s);
+  EXPECT_EQ(again->report.question.values, once->report.question.values);
+}
+
+TEST(Minimise, WritesAReportThatReplays) {
+  const TemporaryFolder folder;
+  const std::string plugin = plugin_file("skim_plugin"), out = (folder / "small").string();
+  ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", "closest_point_segment", "--cases", "2000",
+                      "--seed", "1", "--out", (folder / "r").string()})
+                .exit_code,
+            1);
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  const std::string found = (folder / "r" / index["reports"][0]["file"].get<std::string>()).string();
+  const Ran ran = nearmiss({"minimise", "--plugin", plugin, found, "--out", out});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  for (const char* part : {"Inputs\n", "SUBJECT", "What matters\n", "the lack of a simpler case"}) {
+    EXPECT_NE(ran.out.find(part), std::string::npos) << ran.out;
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "small" / "closest_point_segment")) files.push_back(entry);
+  ASSERT_EQ(files.size(), 1u);
+  const json before = json::parse(read_file(found)), after = json::parse(read_file(files[0]));
+  EXPECT_EQ(complaints(after, "report.schema.json"), "");
+  EXPECT_EQ(after["finding"]["disagreement"], before["finding"]["disagreement"]);
+  EXPECT_NE(after["inputs"], before["inputs"]);
+  EXPECT_EQ(after["minimised"]["same_finding"].size(), 9u);
+  EXPECT_EQ(nearmiss({"replay", "--plugin", plugin, "-s", "skim", files[0].string()}).exit_code, 1);
+  const Ran again = nearmiss({"minimise", "--plugin", plugin, files[0].string(), "--out", out, "--json"});
+  EXPECT_EQ(again.exit_code, 1) << again.err;
+  EXPECT_EQ(json::parse(again.out).at(0)["inputs"], after["inputs"]);
+  const Ran without = nearmiss({"minimise", found, "--out", out});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.err.find("\"skim\", which is no subject here"), std::string::npos) << without.err;
+  EXPECT_EQ(std::count(without.err.begin(), without.err.end(), '\n'), 1) << without.err;
+}
+
+TEST(Minimise, EndsWithZeroWhereNothingIsFound) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"minimise", "-s", "collide-fast-double", "--out", (folder / "r").string(),
+                            source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("collide-fast-double has no finding against it"), std::string::npos) << ran.out;
+  EXPECT_FALSE(fs::exists(folder / "r"));
+}
+
+}  // namespace
+}  // namespace nearmiss
