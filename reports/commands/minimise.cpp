@@ -84,15 +84,9 @@ class MinimiseCommand : public Command {
     return {file, case_of(j, file), measure, subjects_for(j, file)};
   }
   std::vector<const Subject*> subjects_for(const nlohmann::json& j, const std::string& file) const {
-    const bool report = j.is_object() && j.contains("finding") && j.contains("subject") && j["subject"].is_object();
-    if (!report || !selection_.subject.empty()) return selection_.subjects();
-    const nlohmann::json& name = j["subject"].value("name", nlohmann::json());
-    const Subject* subject = name.is_string() ? find_subject(name.get<std::string>()) : nullptr;
-    if (subject == nullptr) {
-      throw BadInput(fmt::format("{}: it is about {}, which is no subject here; --plugin and --command add subjects",
-                                 file, one_line(name.dump(), 60)));
-    }
-    return {subject};
+    if (!selection_.subject.empty()) return selection_.subjects();
+    if (const auto subject = subject_of_report(j, file)) return {*subject};
+    return selection_.subjects();
   }
 
   void minimise_for(const Task& t, const Subject& subject) {

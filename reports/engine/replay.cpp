@@ -152,6 +152,15 @@ Measure measure_of(const nlohmann::json& j, const std::string& file) {
   return {m["error"], m["for_all"]};
 }
 
+std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file) {
+  if (!j.is_object() || !j.contains("finding") || !j.contains("subject") || !j["subject"].is_object()) return {};
+  const nlohmann::json name = j["subject"].value("name", nlohmann::json());
+  const Subject* subject = name.is_string() ? find_subject(name.get<std::string>()) : nullptr;
+  if (subject != nullptr) return subject;
+  throw BadInput(fmt::format("{}: it is about {}, which is no subject here; --plugin and --command add subjects", file,
+                             one_line(name.dump(), 60)));
+}
+
 std::string replay_command(const Subject& subject, const std::string& file) {
   const std::string plugin = subject.plugin.empty() ? "" : "--plugin " + shell_quoted(subject.plugin) + " ";
   const std::string command = subject.command.empty() ? "" : "--command " + shell_quoted(subject.command) + " ";

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ Case read_case_or_report(const std::filesystem::path& file);
 Case case_of(const nlohmann::json& j, const std::string& file);
 /// The measure of the report's subject; the usual measure where the file has none. Throws BadInput.
 Measure measure_of(const nlohmann::json& j, const std::string& file);
+
+/// The subject of a report; empty for JSON that is no report. Throws BadInput where no such subject is loaded.
+std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file);
 
 /// One case and its reports, one for each subject that was asked.
 struct Replay {

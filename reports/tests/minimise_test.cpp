@@ -1,4 +1,4 @@
-/// Minimising: the finding stays the same, the result is simple, and the ranges end where the finding ends.
+/// Minimising and storing: the finding stays the same, the result is simple, and the ranges end where the finding ends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +7,10 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/source_folder.hpp"
+#include "corpus/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/engine/minimise.hpp"
+#include "reports/engine/replay.hpp"
 #include "reports/findings/signature.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
@@ -173,6 +175,69 @@ TEST(Minimise, EndsWithZeroWhereNothingIsFound) {
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(ran.out.find("collide-fast-double has no finding against it"), std::string::npos) << ran.out;
   EXPECT_FALSE(fs::exists(folder / "r"));
+}
+
+/// Stores a case in a corpus of its own.
+class Promote : public testing::Test {
+ protected:
+  Ran promote(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "promote");
+    return nearmiss(arguments, {"NEARMISS_CORPUS=" + corpus_.path().string()});
+  }
+  std::string seed(const std::string& name) const {
+    return source_folder() + "/corpus/seeds/sphere_sphere_overlap/" + name + ".json";
+  }
+  /// What is stored under this name, read as tests and nights read it.
+  StoredCase stored(const std::string& name) const {
+    return read_stored_case(corpus_ / "regressions" / "sphere_sphere_overlap" / (name + ".json"));
+  }
+  TemporaryFolder corpus_;
+};
+
+TEST_F(Promote, StoresTheCaseOfAReportWithItsVerdict) {
+  const std::string plugin = plugin_file("skim_plugin");
+  const TemporaryFolder runs;
+  ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", "sphere_sphere_overlap", "--cases", "20000",
+                      "--seed", "1", "--out", (runs / "r").string()})
+                .exit_code,
+            1);
+  const json index = json::parse(read_file(runs / "r" / "index.json"));
+  const std::string report = (runs / "r" / index["reports"][0]["file"].get<std::string>()).string();
+  const std::vector<std::string> arguments{
+      report, "--plugin", plugin, "-s", "collide-fast-double", "--note", "A slack of 1e-4 for balls of any size."};
+  const Ran ran = promote(arguments);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const StoredCase s = stored("apart-skim-false-hit");
+  EXPECT_EQ(s.question.values, case_of(json::parse(read_file(report)), report).values);
+  EXPECT_EQ(s.note, "A slack of 1e-4 for balls of any size.");
+  ASSERT_EQ(s.expected.size(), 2u);
+  EXPECT_EQ(s.expected[0].subject, "skim");
+  EXPECT_EQ(s.expected[0].verdict, "violates contract");
+  EXPECT_EQ(s.expected[0].disagreement, "false hit");
+  EXPECT_EQ(s.expected[1].verdict, "agrees");
+  const Ran again = promote(arguments);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("the case is stored already, in "), std::string::npos) << again.err;
+}
+
+TEST_F(Promote, RefusesWrongNames) {
+  const std::vector<std::string> more{"-s", "collide-fast-double", "--note", "A note that is long enough."};
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return promote(arguments);
+  };
+  const Ran yes = with({seed("apart"), "--name", "overlaps"});
+  EXPECT_EQ(yes.exit_code, 2);
+  EXPECT_NE(yes.err.find("the name overlaps must begin with miss or apart: the exact decision is no"),
+            std::string::npos)
+      << yes.err;
+  EXPECT_NE(with({seed("apart"), "--name", "Apart/.."}).err.find("small letters, digits and hyphens"),
+            std::string::npos);
+  EXPECT_NE(promote({seed("apart"), "--note", "A note that is long enough."}).err.find("--subject is needed"),
+            std::string::npos);
+  EXPECT_NE(promote({seed("apart"), "--note", "short", "-s", "fcl"}).err.find("in a sentence"), std::string::npos);
+  EXPECT_EQ(with({seed("apart"), "--name", "apart-one"}).exit_code, 0);
+  EXPECT_EQ(stored("apart-one").expected.at(0).verdict, "agrees");
 }
 
 }  // namespace
