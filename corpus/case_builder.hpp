@@ -135,4 +135,9 @@ struct Mutator {
 };
 std::span<const Mutator> mutators();
 
+/// a + factor b.
+inline CaseBuilder::Numbers plus(const CaseBuilder::Numbers& a, const CaseBuilder::Numbers& b, double factor = 1) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
 }  // namespace nearmiss

@@ -9,10 +9,6 @@ namespace {
 
 using Numbers = CaseBuilder::Numbers;
 
-Numbers plus(const Numbers& a, const Numbers& b, double factor = 1) {
-  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-
 /// Three orthogonal vectors of whole numbers, each of the whole length `length`: a rotation, scaled.
 struct Frame {
   std::array<double, 4> rotation;  ///< the quaternion x, y, z, w

@@ -10,18 +10,15 @@ namespace {
 using Numbers = CaseBuilder::Numbers;
 using Quaternion = std::array<double, 4>;  // x, y, z, w, of any length
 
-Numbers sum(const Numbers& a, const Numbers& b, double factor = 1) {
-  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-double inner(const Numbers& a, const Numbers& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Numbers outer(const Numbers& a, const Numbers& b) {
+double dot(const Numbers& a, const Numbers& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Numbers cross(const Numbers& a, const Numbers& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-double norm(const Numbers& a) { return std::sqrt(inner(a, a)); }
+double norm(const Numbers& a) { return std::sqrt(dot(a, a)); }
 /// a / |a|; zero for zero.
 Numbers unit_of(const Numbers& a) {
   const double n = norm(a);
-  return n > 0 ? sum({}, a, 1 / n) : Numbers{};
+  return n > 0 ? plus({}, a, 1 / n) : Numbers{};
 }
 
 /// The rotation `second` followed by the rotation `first`.
@@ -95,10 +92,10 @@ void draw_rotations(CaseBuilder& d, CrossedBoxes& c) {
 void measure(const CaseBuilder& d, CrossedBoxes& c) {
   for (std::size_t n = 0; n < 2; ++n) c.axes[n] = axes_of(d, d.plan.rotations[n]);
   const Numbers &a = c.axes[0][c.longest[0]], &b = c.axes[1][c.longest[1]];
-  const Numbers across = outer(a, b);
+  const Numbers across = cross(a, b);
   c.sine = norm(across);
   const Numbers direction = unit_of(across);
-  c.apart = unit_of(sum(direction, a, -inner(direction, a)));
+  c.apart = unit_of(plus(direction, a, -dot(direction, a)));
 }
 
 /// Half extents: thin enough that no face separates boxes of the lengths `half_length` whose edges cross.
@@ -116,7 +113,7 @@ double draw_thickness(CaseBuilder& d, const CrossedBoxes& c, double half_length)
 double reach(const CaseBuilder& d, const CrossedBoxes& c) {
   double total = 0;
   for (std::size_t n = 0; n < 2; ++n) {
-    for (std::size_t k = 0; k < 3; ++k) total += d[c.box[n]->sizes[k]] * std::abs(inner(c.axes[n][k], c.apart));
+    for (std::size_t k = 0; k < 3; ++k) total += d[c.box[n]->sizes[k]] * std::abs(dot(c.axes[n][k], c.apart));
   }
   return total;
 }
@@ -146,25 +143,25 @@ struct Skimming {
 /// About the place at which the motion is nearest to the capsule: beside the axis, or before its first end.
 Numbers draw_place(CaseBuilder& d, const Skimming& p) {
   const double off = p.reach * (1 + signed_power(d.random, -d.orders(18, 44), -4));
-  if (!d.random.one_in(3)) return sum(sum(p.first, p.axis, d.random.uniform(0, 1)), p.aside, off);
-  const Numbers toward = unit_of(sum(p.aside, p.along, -d.random.uniform(0, 2)));
-  return sum(p.first, toward, off);
+  if (!d.random.one_in(3)) return plus(plus(p.first, p.axis, d.random.uniform(0, 1)), p.aside, off);
+  const Numbers toward = unit_of(plus(p.aside, p.along, -d.random.uniform(0, 2)));
+  return plus(p.first, toward, off);
 }
 
 /// The axis, tilted by up to a sixteenth along the surface and, in half of the cases, toward it or away from it.
 Numbers draw_tilted(CaseBuilder& d, const Skimming& p) {
   const double sideways = signed_power(d.random, -20, -5);
   const double inwards = d.random.one_in(2) ? 0 : signed_power(d.random, -20, -5);
-  return sum(sum(p.along, outer(p.along, p.aside), sideways), p.aside, inwards);
+  return plus(plus(p.along, cross(p.along, p.aside), sideways), p.aside, inwards);
 }
 
 Skimming draw_skimming(CaseBuilder& d, const Operand& capsule, const Operand& mover) {
   const bool back = d.random.one_in(2);
   const Numbers first = d.vector(capsule.positions[back ? 1 : 0]), last = d.vector(capsule.positions[back ? 0 : 1]);
-  Skimming p{first, sum(last, first, -1), {}, {}, d[capsule.sizes[0]]};
+  Skimming p{first, plus(last, first, -1), {}, {}, d[capsule.sizes[0]]};
   if (!mover.sizes.empty()) p.reach += d[mover.sizes[0]];
   p.along = unit_of(p.axis);
-  p.aside = unit_of(outer(p.along, d.random_vector(1)));
+  p.aside = unit_of(cross(p.along, d.random_vector(1)));
   return p;
 }
 
@@ -181,8 +178,8 @@ bool crossed_edges(CaseBuilder& d) {
   const Numbers center = d.random_vector(thickness * d.random.power_of_two(0, 4));
   const double along = d.random.one_in(2) ? 0 : 0.25 * half_length * d.random.uniform(-1, 1);
   d.set_vector(c.box[0]->positions[0], center);
-  const Numbers crossing = sum(d.vector(c.box[0]->positions[0]), c.axes[0][c.longest[0]], along);
-  d.set_vector(c.box[1]->positions[0], sum(crossing, c.apart, d.random.sign() * (reach(d, c) + gap)));
+  const Numbers crossing = plus(d.vector(c.box[0]->positions[0]), c.axes[0][c.longest[0]], along);
+  d.set_vector(c.box[1]->positions[0], plus(crossing, c.apart, d.random.sign() * (reach(d, c) + gap)));
   return true;
 }
 
@@ -195,9 +192,9 @@ bool along_capsule(CaseBuilder& d) {
   if (norm(p.aside) == 0) return false;
   const Numbers place = draw_place(d, p);
   const double far = (norm(p.axis) + p.reach) * d.random.power_of_two(4, d.orders(9, 20));
-  d.set_vector(mover.positions[0], sum(place, draw_tilted(d, p), -far));
-  const Numbers way = sum(place, d.vector(mover.positions[0]), -1);
-  d.set_vector(d.plan.velocities.front(), sum({}, way, d.random.power_of_two(-9, 0)));
+  d.set_vector(mover.positions[0], plus(place, draw_tilted(d, p), -far));
+  const Numbers way = plus(place, d.vector(mover.positions[0]), -1);
+  d.set_vector(d.plan.velocities.front(), plus({}, way, d.random.power_of_two(-9, 0)));
   return true;
 }
 

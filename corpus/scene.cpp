@@ -9,10 +9,6 @@ namespace {
 
 using Numbers = CaseBuilder::Numbers;
 
-Numbers plus(const Numbers& a, const Numbers& b, double factor = 1) {
-  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-
 /// One operand of the scene: its position and approximate extent.
 struct Placed {
   Numbers center{};

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "corpus/codec.hpp"
 #include "oracles/requirements.hpp"
@@ -57,21 +60,65 @@ std::string alternative_text(const Query& query, const Alternative& a) {
   return text;
 }
 
-std::string truth_page(const Query& query, const Truth& truth, Scalar scalar) {
+/// How far an answer is from a right one: the sum of the differences of the numbers that both have. Infinite for
+/// another decision, and where a difference is not a number.
+double distance(const Query& query, const Answer& answer, const Alternative& right) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  if (answer.status != Answer::Status::answered || answer.yes != right.yes) return far;
+  double sum = 0;
+  for (std::size_t i = 0; i < std::min(right.count, query.outputs.size()); ++i) {
+    const bool any = right.many_normals && query.outputs[i].role == Role::normal;
+    if (any || !is_part(query, answer, i)) continue;
+    const double x = answer.values[i];
+    const double apart = std::max({right.values[i].low - x, x - right.values[i].high, 0.0});
+    if (std::isnan(apart)) return far;
+    sum += apart;
+  }
+  return sum;
+}
+
+/// The right answers for a page: where there are many, the nearest ones to the wrong answers.
+std::vector<const Alternative*> shown_alternatives(const Query& query, const Truth& truth,
+                                                   std::span<const Report> reports) {
+  constexpr std::size_t most = 3;
+  std::vector<std::pair<double, const Alternative*>> all;
+  for (const Alternative& right : truth.alternatives) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Report& r : reports) {
+      if (r.finding.verdict != Verdict::agrees) nearest = std::min(nearest, distance(query, r.answer, right));
+    }
+    all.emplace_back(nearest, &right);
+  }
+  if (all.size() > most + 1) {  // one more takes no more space than to say so
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    all.resize(most);
+  }
+  std::vector<const Alternative*> shown;
+  for (const auto& [unused, right] : all) shown.push_back(right);
+  return shown;
+}
+
+std::string margin_text(const Truth& truth, Scalar scalar) {
+  if (!(truth.margin_at_least > 0)) {
+    return "  The decision is on a knife's edge: no distance to its flip can be shown.\n";
+  }
+  return wrapped_text(fmt::format("The decision stays the same if every input number is moved by up to {}.",
+                                  amount_text(truth.margin_at_least, scalar)),
+                      "  ");
+}
+
+std::string truth_page(const Query& query, const Truth& truth, Scalar scalar, std::span<const Report> reports) {
   std::string text = fmt::format("Truth: {}  (decided by {})\n", truth_text(query, truth),
                                  truth.decided_by == Stage::interval ? "intervals" : "exact arithmetic");
-  for (std::size_t i = 0; i < truth.alternatives.size(); ++i) {
+  const std::vector<const Alternative*> shown = shown_alternatives(query, truth, reports);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
     if (i > 0) text += "  or\n";
-    text += alternative_text(query, truth.alternatives[i]);
+    text += alternative_text(query, *shown[i]);
   }
-  if (truth.margin_at_least > 0) {
-    text += wrapped_text(fmt::format("The decision stays the same if every input number is moved by up to {}.",
-                                     amount_text(truth.margin_at_least, scalar)),
-                         "  ");
-  } else {
-    text += "  The decision is on a knife's edge: no distance to its flip can be shown.\n";
+  if (const std::size_t more = truth.alternatives.size() - shown.size(); more > 0) {
+    text += fmt::format("  or one of {} more right answers{}\n", more, reports.empty() ? "" : ", which --json lists");
   }
-  return text;
+  return text + margin_text(truth, scalar);
 }
 
 std::string backward_cell(const Report& r) {
@@ -96,6 +143,14 @@ std::string origin_text(const Case& c) {
   if (c.origin.starts_with("generator")) text += fmt::format(", seed {}, index {}", c.seed, c.index);
   if (!c.moves.empty()) text += fmt::format(", moves: {}", fmt::join(c.moves, ", "));
   return text;
+}
+
+std::string inputs_page(const Case& question) {
+  const Query& query = *question.query;
+  std::string text = fmt::format("{} ({}), numbers exactly {}", query.name, nearmiss::name_of(query.kind),
+                                 nearmiss::name_of(question.scalar));
+  if (const std::string origin = origin_text(question); !origin.empty()) text += fmt::format("; from {}", origin);
+  return text + fmt::format("\n\nInputs\n{}", inputs_text(question));
 }
 
 /// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for an unknown
@@ -189,20 +244,16 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
 }
 
 std::string case_page(const Case& question, const Truth& truth) {
-  const Query& query = *question.query;
-  std::string text = fmt::format("{} ({}), numbers exactly {}", query.name, nearmiss::name_of(query.kind),
-                                 nearmiss::name_of(question.scalar));
-  if (const std::string origin = origin_text(question); !origin.empty()) text += fmt::format("; from {}", origin);
-  return text + fmt::format("\n\nInputs\n{}\n{}", inputs_text(question), truth_page(query, truth, question.scalar));
+  return inputs_page(question) + "\n" + truth_page(*question.query, truth, question.scalar, {});
 }
 
 std::string replay_text(const Replay& r) {
-  std::string text = fmt::format("{}\n{}\n{}", r.file, case_page(r.question, r.truth), findings_table(r));
+  std::string text = fmt::format("{}\n{}\n{}", r.file, inputs_page(r.question), findings_table(r));
   for (const Report& report : r.reports) {
     if (report.finding.verdict == Verdict::agrees) continue;
     text += fmt::format("\n{}", wrapped_text(explanation(report), ""));
   }
-  return text;
+  return text + "\n" + truth_page(*r.question.query, r.truth, r.question.scalar, r.reports);
 }
 
 }  // namespace nearmiss

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "corpus/codec.hpp"
+#include "reports/engine/replay.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/tests/schema.hpp"
@@ -429,6 +430,27 @@ TEST(ReportSchema, RejectsBrokenDocuments) {
   reject("/truth/alternatives/0/values/time", nlohmann::json::array({1.0, 2.0, 3.0, 4.0}));
   reject("/contract/backward_epsilon", -1);
   reject("/subject/scalar", "half");
+}
+
+/// A ball around the center of a cube has six right answers, one for each face.
+TEST(ReplayText, HasTheVerdictFirstAndOfManyRightAnswersTheNearest) {
+  const Case question = overlap(0);
+  const Truth truth = truth_of(question);
+  ASSERT_EQ(truth.alternatives.size(), 6u);
+  const Alternative& last = truth.alternatives.back();
+  Answer given = answer(true, {});
+  for (std::size_t i = 0; i < last.count; ++i) given.values[i] = last.values[i].low;
+  given.values[0] += 1;  // the depth
+  const std::string text = replay_text({question, "file", truth, {report(question, given)}, {}});
+  const std::size_t exact = text.find("\nTruth: ");
+  ASSERT_NE(exact, std::string::npos) << text;
+  EXPECT_LT(text.find("violates contract"), exact) << text;
+  EXPECT_LT(text.find("The nearest exact answer is 2"), exact) << text;
+  EXPECT_NE(text.find("  or one of 3 more right answers, which --json lists\n", exact), std::string::npos) << text;
+  const std::string first = text.substr(exact, text.find("  or\n", exact) - exact);
+  const std::string alone = replay_text({question, "file", {true, truth.decided_by, {last}, 1}, {}, {}});
+  const std::size_t begin = alone.find("  depth");
+  EXPECT_NE(first.find(alone.substr(begin, alone.find("  The decision", begin) - begin)), std::string::npos) << text;
 }
 
 }  // namespace
