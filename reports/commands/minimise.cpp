@@ -49,7 +49,8 @@ class MinimiseCommand : public Command {
     add_measure(app, measure_);
     add_whole_number(app, "--questions", questions_,
                      "How often a subject is asked at most to simplify a case. Default: 20,000", 1, 1'000'000'000);
-    add_positive_number(app, "--seconds", seconds_, "The most time to simplify a case. Default: 60", "S", 1e6);
+    add_positive_number(app, "--seconds", seconds_,
+                        "The most time to simplify a case, and again for its ranges. Default: 60", "S", 1e6);
     add_output_folder(app, out_, "The folder. Default: reports/runs/minimised of the source tree");
     app.add_flag("--json", json_, "Print a JSON array with the reports of the simplest cases")->disable_flag_override();
   }

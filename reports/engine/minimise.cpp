@@ -37,8 +37,15 @@ class SameFault {
     }
     return false;
   }
+  /// From now on nothing holds after this time, and has_ended() says so.
+  void give(std::chrono::duration<double> time) {
+    begin_ = Clock::now(), time_ = time;
+    ended_ = false;
+  }
+  bool has_ended() const { return ended_ || interrupted(); }
   bool holds(const Case& c) {
-    if (interrupted()) return false;
+    ended_ = ended_ || Clock::now() - begin_ >= time_;
+    if (has_ended()) return false;
     const Answer answer = workers_.ask(subject_, c);
     if (interrupted()) return false;  // the worker may have given up
     tick_(++questions_);
@@ -57,22 +64,20 @@ class SameFault {
   Detail detail_ = Detail::verdict;
   Signature signature_;
   std::uint64_t questions_ = 0;
+  Clock::time_point begin_;
+  std::chrono::duration<double> time_{};
+  bool ended_ = false;
 };
 
 Case simplest(const Case& question, const MinimiseLimits& limits, SameFault& fault, Minimised::End& end) {
-  const Clock::time_point begin = Clock::now();
+  fault.give(limits.time);
   const auto most = int(std::min<std::uint64_t>(limits.questions, INT_MAX));
-  end = Minimised::End::simplest;
-  const auto keeps = [&](const Case& c) {
-    if (Clock::now() - begin >= limits.time) end = Minimised::End::time;
-    return end != Minimised::End::time && fault.holds(c);
-  };
-  Case found = shrink(question, keeps, most);
-  if (interrupted()) {
-    end = Minimised::End::interrupted;
-  } else if (end != Minimised::End::time && fault.questions() >= limits.questions) {
-    end = Minimised::End::questions;
-  }
+  Case found = shrink(
+      question, [&](const Case& c) { return fault.holds(c); }, most);
+  end = interrupted()                           ? Minimised::End::interrupted
+        : fault.has_ended()                     ? Minimised::End::time
+        : fault.questions() >= limits.questions ? Minimised::End::questions
+                                                : Minimised::End::simplest;
   return found;
 }
 
@@ -129,10 +134,15 @@ class Range {
 
 bool has_range(const Field& f) { return f.role != Role::flag && f.role != Role::index; }
 
-std::vector<SameFinding> ranges_of(const Case& c, SameFault& fault) {
+/// The ranges of the numbers, in order, as far as the time suffices.
+std::vector<SameFinding> ranges_of(const Case& c, const MinimiseLimits& limits, SameFault& fault) {
+  fault.give(limits.time);
   std::vector<SameFinding> ranges;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (has_range(c.query->inputs[i])) ranges.push_back(Range(c, i, fault).find());
+    if (!has_range(c.query->inputs[i])) continue;
+    const SameFinding range = Range(c, i, fault).find();
+    if (fault.has_ended()) break;
+    ranges.push_back(range);
   }
   return ranges;
 }
@@ -148,8 +158,9 @@ std::optional<Minimised> minimise(const Case& question, const Subject& subject, 
   if (!fault.begin(question) || interrupted()) return std::nullopt;
   Minimised m;
   Case found = simplest(question, limits, fault, m.end);
-  m.ranges = ranges_of(found, fault);
-  if (interrupted()) m.end = Minimised::End::interrupted, m.ranges.clear();
+  m.ranges = ranges_of(found, limits, fault);
+  m.all_ranges = !fault.has_ended();
+  if (interrupted()) m.end = Minimised::End::interrupted;
   m.questions = fault.questions();
   m.report = examine(found, subject, workers);
   return m;
@@ -181,7 +192,6 @@ nlohmann::ordered_json minimised_to_json(const Minimised& m) {
 }
 
 std::string ranges_text(const Minimised& m) {
-  if (m.ranges.empty()) return "";
   const Case& c = m.report.question;
   std::vector<std::vector<std::string>> rows{{"NUMBER", "VALUE", "SAME FINDING FROM", "TO"}};
   std::string free;
@@ -197,10 +207,14 @@ std::string ranges_text(const Minimised& m) {
   std::string text = "What matters\n";
   if (rows.size() > 1) text += table_text(rows, "  ", 1);
   if (!free.empty()) text += wrapped_text("Any valid value gives the same finding: " + free + ".", "  ");
-  return text + wrapped_text(
-                    "The subject was asked with values of each number while the others stayed: both ends of a "
-                    "range, and values within it at distances that double.",
-                    "  ");
+  if (!m.ranges.empty()) {
+    text += wrapped_text(
+        "The subject was asked with values of each number while the others stayed: both ends of a range, and values "
+        "within it at distances that double.",
+        "  ");
+  }
+  if (!m.all_ranges) text += "  The other numbers were not moved: the time was over.\n";
+  return text;
 }
 
 }  // namespace nearmiss

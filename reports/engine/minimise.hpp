@@ -32,7 +32,8 @@ struct Minimised {
   enum class End { simplest, questions, time, interrupted };
 
   Report report;                    ///< of the simplest case found
-  std::vector<SameFinding> ranges;  ///< of each number but flags and indices; empty after an interrupt
+  std::vector<SameFinding> ranges;  ///< of each number but flags and indices, in order
+  bool all_ranges = true;           ///< false where an interrupt or the time left some out
   std::uint64_t questions = 0;      ///< how often the subject was asked
   End end = End::simplest;
 };
@@ -43,8 +44,8 @@ struct MinimiseLimits {
 };
 
 /// Empty where nothing is to be found against the subject's answer. The subject must offer the query, and the case must
-/// be in its scalar and meet its preconditions. The limits are those of the search for a simpler case; the ranges come
-/// on top. Deterministic, unless the time ends the search. `tick` is called after each question with their number.
+/// be in its scalar and meet its preconditions. The limits are those of the search for a simpler case; the ranges get
+/// the same time again. Deterministic, unless the time ends. `tick` is called after each question with their number.
 std::optional<Minimised> minimise(const Case& question, const Subject& subject, const MinimiseLimits& limits,
                                   Workers& workers, const std::function<void(std::uint64_t)>& tick);
 

@@ -125,7 +125,9 @@ TEST(Minimise, StopsAtItsLimitsWithACaseThatHasTheFinding) {
   ASSERT_TRUE(no_time.has_value());
   EXPECT_EQ(no_time->end, Minimised::End::time);
   EXPECT_EQ(no_time->report.question.values, overlapping().values);
-  EXPECT_FALSE(no_time->ranges.empty());
+  EXPECT_TRUE(no_time->ranges.empty());
+  EXPECT_FALSE(no_time->all_ranges);
+  EXPECT_NE(ranges_text(*no_time).find("the time was over"), std::string::npos);
 }
 
 TEST(Minimise, IsTheSameEachTimeAndDoneAtOnce) {
