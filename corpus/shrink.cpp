@@ -29,8 +29,7 @@ long cost(const Case& c) {
   return 4 * sum + long(distinct.size());
 }
 
-/// Simpler numbers than x, the simplest first. They have no more bits than x and an exponent nearer to 0, so they are
-/// exact in every scalar in which x is exact.
+/// Simpler numbers than x, the simplest first. Rounding may lead beyond the range of the scalar.
 std::vector<double> simpler(double x) {
   std::vector<double> all{0, 1, -1, 2, -2, 3, std::trunc(x), std::round(x), std::abs(x)};
   int exponent = 0;
@@ -72,7 +71,8 @@ class Shrinker {
     Case c = best_;
     c.values = values;
     const long own = cost(c);
-    if (own >= cost_ || c.query->broken(c.values)) return false;
+    const bool exact = std::all_of(values.begin(), values.end(), [&](double x) { return representable(x, c.scalar); });
+    if (own >= cost_ || !exact || c.query->broken(c.values)) return false;
     --questions_;
     if (!keeps_(c)) return false;
     best_ = std::move(c);

@@ -9,6 +9,7 @@
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/minimise.hpp"
 #include "reports/engine/progress.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/engine/run_folder.hpp"
@@ -81,6 +82,8 @@ class MinimiseCommand : public Command {
   Task read_task(const std::string& file) const {
     settle_run_of(file);
     const nlohmann::json j = parse_json(read_file(file), file);
+    if (read_relation_case(j, file))
+      throw BadInput(fmt::format("{}: it has several related cases, and one can be minimised", file));
     const Measure measure = measure_ ? Measure{*measure_, true} : measure_of(j, file);
     return {file, case_of(j, file), measure, subjects_for(j, file)};
   }
@@ -94,7 +97,7 @@ class MinimiseCommand : public Command {
     const Offering& offering = subject.offering(t.question.query->name);
     const std::optional<Case> same = in_scalar(t.question, subject.scalar);
     if (offering.answer == nullptr || !same || !unmet_by(*same, offering.required).empty()) {
-      if (t.subjects.size() == 1) say(fmt::format("{}: {} cannot be asked this case", t.file, subject.name));
+      if (t.subjects.size() == 1) throw BadInput(fmt::format("{}: {} cannot be asked this case", t.file, subject.name));
       return;
     }
     progress_.set_activity(fmt::format("minimising for {}", subject.name));

@@ -8,6 +8,7 @@
 #include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
 #include "reports/findings/pretty_json.hpp"
@@ -82,7 +83,8 @@ class PromoteCommand : public Command {
     settle_run_of(file_);
     const nlohmann::json j = parse_json(read_file(file_), file_);
     const Case question = case_of(j, file_);
-    set_measure(measure_of(j, file_));
+    if (read_relation_case(j, file_))
+      throw BadInput(fmt::format("{}: it has several related cases; one can be stored", file_));
     refuse_where_stored(question);
     std::string first_fault;
     const nlohmann::ordered_json expected = expectations(question, subjects_for(j), first_fault);
@@ -116,7 +118,8 @@ class PromoteCommand : public Command {
     nlohmann::ordered_json expected = nlohmann::ordered_json::array();
     for (const Subject* s : subjects) {
       const std::optional<Case> same = in_scalar(question, s->scalar);
-      if (s->offering(question.query->name).answer == nullptr || !same) {
+      const Offering& offering = s->offering(question.query->name);
+      if (offering.answer == nullptr || !same || !unmet_by(*same, offering.required).empty()) {
         throw BadInput(fmt::format("{}: {} cannot be asked this case", file_, s->name));
       }
       const Finding f =

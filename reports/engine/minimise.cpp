@@ -33,6 +33,7 @@ class SameFault {
       detail_ = detail;
       const Finding f = judged(question, answer);
       signature_ = signature_of(f);
+      kept_ = answer;
       if (is_bad(f)) return true;
     }
     return false;
@@ -49,8 +50,12 @@ class SameFault {
     const Answer answer = workers_.ask(subject_, c);
     if (interrupted()) return false;  // the worker may have given up
     tick_(++questions_);
-    return signature_of(judged(c, answer)) == signature_;
+    if (signature_of(judged(c, answer)) != signature_) return false;
+    kept_ = answer;
+    return true;
   }
+  /// The answer to the last case with the finding.
+  const Answer& kept() const { return kept_; }
   std::uint64_t questions() const { return questions_; }
 
  private:
@@ -63,6 +68,7 @@ class SameFault {
   const std::function<void(std::uint64_t)>& tick_;
   Detail detail_ = Detail::verdict;
   Signature signature_;
+  Answer kept_;
   std::uint64_t questions_ = 0;
   Clock::time_point begin_;
   std::chrono::duration<double> time_{};
@@ -158,11 +164,12 @@ std::optional<Minimised> minimise(const Case& question, const Subject& subject, 
   if (!fault.begin(question) || interrupted()) return std::nullopt;
   Minimised m;
   Case found = simplest(question, limits, fault, m.end);
+  const Answer answer = fault.kept();  // after an interrupt the subject cannot be asked again
   m.ranges = ranges_of(found, limits, fault);
   m.all_ranges = !fault.has_ended();
   if (interrupted()) m.end = Minimised::End::interrupted;
   m.questions = fault.questions();
-  m.report = examine(found, subject, workers);
+  m.report = examine(found, subject, answer, workers);
   return m;
 }
 

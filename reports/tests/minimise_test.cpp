@@ -110,6 +110,20 @@ TEST(Minimise, KeepsTheKindOfABreakage) {
   EXPECT_TRUE(range_of(*m, radius1).plays_no_part());
 }
 
+/// Numbers near the largest float, which rounding to few bits would leave.
+TEST(Minimise, StaysInTheScalar) {
+  const Subject s = mistaken(blind_above_two_and_a_half);
+  Case huge = overlapping();
+  huge.values[center1_x] = huge.values[center2_x] = std::nextafter(largest_finite(Scalar::float32), 0.0f);
+  huge.values[radius1] = huge.values[radius2] = std::nextafter(largest_finite(Scalar::float32), 0.0f);
+  for (double& x : huge.values) x = float(x);
+  for (const std::uint64_t questions : {1, 4, 16, 64}) {
+    const auto m = minimised(huge, s, {.questions = questions, .time = std::chrono::seconds(5)});
+    ASSERT_TRUE(m.has_value());
+    for (const double x : m->report.question.values) EXPECT_TRUE(representable(x, Scalar::float32)) << x;
+  }
+}
+
 TEST(Minimise, FindsNothingAgainstARightAnswer) {
   const Subject s = mistaken(right);
   EXPECT_FALSE(minimised(overlapping(), s).has_value());
