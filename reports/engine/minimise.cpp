@@ -213,14 +213,20 @@ std::string ranges_text(const Minimised& m) {
   }
   std::string text = "What matters\n";
   if (rows.size() > 1) text += table_text(rows, "  ", 1);
-  if (!free.empty()) text += wrapped_text("Any valid value gives the same finding: " + free + ".", "  ");
+  if (!free.empty())
+    text += wrapped_text(
+        "The finding is the same with every asked value, from the lowest valid one to the highest: " + free + ".",
+        "  ");
   if (!m.ranges.empty()) {
     text += wrapped_text(
         "The subject was asked with values of each number while the others stayed: both ends of a range, and values "
         "within it at distances that double.",
         "  ");
   }
-  if (!m.all_ranges) text += "  The other numbers were not moved: the time was over.\n";
+  if (!m.all_ranges) {
+    const bool interrupted = m.end == Minimised::End::interrupted;
+    text += fmt::format("  The other numbers were not moved: {}.\n", interrupted ? "interrupted" : "the time was over");
+  }
   return text;
 }
 
