@@ -29,8 +29,8 @@ namespace contracts {
 
 /// First order. The edges and the vector from v0 to the point have an error of 1 eps of 2 G. The normal and the moment
 /// add 3 eps in each product, the dot products 3 eps. Moving the corners and the point by at most 2 + 3 + 3 eps of 2 G
-/// accounts for these, once for the plane and once for the edges; the third edge takes 3 eps of the sum. The location
-/// adds 2 eps of 2 G. The velocity takes 3 eps of its own.
+/// accounts for these, once for the plane and once for the edges. Where the sign of a weight is uncertain,
+/// moving_point_triangle decides. The location adds 2 eps of 2 G. The velocity takes 3 eps of its own.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_point_triangle_prepared() {
   return Tier::template contract<T>(

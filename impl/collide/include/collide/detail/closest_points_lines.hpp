@@ -1,6 +1,8 @@
 /// The kernel of closest_points_lines (collide/closest_points_lines.hpp).
 #pragma once
 
+#include <limits>
+
 #include <collide/answers.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -25,7 +27,18 @@ inline ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>
       const Vec3<T> between = line2.point - line1.point;
       point1 = point1 + line1.direction * (Tier::dot(Tier::cross(between, line2.direction), normal) / normal2);
     }
-    const T along = Tier::dot(point1 - line2.point, line2.direction) / Tier::dot(line2.direction, line2.direction);
+    const auto parameter_on_line2 = [&](const Vec3<T>& point) -> T {
+      return Tier::dot(point - line2.point, line2.direction) / Tier::dot(line2.direction, line2.direction);
+    };
+    T along = parameter_on_line2(point1);
+    if constexpr (MachineNumber<T>) {
+      // An overflow. Within the range of the contract, the sine of the angle between the lines is then far below the
+      // rounding error of a direction: the lines count as parallel.
+      if (!(detail::abs(along) <= std::numeric_limits<T>::max())) {
+        point1 = line1.point;
+        along = parameter_on_line2(point1);
+      }
+    }
     return {point1, line2.point + line2.direction * along};
   }
 }

@@ -146,6 +146,28 @@ Vec3<T> normal_of(const Vec3<T>& edge1, const Vec3<T>& edge2) {
   return n;
 }
 
+/// An edge multiplied by a power of two, without rounding, so that its products do not underflow; a long edge and zero
+/// stay as they are. The product of four components is below a sixteenth of the largest number.
+template <MachineNumber T>
+Vec3<T> magnified(const Vec3<T>& edge) {
+  constexpr int target = (std::numeric_limits<T>::max_exponent - 8) / 4;
+  const T largest = largest_abs(edge);
+  if (!(largest > T(0) && largest < detail::ldexp(T(1), target))) return edge;
+  const int up = target - 1 - detail::ilogb(largest);
+  return {detail::ldexp(edge.x, up), detail::ldexp(edge.y, up), detail::ldexp(edge.z, up)};
+}
+
+/// The direction of n = normal_of(edge1, edge2). If products of the edges may have underflowed, the direction is
+/// computed from magnified edges.
+template <class Tier, class T>
+Vec3<T> unit_normal_of(const Vec3<T>& n, const Vec3<T>& edge1, const Vec3<T>& edge2) {
+  if constexpr (MachineNumber<T>) {
+    constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+    if (largest_abs(n) < least) return unit<Tier>(normal_of<Tier>(magnified(edge1), magnified(edge2)));
+  }
+  return unit<Tier>(n);
+}
+
 template <class T>
 std::array<Vec3<T>, 3> corners(const Triangle<T>& t) {
   return {t.v0, t.v1, t.v2};

@@ -79,7 +79,7 @@ inline Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, con
   if (!(time >= T(0))) {
     // The ball at an end contains the disc where the cylinder ends. In real numbers, a center that enters the cylinder
     // beyond the end, and is within the cylinder anywhere between the ends, meets the ball. Where it grazes both,
-    // rounding may let it pass the ball.
+    // rounding may let it pass the ball; then it touches the ball where it is closest to the ball's center.
     if constexpr (MachineNumber<T>) {
       const T speed_along = Tier::dot(axis, velocity), end = at < T(0) ? T(0) : length;
       const Vec3<T> across = velocity - axis * speed_along;
@@ -88,8 +88,10 @@ inline Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, con
       if (!(closest > to_end)) closest = to_end;
       if (closest > to_other_end) closest = to_other_end;
       const bool crosses = to_end >= T(0) && to_other_end >= to_end && to_other_end <= std::numeric_limits<T>::max();
-      if (crosses && !(Tier::beyond_radius(beside + across * closest, reach) > T(0)))
-        return contact_beside(to_end, end, beside + across * to_end);
+      if (crosses && !(Tier::beyond_radius(beside + across * closest, reach) > T(0))) {
+        const T touching = positive_part(T(-Tier::dot(from_end, velocity) / Tier::dot(velocity, velocity)));
+        return contact_at(touching, at < T(0) ? capsule.p0 : capsule.p1, from_end + velocity * touching);
+      }
     }
     return Impact<T>::miss();
   }

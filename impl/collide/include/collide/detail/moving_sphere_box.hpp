@@ -31,6 +31,14 @@ struct PointPastBox {
     if (at[i] < -half[i] || (at[i] == -half[i] && step[i] < T(0))) return at[i] + half[i];
     return T(0);
   }
+  /// The signed distance along axis i after `time`, on the current piece. Computed from the distance now: the
+  /// coordinates themselves may be so large that they lose its digits.
+  T beyond_after(int i, const T& time) const {
+    if (!is_beyond(i)) return T(0);
+    const bool above = at[i] > half[i] || (at[i] == half[i] && step[i] > T(0));
+    const T then = beyond(i) + step[i] * time;
+    return above ? larger(then, T(0)) : smaller(then, T(0));
+  }
   bool is_beyond(int i) const {
     return at[i] > half[i] || at[i] < -half[i] || (at[i] == half[i] && step[i] > T(0)) ||
            (at[i] == -half[i] && step[i] < T(0));
@@ -142,12 +150,12 @@ inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& veloc
     const std::array<T, 3> half = components(box.half);
     detail::PointPastBox<Tier, T> path{into_frame<Tier>(axes, sphere.center - box.center),
                                        into_frame<Tier>(axes, velocity), half};
-    const auto contact = [&](T time, int face) -> Impact<T> {
+    // `away` is the vector from the box to the center.
+    const auto contact = [&](T time, int face, std::array<T, 3> away) -> Impact<T> {
       if (!(time <= std::numeric_limits<T>::max())) return Impact<T>::miss();
-      std::array<T, 3> nearest, away;
+      std::array<T, 3> nearest;
       for (int i = 0; i < 3; ++i) {
-        nearest[i] = clamped(path.at[i], -half[i], half[i]);
-        away[i] = excess(path.at[i], half[i]);
+        nearest[i] = away[i] > T(0) ? half[i] : away[i] < T(0) ? -half[i] : clamped(path.at[i], -half[i], half[i]);
       }
       if (!(length(away) > T(0)) || face >= 0) {  // on or in the box, or moving toward one face
         const NearestFace<T> at_face = face >= 0 ? NearestFace<T>{face, path.step[face] > T(0) ? T(-1) : T(1), T(0)}
@@ -168,8 +176,8 @@ inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& veloc
     }
     const Vec3<T> from_box{away[0], away[1], away[2]};
     const T outside = Tier::beyond_radius(from_box, sphere.radius);
-    if (outside < T(0)) return contact(T(0), -1);
-    if (outside == T(0)) return closing >= T(0) ? contact(T(0), -1) : Impact<T>::miss();
+    if (outside < T(0)) return contact(T(0), -1, away);
+    if (outside == T(0)) return closing >= T(0) ? contact(T(0), -1, away) : Impact<T>::miss();
     if (!(outside > T(0)) || !(closing > T(0))) return Impact<T>::miss();
 
     T elapsed(0);
@@ -179,15 +187,16 @@ inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& veloc
       if (time >= T(0) && time <= crossing.time) {
         int beyond = 0, face = -1;
         for (int i = 0; i < 3; ++i) {
+          away[i] = path.beyond_after(i, time);
           if (path.is_beyond(i)) ++beyond, face = i;
         }
         path.advance(time, -1, T(0));
-        return contact(elapsed + time, beyond == 1 ? face : -1);
+        return contact(elapsed + time, beyond == 1 ? face : -1, away);
       }
       if (crossing.axis < 0 || path.receding()) return Impact<T>::miss();
       path.advance(crossing.time, crossing.axis, crossing.plane);
       elapsed += crossing.time;
-      if (path.inside()) return contact(elapsed, crossing.axis);
+      if (path.inside()) return contact(elapsed, crossing.axis, {});
     }
     return Impact<T>::miss();
   }

@@ -47,10 +47,12 @@ struct SpherePastTriangle {
     for (int i = 0; i < 3; ++i) inward[i] = Tier::cross(n, edge[i]);
   }
 
+  Vec3<T> unit_n() const { return unit_normal_of<Tier>(n, edge[0], -edge[2]); }
+
   /// True if the sphere does not move along n and does not start wholly behind the plane.
   bool may_hit_front() const {
     if constexpr (MachineNumber<T>) {  // the product may underflow, not its sign
-      if (approach == T(0) && n_length > T(0) && Tier::dot(unit<Tier>(n), unit<Tier>(velocity)) > T(0)) return false;
+      if (approach == T(0) && n_length > T(0) && Tier::dot(unit_n(), unit<Tier>(velocity)) > T(0)) return false;
     }
     return approach >= T(0) && height >= -(radius * n_length);
   }
@@ -178,14 +180,14 @@ struct SpherePastTriangle {
   /// triangle it is n; if the triangle has no area, it is a unit vector perpendicular to it that does not point along
   /// the velocity.
   Vec3<T> normal_at(const TrianglePlace<T>& place, Vec3<T> away) const {
-    if (place.feature == 0) return height < T(0) ? -unit<Tier>(n) : unit<Tier>(n);
+    if (place.feature == 0) return height < T(0) ? -unit_n() : unit_n();
     if (place.feature < 4) {  // removes the component along the edge that rounding left
       const Vec3<T>& e = edge[place.feature - 1];
       away = away - e * (Tier::dot(away, e) / Tier::dot(e, e));
     }
     const bool apart = radius > T(0) && !(away == Vec3<T>{});
     if (apart) return unit<Tier>(away);
-    if (n_length > T(0)) return unit<Tier>(n);
+    if (n_length > T(0)) return unit_n();
     return turned_against<Tier>(across_longest_edge(), velocity);
   }
   /// A unit vector perpendicular to a triangle without area.
@@ -227,6 +229,22 @@ struct SpherePastTriangle {
       if (!(chord2 >= T(0))) return T(-1);
       return positive_part(Tier::dot(w, w) - radius2) / (closing + sqrt(chord2));
     }
+  }
+
+  /// A sphere that comes within reach of the line of edge i beyond an end, at `time`, and is within reach of the line
+  /// anywhere between the ends, meets the vertex at that end. Where it grazes both, rounding may let it pass the
+  /// vertex. Returns the time at which the center is closest to that vertex then, and -1 otherwise. `reach` is the
+  /// coordinate of the center along the edge's unit direction at `time`; `most` is that of the other end.
+  T passed_vertex(int i, const Vec3<T>& along, const T& most, const T& reach, const T& time) const {
+    const T forward = Tier::dot(velocity, along);
+    const T to_start = time - reach / forward, to_end = to_start + most / forward;
+    const T enters = smaller(to_start, to_end), leaves = larger(to_start, to_end);
+    if (!(enters >= time && leaves <= std::numeric_limits<T>::max())) return T(-1);
+    const Vec3<T> w = center - v[i], beside = Tier::cross(w, along), step = Tier::cross(velocity, along);
+    const T closest = clamped(T(-Tier::dot(beside, step) / Tier::dot(step, step)), enters, leaves);
+    if (Tier::beyond_radius(beside + step * closest, radius) > T(0)) return T(-1);
+    const Vec3<T> from_vertex = reach < T(0) ? w : center - v[(i + 1) % 3];
+    return positive_part(T(-Tier::dot(from_vertex, velocity) / Tier::dot(velocity, velocity)));
   }
 
   bool approaches_face() const { return n_length > T(0) && approach > T(0) && height > T(0); }
@@ -282,7 +300,14 @@ struct SpherePastTriangle {
       const T time = first_time(Tier::cross(w, along), Tier::cross(velocity, along), most, touches);
       if (!(time >= T(0) && time < first)) continue;
       const T reach = Tier::dot(w + velocity * time, along);
-      if (reach >= T(0) && reach <= most) first = time;
+      if (reach >= T(0) && reach <= most) {
+        first = time;
+      } else if constexpr (MachineNumber<T>) {
+        const int corner = reach < T(0) ? i : (i + 1) % 3;
+        if (at_vertex_time[corner] >= T(0)) continue;
+        const T touching = passed_vertex(i, along, most, reach, time);
+        if (touching >= T(0) && touching < first) first = touching;
+      }
     }
     Vec3<T> away;
     if constexpr (MachineNumber<T>) {
