@@ -30,11 +30,24 @@ struct Room {
   int rank;
 };
 constexpr Room rooms[] = {
-    {"impl/collide", 0},      {"impl/catalogue", 1}, {"impl/plugin", 1},      {"impl/subject", 2},
-    {"impl/adapters", 3},     {"impl/host", 3},      {"oracles/exact", 4},    {"oracles/algorithms", 5},
-    {"oracles", 6},           {"corpus", 7},         {"reports/findings", 8}, {"reports/engine", 9},
-    {"reports/commands", 10}, {"reports/tests", 11}, {"properties", 11},      {"fuzz", 11},
-    {"benchmarks", 11},
+    {"impl/collide", 0},
+    {"impl/catalogue", 1},
+    {"impl/plugin", 1},
+    {"impl/subject", 2},
+    {"impl/adapters", 3},
+    {"impl/host", 3},
+    {"oracles/exact", 4},
+    {"oracles/algorithms", 5},
+    {"oracles", 6},
+    {"corpus", 7},
+    {"reports/findings", 8},
+    {"reports/engine", 9},
+    {"reports/triage", 10},
+    {"reports/commands", 11},
+    {"reports/tests", 12},
+    {"properties", 12},
+    {"fuzz", 12},
+    {"benchmarks", 12},
 };
 
 /// The innermost folder of the list that contains the file.

@@ -7,7 +7,6 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/interrupt.hpp"
-#include "reports/engine/minimise.hpp"
 #include "reports/engine/progress.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
@@ -15,6 +14,7 @@
 #include "reports/engine/run_folder.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/triage/minimise.hpp"
 
 namespace nearmiss {
 

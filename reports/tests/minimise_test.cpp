@@ -9,11 +9,11 @@
 #include "corpus/source_folder.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/provenance.hpp"
-#include "reports/engine/minimise.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/signature.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
+#include "reports/triage/minimise.hpp"
 
 namespace nearmiss {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/engine/minimise.hpp"
+#include "reports/triage/minimise.hpp"
 
 #include <fmt/format.h>
 
