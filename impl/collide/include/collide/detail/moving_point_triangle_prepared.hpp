@@ -12,7 +12,8 @@ namespace detail {
 
 /// Whether the signs of the three weights, times approach, are certain. Each is the signed volume of the velocity and
 /// an edge. The weight of v0 is a difference: its error is that of the largest volume, not that of its own edge. The
-/// bound is derived at moving_point_triangle_in_lanes, whose volumes are computed in the same way.
+/// bound is derived at moving_point_triangle_in_lanes, whose volumes are computed in the same way. Vectors so short
+/// that products may underflow leave the signs uncertain.
 template <class T>
 bool weights_are_certain(const Vec3<T>& from_v0, const Vec3<T>& velocity, const PreparedTriangle<T>& prepared,
                          const T& approach, const T& weight1, const T& weight2) {
@@ -20,9 +21,9 @@ bool weights_are_certain(const Vec3<T>& from_v0, const Vec3<T>& velocity, const 
   constexpr T least_size2 = std::same_as<T, float> ? T(0x1p-30) : T(0x1p-300), least_speed2 = least_size2 / 4;
   const T least = smaller(smaller(weight1, weight2), approach - (weight1 + weight2));
   const T l2 = Plain::dot(prepared.edge1, prepared.edge1) + Plain::dot(prepared.edge2, prepared.edge2) +
-               Plain::dot(from_v0, from_v0) + least_size2;
-  const T bound2 = T(64 * 64) * u * u * (l2 * l2 * (Plain::dot(velocity, velocity) + least_speed2));
-  return bound2 < least * least;
+               Plain::dot(from_v0, from_v0);
+  const T speed2 = Plain::dot(velocity, velocity);
+  return l2 >= least_size2 && speed2 >= least_speed2 && T(64 * 64) * u * u * (l2 * l2 * speed2) < least * least;
 }
 
 }  // namespace detail
