@@ -98,16 +98,16 @@ std::vector<const Alternative*> shown_alternatives(const Query& query, const Tru
   return shown;
 }
 
-std::string margin_text(const Truth& truth, Scalar scalar) {
+std::string margin_text(const Case& question, const Truth& truth) {
   if (!(truth.margin_at_least > 0)) {
     return "  The decision is on a knife's edge: no distance to its flip can be shown.\n";
   }
-  return wrapped_text(fmt::format("The decision stays the same if every input number is moved by up to {}.",
-                                  amount_text(truth.margin_at_least, scalar)),
-                      "  ");
+  return wrapped_text(
+      fmt::format("The decision stays the same after moving {}.", moves_text(question, truth.margin_at_least)), "  ");
 }
 
-std::string truth_page(const Query& query, const Truth& truth, Scalar scalar, std::span<const Report> reports) {
+std::string truth_page(const Case& question, const Truth& truth, std::span<const Report> reports) {
+  const Query& query = *question.query;
   std::string text = fmt::format("Truth: {}  (decided by {})\n", truth_text(query, truth),
                                  truth.decided_by == Stage::interval ? "intervals" : "exact arithmetic");
   const std::vector<const Alternative*> shown = shown_alternatives(query, truth, reports);
@@ -116,9 +116,13 @@ std::string truth_page(const Query& query, const Truth& truth, Scalar scalar, st
     text += alternative_text(query, *shown[i]);
   }
   if (const std::size_t more = truth.alternatives.size() - shown.size(); more > 0) {
-    text += fmt::format("  or one of {} more right answers{}\n", more, reports.empty() ? "" : ", which --json lists");
+    text += reports.empty() ? fmt::format("  or one of {} more right answers\n", more)
+                            : fmt::format(
+                                  "  or one of {} more right answers; these are nearest to the wrong ones above, and "
+                                  "--json lists all\n",
+                                  more);
   }
-  return text + margin_text(truth, scalar);
+  return text + margin_text(question, truth);
 }
 
 std::string backward_cell(const Report& r) {
@@ -244,7 +248,7 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
 }
 
 std::string case_page(const Case& question, const Truth& truth) {
-  return inputs_page(question) + "\n" + truth_page(*question.query, truth, question.scalar, {});
+  return inputs_page(question) + "\n" + truth_page(question, truth, {});
 }
 
 std::string replay_text(const Replay& r) {
@@ -253,7 +257,7 @@ std::string replay_text(const Replay& r) {
     if (report.finding.verdict == Verdict::agrees) continue;
     text += fmt::format("\n{}", wrapped_text(explanation(report), ""));
   }
-  return text + "\n" + truth_page(*r.question.query, r.truth, r.question.scalar, r.reports);
+  return text + "\n" + truth_page(r.question, r.truth, r.reports);
 }
 
 }  // namespace nearmiss

@@ -9,7 +9,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Longest kind in bytes. Reasons are cut (Answer::why), so their last word may be incomplete.
+/// Longest kind in bytes.
 constexpr std::size_t most_bytes = 80;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -73,6 +73,13 @@ std::string without_numbers(std::string_view text) {
   return plain;
 }
 
+/// At most `most_bytes` of a text, without its last word where that is cut.
+std::string whole_words(const std::string& text) {
+  if (text.size() <= most_bytes) return text;
+  const std::size_t space = text.rfind(' ', most_bytes);
+  return text.substr(0, space == std::string::npos ? most_bytes : space);
+}
+
 }  // namespace
 
 BreakCause cause_in_report(std::string_view reason, bool late) {
@@ -90,8 +97,7 @@ std::string kind_of_breakage(std::string_view reason, BreakCause cause) {
   const std::string_view head = cause == BreakCause::other ? "" : reason.substr(0, reason.find(": "));
   const std::string place = place_in(reason);
   if (!place.empty()) return one_line(head.empty() ? place : std::string(head) + " at " + place);
-  std::string kind = std::string(head) + without_numbers(reason.substr(head.size()));
-  return one_line(kind.substr(0, most_bytes));
+  return one_line(whole_words(std::string(head) + without_numbers(reason.substr(head.size()))));
 }
 
 }  // namespace nearmiss

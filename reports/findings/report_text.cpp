@@ -94,20 +94,6 @@ Off off_by(const Layout::Part& part, const Alternative& right, const Answer& giv
   return off;
 }
 
-std::string group_name(Role role) { return role == Role::velocity ? "velocities" : fmt::format("{}s", name_of(role)); }
-
-/// `k` epsilon in the units of the case: "positions by 1.5e-08 and sizes by 2e-09".
-std::string absolute_text(const Case& question, double k) {
-  const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
-  std::vector<std::string> groups;
-  for (std::size_t i = 0; i < by.size(); ++i) {
-    if (!(by[i] > 0)) continue;
-    std::string text = fmt::format("{} by {:.2g}", group_name(question.query->inputs[i].role), by[i]);
-    if (std::find(groups.begin(), groups.end(), text) == groups.end()) groups.push_back(std::move(text));
-  }
-  return list_text(groups);
-}
-
 double length(const Case& question, Role role) {
   double square = 0;
   for (std::size_t i = 0; i < question.values.size(); ++i) {
@@ -188,7 +174,8 @@ class Explanation {
     }
     if (f.verdict == Verdict::not_asked) return {fmt::format("{} is not asked: {}", r_.subject, f.clause), exactly};
     if (f.verdict == Verdict::out_of_domain) {
-      return {r_.subject + " promises nothing for numbers of this size", "It says: " + decision(), exactly};
+      return {fmt::format("{} promises nothing for numbers of this size: {}", r_.subject, domain()),
+              "It says: " + decision(), exactly};
     }
     switch (f.disagreement) {
       case Disagreement::false_hit:
@@ -197,11 +184,14 @@ class Explanation {
       case Disagreement::not_finite: return {fmt::format("{} answers, but {}", r_.subject, not_finite()), exactly};
       case Disagreement::not_unit: return {not_unit(), exactly};
       case Disagreement::wrong_combination:
-        return {fmt::format("{} gives members each of which may be right, but no right answer has them together",
-                            r_.subject),
-                exactly};
+        return {fmt::format("{} gives members that no right answer has together", r_.subject), exactly};
       default: return wrong_member();
     }
+  }
+  /// The domain of the contract, in words.
+  std::string domain() const {
+    const collide::Contract& c = r_.standard.contract;
+    return fmt::format("the largest number of each group must be 0 or lie between 2^{} and 2^{}", c.lowest, c.highest);
   }
   std::string not_finite() const { return r_.finding.headline_member()->clause; }
   std::string decision() const {
@@ -272,11 +262,10 @@ class Explanation {
       return "This is proved for exactly these numbers; nothing is proved for the numbers next to them";
     }
     if (const double still = same_decision_within(); still > 0 && still >= *proved) {
-      return fmt::format("Even if every input number were moved by up to {} ({}), {}", amount_text(still, scalar_),
-                         absolute_text(r_.question, still), r_.truth.yes ? phrases_.still_yes : phrases_.still_no);
+      return fmt::format("Even after moving {}, {}", moves_text(r_.question, still),
+                         r_.truth.yes ? phrases_.still_yes : phrases_.still_no);
     }
-    return fmt::format("Moving every input number by up to {} ({}) cannot make that {} right",
-                       amount_text(*proved, scalar_), absolute_text(r_.question, *proved), what_differs());
+    return fmt::format("Moving {} cannot make that {} right", moves_text(r_.question, *proved), what_differs());
   }
   std::string what_differs() const {
     const MemberFinding* head = r_.finding.headline_member();
@@ -300,7 +289,7 @@ class Explanation {
       if (int(i) == r_.finding.headline) continue;
       const std::string how = !m.backward ? ""
                               : m.backward->above == 0
-                                  ? ", on a knife's edge"
+                                  ? " for exactly these numbers"
                                   : fmt::format(", by more than {} epsilon", epsilons_text(m.backward->above));
       faults.push_back(fault_of(m.disagreement, m.member < 0 ? 0 : std::size_t(m.member)) + how);
     }
@@ -344,8 +333,19 @@ std::string headline(const Report& r) {
   if (r.finding.verdict == Verdict::broke) return line + ": " + r.finding.clause;
   const std::optional<double> above = e.above();
   if (r.finding.disagreement == Disagreement::none || !above) return line;
-  return line + (*above == 0 ? ", on a knife's edge"
+  return line + (*above == 0 ? ", for exactly these numbers"
                              : fmt::format(", by more than {} epsilon of backward error", epsilons_text(*above)));
+}
+
+std::string moves_text(const Case& question, double k) {
+  const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
+  std::vector<std::string> groups;
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    if (!(by[i] > 0)) continue;
+    std::string text = fmt::format("every {} by up to {:.2g}", name_of(question.query->inputs[i].role), by[i]);
+    if (std::find(groups.begin(), groups.end(), text) == groups.end()) groups.push_back(std::move(text));
+  }
+  return fmt::format("{} ({})", list_text(groups), amount_text(k, question.scalar));
 }
 
 std::string explanation(const Report& r) { return Explanation(r).text(); }

@@ -18,4 +18,8 @@ std::string answer_text(const Query& query, const Answer& answer, Scalar scalar)
 /// The exact answer, a sentence without its full stop: "it is a hit at time 0.48".
 std::string truth_text(const Query& query, const Truth& truth);
 
+/// "every position by up to 0.0015 and every velocity by up to 0.00058 (6.2 % of the largest number of its group, 2^20
+/// epsilon)"; `k` in epsilon.
+std::string moves_text(const Case& question, double k);
+
 }  // namespace nearmiss

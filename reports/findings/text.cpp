@@ -80,7 +80,7 @@ std::string amount_text(double k, Scalar scalar) {
   const std::string share = relative >= 1      ? fmt::format("{:.2g} times", relative)
                             : relative >= 1e-5 ? fmt::format("{:.2g} % of", 100 * relative)
                                                : fmt::format("{:.1e} times", relative);
-  return fmt::format("{} the largest number in its group ({} epsilon)", share, epsilons_text(k));
+  return fmt::format("{} the largest number of its group, {} epsilon", share, epsilons_text(k));
 }
 
 std::string count_text(std::uint64_t n) {

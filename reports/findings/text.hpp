@@ -18,7 +18,7 @@ inline std::string value_text(double x, Scalar scalar = Scalar::float64) { retur
 std::string bounds_text(const Bounds& b);
 /// "0", "1", "2", "4", "8", "2^4", ... for a rung of the judge's ladder; any other number as a decimal.
 std::string epsilons_text(double k);
-/// "0.78 % of the largest number in its group (2^46 epsilon)"; `k` in units of the scalar's epsilon.
+/// "0.78 % of the largest number of its group, 2^46 epsilon"; `k` in units of the scalar's epsilon.
 std::string amount_text(double k, Scalar scalar);
 /// 1234567 as "1,234,567".
 std::string count_text(std::uint64_t n);

@@ -151,8 +151,8 @@ const Expectation expectations[] = {
     {"agrees_on_a_miss", [] { return report(flight(5), miss()); }, Verdict::agrees, Disagreement::none,
      "Exactly, it is a miss."},
     {"false_miss", [] { return report(flight(0), miss()); }, Verdict::violates_contract, Disagreement::false_miss,
-     "stooge says that the sphere does not hit the box. Exactly, it is a hit at time 4. Even if every input number "
-     "were moved by up to"},
+     "stooge says that the sphere does not hit the box. Exactly, it is a hit at time 4. Even after moving every "
+     "position by up to"},
     {"false_hit", [] { return report(flight(5), hit(4)); }, Verdict::violates_contract, Disagreement::false_hit,
      "stooge says that the sphere hits the box at time 4. Exactly, it is a miss."},
     {"wrong_time", [] { return report(flight(0), hit(4.5)); }, Verdict::violates_contract, Disagreement::wrong_time,
@@ -253,7 +253,7 @@ const Expectation expectations[] = {
        return report(overlap(0), answer(true, {2, 1, 0, 0, 0, 1, 0}));
      },
      Verdict::violates_contract, Disagreement::wrong_combination,
-     "stooge gives members each of which may be right, but no right answer has them together"},
+     "stooge gives members that no right answer has together"},
     {"exceeds_the_measure", [] { return report(flight(0), hit(4.5), {}); }, Verdict::exceeds_measure,
      Disagreement::wrong_time,
      "It promises nothing; the measure is a backward error of at most 0.0001 times the largest number in each group."},
@@ -301,7 +301,9 @@ const Expectation expectations[] = {
      Verdict::violates_contract, Disagreement::off_surface,
      "The nearest exact answer is (0, 1, 0): contact.y is off by 0.5"},
     {"out_of_domain", [] { return report(flight(0), miss(), {.backward = 4, .lowest = 10, .highest = 20}); },
-     Verdict::out_of_domain, Disagreement::none, "stooge promises nothing for numbers of this size."},
+     Verdict::out_of_domain, Disagreement::none,
+     "stooge promises nothing for numbers of this size: the largest number of each group must be 0 or lie between 2^10 "
+     "and 2^20."},
     {"cannot_answer", [] { return report(flight(0), Answer::without(Answer::Status::cannot_answer, "too fast")); },
      Verdict::cannot_answer, Disagreement::none, "stooge says that it cannot answer this case: too fast."},
     {"broke", [] { return report(flight(0), Answer::without(Answer::Status::broke, "no answer within 2 s")); },

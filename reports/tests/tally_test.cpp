@@ -175,8 +175,8 @@ TEST(Text, TellsEpsilonsAndTheirShare) {
   EXPECT_EQ(epsilons_text(0), "0");
   EXPECT_EQ(epsilons_text(8), "8");
   EXPECT_EQ(epsilons_text(0x1p46), "2^46");
-  EXPECT_EQ(amount_text(0x1p46, Scalar::float64), "0.78 % of the largest number in its group (2^46 epsilon)");
-  EXPECT_EQ(amount_text(4, Scalar::float64), "4.4e-16 times the largest number in its group (4 epsilon)");
+  EXPECT_EQ(amount_text(0x1p46, Scalar::float64), "0.78 % of the largest number of its group, 2^46 epsilon");
+  EXPECT_EQ(amount_text(4, Scalar::float64), "4.4e-16 times the largest number of its group, 4 epsilon");
 }
 
 TEST(Text, GroupsDigitsAndMakesPlurals) {
