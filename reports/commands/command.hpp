@@ -40,6 +40,7 @@ std::unique_ptr<Command> relations_command();
 std::unique_ptr<Command> replay_command();
 std::unique_ptr<Command> minimise_command();
 std::unique_ptr<Command> promote_command();
+std::unique_ptr<Command> bisect_command();
 std::unique_ptr<Command> import_command();
 std::unique_ptr<Command> extremes_command();
 std::unique_ptr<Command> sweep_command();
