@@ -38,7 +38,8 @@ std::vector<double> simpler(double x) {
     all.push_back(std::ldexp(std::nearbyint(std::ldexp(fraction, bits)), exponent - bits));
     all.push_back(std::ldexp(std::trunc(std::ldexp(fraction, bits)), exponent - bits));
   }
-  for (int nearer : {0, exponent / 2, exponent - 1, exponent + 1}) all.push_back(std::ldexp(fraction, nearer));
+  // Steps towards exponent 0 that halve: a few passes reach the nearest exponent with the finding.
+  for (int step = exponent; step != 0; step /= 2) all.push_back(std::ldexp(fraction, exponent - step));
   std::erase_if(all, [&](double y) { return !std::isfinite(y) || cost(y) >= cost(x); });
   std::stable_sort(all.begin(), all.end(), [](double a, double b) { return cost(a) < cost(b); });
   return all;

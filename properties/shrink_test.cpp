@@ -29,6 +29,24 @@ TEST(Shrink, FindsTheSimplestNumberOnTheRightSide) {
   EXPECT_EQ(small.values[0], 128);
 }
 
+TEST(Shrink, ReachesADistantExponentInFewQuestions) {
+  const Query& query = *find_query("closest_point_segment");
+  for (const double border : {0x1p700, 0x1p-700}) {
+    Case c = generate(query, Scalar::float64, 1, 0);
+    for (double& x : c.values) x = 0;
+    c.values[0] = border > 1 ? 0x1.23p1000 : 0x1.23p-1000;
+    c.values[1] = 3;  // stays, so that no common scale helps
+    int questions = 0;
+    const Case small = shrink(c, [&](const Case& simpler) {
+      ++questions;
+      const double x = simpler.values[0];
+      return simpler.values[1] == 3 && (border > 1 ? x >= border : x > 0 && x <= border);
+    });
+    EXPECT_EQ(small.values[0], border);
+    EXPECT_LT(questions, 400);
+  }
+}
+
 TEST(Shrink, CopiesANumberWhereNoSimplerOneIsLeft) {
   const Query& query = *find_query("closest_point_segment");
   const auto twins = [](const Case& c) { return c.values[0] == 0.75 && (c.values[1] == 77.7 || c.values[1] == 0.75); };
