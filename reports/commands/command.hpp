@@ -39,6 +39,7 @@ std::unique_ptr<Command> nightly_command();
 std::unique_ptr<Command> relations_command();
 std::unique_ptr<Command> replay_command();
 std::unique_ptr<Command> minimise_command();
+std::unique_ptr<Command> explain_command();
 std::unique_ptr<Command> promote_command();
 std::unique_ptr<Command> import_command();
 std::unique_ptr<Command> extremes_command();

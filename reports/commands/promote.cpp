@@ -6,6 +6,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "oracles/confirmed.hpp"
+#include "oracles/requirements.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/relation_report.hpp"
