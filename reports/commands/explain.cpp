@@ -69,7 +69,7 @@ class ExplainCommand : public Command {
     const std::optional<Case> question = case_for(t, subject);
     if (!question) return;
     progress_.set_activity(fmt::format("explaining {}", subject.name));
-    progress_.show(0, std::nullopt, std::nullopt, found_);
+    progress_.show(0, std::nullopt, std::nullopt, std::nullopt);
     Report r = examine(*question, subject, workers_);
     if (interrupted()) return;
     if (!is_bad(r.finding)) {

@@ -76,7 +76,7 @@ class MinimiseCommand : public Command {
     const MinimiseLimits limits{questions_.value_or(MinimiseLimits().questions),
                                 seconds_ ? std::chrono::duration<double>(*seconds_) : MinimiseLimits().time};
     std::optional<Minimised> m = minimise(*question, subject, limits, workers_, [this](std::uint64_t questions) {
-      progress_.show(questions, std::nullopt, std::nullopt, found_);
+      progress_.show(questions, std::nullopt, std::nullopt, std::nullopt);
     });
     if (interrupted() && !m) return;
     if (!m) return say(fmt::format("{}: {} has no finding against it", t.file, subject.name));

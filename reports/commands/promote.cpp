@@ -39,7 +39,9 @@ CLI::Validator file_name() {
 CLI::Validator long_enough() {
   return CLI::Validator(
       [](const std::string& note) -> std::string {
-        return note.size() >= shortest_note ? "" : "it must say what went wrong, in a sentence";
+        const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n'; };
+        const auto blanks = std::size_t(std::ranges::count_if(note, is_blank));
+        return note.size() - blanks >= shortest_note ? "" : "it must say what went wrong, in a sentence";
       },
       "TEXT");
 }
