@@ -29,7 +29,7 @@ struct Named {
 };
 
 constexpr std::size_t most_variants = 16;
-constexpr std::size_t sample_size = 192;  ///< generated cases on which a reading must hold too
+constexpr std::size_t sample_size = 256;  ///< generated cases on which a reading must hold too
 constexpr std::size_t of_each_side = 64;  ///< generated cases inside and outside of a region
 constexpr std::size_t neighbours = 64;    ///< cases an ulp away
 
@@ -149,51 +149,57 @@ class Investigation {
     return sample_ = trials_.ask(cases);
   }
 
+  /// How the subject's answers fit a reading.
   struct Support {
-    std::size_t explained = 0, with_finding = 0;  ///< cases with the finding
-    std::size_t kept = 0, right = 0;              ///< cases with a right answer where the reading makes a difference
+    std::size_t with_finding = 0, explained = 0;  ///< cases with the finding, and those that the reading explains
+    std::size_t for_it = 0;      ///< generated cases with a wrong answer that is right under the reading
+    std::size_t against_it = 0;  ///< generated cases with a right answer that is wrong under the reading
+
+    /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
+    bool holds() const {
+      constexpr std::size_t least = 4;
+      return explained >= least && nearly_all(explained, with_finding) &&
+             (against_it == 0 || nearly_all(for_it, for_it + against_it));
+    }
   };
   Support support_of(const Reading& reading) {
-    const IsRight is_right = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
     Support s;
-    const auto look = [&](const Trial& t) {
-      if (t.outcome != Outcome::same && t.outcome != Outcome::right) return;
-      const bool wrong = t.outcome == Outcome::same;
-      const std::optional<bool> fits = reading.right(t.question, t.answer, is_right);
-      s.with_finding += wrong;
-      s.explained += wrong && fits.value_or(false);
-      s.right += !wrong && fits;
-      s.kept += !wrong && fits.value_or(false);
-    };
-    for (const Trial& t : variants_) look(t);
-    for (const Trial& t : sample()) look(t);
+    const auto fits = [&](const Trial& t) { return reading.right(t.question, t.answer, is_right_).value_or(false); };
+    for (const Trial& t : variants_) ++s.with_finding, s.explained += fits(t);
+    for (const Trial& t : sample()) {
+      if (t.outcome == Outcome::right) {
+        s.against_it += !reading.right(t.question, t.answer, is_right_).value_or(true);
+      } else if (t.outcome != Outcome::none) {
+        const bool explains = fits(t);
+        s.for_it += explains;
+        s.with_finding += t.outcome == Outcome::same;
+        s.explained += t.outcome == Outcome::same && explains;
+      }
+    }
     return s;
   }
 
   std::optional<Named> convention() {
     if (trials_.base().answer.status != Answer::Status::answered) return std::nullopt;
-    const IsRight is_right = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
-    std::size_t tried = 0;
+    std::vector<std::string> by_chance;
     for (const Reading& reading : readings()) {
-      ++tried;
-      if (!reading.right(question(), trials_.base().answer, is_right).value_or(false)) continue;
-      if (auto named = judged(reading, support_of(reading))) return named;
+      if (!reading.right(question(), trials_.base().answer, is_right_).value_or(false)) continue;
+      const Support s = support_of(reading);
+      if (s.holds()) return named_reading(reading, s);
+      by_chance.emplace_back(reading.name);
     }
-    saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", tried),
-        "None explains the answers.");
+    const std::string which =
+        by_chance.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance));
+    saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
+        "None explains the answers." + which);
     return std::nullopt;
   }
-  /// A reading that is right for the case itself is right by chance, unless other cases agree.
-  std::optional<Named> judged(const Reading& reading, const Support& s) {
-    constexpr std::size_t least = 4;
-    const bool holds = s.with_finding >= least && nearly_all(s.explained, s.with_finding) &&
-                       (s.right == 0 || nearly_all(s.kept, s.right));
+  Named named_reading(const Reading& reading, const Support& s) {
     saw(fmt::format("The answers were judged as if {}.", reading.what),
         fmt::format("The answer to the case is right then, and so are those to {} other cases with the finding. Of the "
-                    "right answers on which this has an effect, {} stay right.",
-                    of_text(s.explained, s.with_finding), of_text(s.kept, s.right)));
-    if (!holds) return std::nullopt;
-    return Named{reading.kind, std::string(reading.name), fmt::format("The answer is right if {}.", reading.what)};
+                    "generated cases, {} wrong answers become right, and {} right ones become wrong.",
+                    of_text(s.explained, s.with_finding), s.for_it, s.against_it));
+    return {reading.kind, std::string(reading.name), fmt::format("The answer is right if {}.", reading.what)};
   }
 
   // Unsupported features
@@ -439,22 +445,35 @@ class Investigation {
 
   // A limit of steps
 
-  /// The motion begins later and later, so that less and less of it is left until the contact.
+  /// The same motion begins later and later: the contact stays, and less and less of the way to it is left.
   std::optional<Named> steps_of_motion() {
     const std::vector<Case> cases = later_starts();
     if (cases.empty() || (!roundings_.empty() && !same_in_all_roundings())) return std::nullopt;
     const std::vector<Trial> later = trials_.ask(cases);
-    std::size_t first = 0;
-    while (first < later.size() && later[first].outcome == Outcome::same) ++first;
-    const std::size_t right = count(std::span(later).subspan(first), Outcome::right);
-    saw("The motion began later, so that the way until the contact was halved in each step.",
-        fmt::format("The finding stays in {} of {} steps, and then {} are right.", first, later.size(), right));
-    constexpr std::size_t least = 3;
-    if (right < least || right != later.size() - first) return std::nullopt;
-    return Named{
-        CauseKind::iteration_limit, "steps along the motion",
-        "The answer is wrong for a long way until the contact and right for a short one, at every scale and in "
-        "every rounding mode: the number of steps along the motion is limited."};
+    std::size_t right = 0, changes = 0, last_wrong = 0;
+    bool before = false;
+    for (std::size_t i = 0; i < later.size(); ++i) {
+      const bool ended = has_ended(later[i]);
+      right += ended, changes += ended != before;
+      if (!ended) last_wrong = i;
+      before = ended;
+    }
+    saw("The same motion began later, at points that come nearer and nearer to the contact.",
+        fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
+                    of_text(right, later.size()), changes));
+    constexpr std::size_t least_changes = 3;
+    const bool ends = changes == 1 && last_wrong + 1 < later.size();
+    if (!ends && changes < least_changes) return std::nullopt;
+    return Named{CauseKind::iteration_limit, "steps along the motion",
+                 "The answer depends on where the same motion begins, in every rounding mode and at every scale: the "
+                 "steps along the motion are too few."};
+  }
+  /// The answer is right or, where the finding is a wrong decision, the decision is.
+  bool has_ended(const Trial& t) const {
+    if (t.outcome == Outcome::right) return true;
+    const Disagreement d = trials_.base().finding.disagreement;
+    return t.outcome == Outcome::other && (d == Disagreement::false_hit || d == Disagreement::false_miss) &&
+           t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
   }
   std::vector<Case> later_starts() const {
     std::vector<Case> cases;
@@ -462,10 +481,10 @@ class Investigation {
     const auto& velocities = parts_of(trials_.query()).velocities;
     const double time = contact_time();
     if (!start || velocities.empty() || !(time > 0)) return cases;
-    constexpr int most_halvings = 10;
-    for (int m = 1; m <= most_halvings; ++m) {
+    constexpr int starts = 32;
+    for (int m = 1; m <= starts; ++m) {
       Case c = question();
-      const double passed = time * (1 - std::ldexp(1.0, -m));
+      const double passed = time * m / (starts + 1);
       for (std::size_t k = 0; k < 3; ++k) c.values[start->place + k] += passed * c.values[velocities[0] + k];
       for (std::size_t i = 0; i < c.values.size(); ++i) {
         const Role role = c.query->inputs[i].role;
@@ -510,6 +529,7 @@ class Investigation {
 
   Trials trials_;
   std::uint64_t seed_;
+  IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
   std::vector<Evidence> evidence_;
   std::vector<Trial> variants_, sample_, roundings_;
   std::vector<ScaleScan> scans_;
