@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cfenv>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -35,15 +36,24 @@ constexpr std::size_t most_offers = 4096, most_text = 4096;
 using Entry = const nearmiss_plugin* (*)();
 
 /// A function of the library, and the floating-point modes that loading the library left. The function runs in these
-/// modes, as it would in its user's program. No other code does.
+/// modes, as it would in its user's program. No other code does. For a case that is asked in another rounding than to
+/// nearest, that rounding replaces the library's.
 struct AskedFunction {
   nearmiss_offer offer;
   FloatingPointModes modes;
 };
 
 int given_by(const AskedFunction& asked, std::span<const double> inputs, nearmiss_answer& given) {
-  const FloatingPointScope of_the_library(asked.modes);
-  return asked.offer.answer(inputs.data(), &given);
+  const int rounding = std::fegetround();
+  int status, raised;
+  {
+    const FloatingPointScope of_the_library(asked.modes);
+    if (rounding != FE_TONEAREST) std::fesetround(rounding);
+    status = asked.offer.answer(inputs.data(), &given);
+    raised = std::fetestexcept(FE_ALL_EXCEPT);
+  }
+  std::feraiseexcept(raised);
+  return status;
 }
 
 /// Calls the library's function for one case and returns its answer.

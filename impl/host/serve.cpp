@@ -54,6 +54,16 @@ T* mapped(int file, int protection) {
   return memory == MAP_FAILED ? nullptr : static_cast<T*>(memory);
 }
 
+/// The answer in that rounding, and the exceptions that it raised.
+Answer answer_in(Rounding rounding, const AnswerFunction& answer, std::span<const double> values,
+                 std::uint8_t& raised) {
+  const RoundingScope scope(rounding);
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const Answer a = answer_or_broke([&] { return answer(values); });
+  raised = raised_now();
+  return a;
+}
+
 }  // namespace
 
 void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
@@ -64,8 +74,10 @@ void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire:
     std::size_t used = 0;
     for (std::size_t i = asked.first; i < count; ++i) {
       const std::span<const double> values{asked.values.data() + i * inputs, inputs};
-      const Answer a = answer_or_broke([&] { return answer(values); });
-      answered.heads[i] = {a.status, a.yes, a.count, a.cause, a.given};
+      std::uint8_t raised = 0;
+      const Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
+                                                           : answer_in(asked.rounding, answer, values, raised);
+      answered.heads[i] = {a.status, a.yes, a.count, a.cause, raised, a.given};
       std::copy_n(a.values.begin(), a.count, answered.numbers.begin() + std::ptrdiff_t(used));
       if (a.status != Answer::Status::answered) answered.reasons[i] = a.why;
       used += a.count;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "impl/host/arithmetic.hpp"
 #include "impl/subject/subject.hpp"
 
 namespace nearmiss::wire {
@@ -33,6 +34,7 @@ struct SharedRequest {
   std::uint32_t offer;  ///< index among the offers of the hello
   std::uint32_t inputs;
   std::uint32_t first, count;  ///< the host answers the cases [first, count)
+  Rounding rounding;           ///< other than its_own: the answers also have the raised exceptions
   AnswerFunction answer;       ///< replaces `offer` for a host that is a fork of this process
   std::array<double, max_values> values;
 };
@@ -45,6 +47,7 @@ struct SharedAnswers {
     bool yes;
     std::uint8_t count;
     BreakCause cause;
+    std::uint8_t raised;  ///< of a case that is asked in a given rounding
     std::uint64_t given;
   };
 

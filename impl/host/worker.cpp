@@ -294,7 +294,8 @@ std::string Worker::hello() {
   return line;
 }
 
-void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case,
+                  Rounding rounding) {
   const FloatingPointScope standard;
   count_ = values.size() / inputs_per_case;
   got_ = 0;
@@ -306,6 +307,8 @@ void Worker::send(const Offering& offering, std::span<const double> values, std:
   answers_.resize(std::max(answers_.size(), count_));
   asked_->offer = offering.position;
   asked_->inputs = std::uint32_t(inputs_per_case);
+  asked_->rounding = rounding;
+  raised_.assign(count_, 0);
   asked_->answer = program_ == nullptr ? offering.answer : AnswerFunction{};
   query_ = offering.query;
   std::copy(values.begin(), values.end(), asked_->values.begin());
@@ -386,6 +389,7 @@ std::optional<Worker::Event> Worker::read_shared_answers() {
   const bool all = wire::take(*answered_, got_, std::max(done, got_), numbers_got_, outputs_, answers_.data());
   for (std::size_t i = before; i < got_; ++i) {
     if (!decides_) answers_[i].yes = true;
+    raised_[i] = answered_->heads[i].raised;
     make_printable(answers_[i]);
   }
   if (got_ > before) timeout_->restart();

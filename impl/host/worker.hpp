@@ -64,11 +64,17 @@ class Worker {
   /// the caller does other work; `receive` waits for the answers, in the order of the cases. Answers stay valid until
   /// the next send. `receive` returns fewer answers than cases where the callback stopped the waiting, and where
   /// `most_late` cases of the batch were late.
-  void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
+  /// A host that shares memory answers in `rounding`; any other host in its own.
+  void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case,
+            Rounding rounding = Rounding::its_own);
   std::span<const Answer> receive();
   /// The last bytes, a few thousand at most, of the host's standard output and error when the case broke; empty for any
   /// other case. Valid as long as the received answers.
   std::string_view output(std::size_t case_of_batch) const;
+
+  /// The floating-point exceptions (Raised) of a case that was sent in a rounding other than its_own and was answered;
+  /// 0 for any other case. Valid as long as the received answers.
+  std::uint8_t raised(std::size_t case_of_batch) const { return raised_.at(case_of_batch); }
 
   /// The processor time of the running host; 0 without one.
   double processor_seconds() const;
@@ -140,6 +146,7 @@ class Worker {
   std::string suspected_output_, suspected_with_;
   std::string query_;
   std::vector<Answer> answers_;  ///< of the last batch
+  std::vector<std::uint8_t> raised_;
   std::vector<Output> broken_;
 };
 

@@ -3,15 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
-#include "oracles/requirements.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/commands/tasks.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/progress.hpp"
-#include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run.hpp"
-#include "reports/engine/run_folder.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/minimise.hpp"
@@ -57,7 +55,7 @@ class MinimiseCommand : public Command {
   }
   int run(const CLI::App&) override {
     std::vector<Task> tasks;
-    for (const std::string& f : files_) tasks.push_back(read_task(f));
+    for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "minimised"));
     catch_interrupts();
     for (const Task& t : tasks) {
       set_measure(t.measure);
@@ -71,40 +69,14 @@ class MinimiseCommand : public Command {
   }
 
  private:
-  /// A file and the subjects that are to be asked its case.
-  struct Task {
-    std::string file;
-    Case question;
-    Measure measure;
-    std::vector<const Subject*> subjects;
-  };
-
-  Task read_task(const std::string& file) const {
-    settle_run_of(file);
-    const nlohmann::json j = parse_json(read_file(file), file);
-    if (read_relation_case(j, file))
-      throw BadInput(fmt::format("{}: it has several related cases, and one can be minimised", file));
-    const Measure measure = measure_ ? Measure{*measure_, true} : measure_of(j, file);
-    return {file, case_of(j, file), measure, subjects_for(j, file)};
-  }
-  std::vector<const Subject*> subjects_for(const nlohmann::json& j, const std::string& file) const {
-    if (!selection_.subject.empty()) return selection_.subjects();
-    if (const auto subject = subject_of_report(j, file)) return {*subject};
-    return selection_.subjects();
-  }
-
   void minimise_for(const Task& t, const Subject& subject) {
-    const Offering& offering = subject.offering(t.question.query->name);
-    const std::optional<Case> same = in_scalar(t.question, subject.scalar);
-    if (offering.answer == nullptr || !same || !unmet_by(*same, offering.required).empty()) {
-      if (t.subjects.size() == 1) throw BadInput(fmt::format("{}: {} cannot be asked this case", t.file, subject.name));
-      return;
-    }
+    const std::optional<Case> question = case_for(t, subject);
+    if (!question) return;
     progress_.set_activity(fmt::format("minimising for {}", subject.name));
     const MinimiseLimits limits{questions_.value_or(MinimiseLimits().questions),
                                 seconds_ ? std::chrono::duration<double>(*seconds_) : MinimiseLimits().time};
-    std::optional<Minimised> m = minimise(*same, subject, limits, workers_, [this](std::uint64_t questions) {
-      progress_.show(questions, std::nullopt, std::nullopt, found_);
+    std::optional<Minimised> m = minimise(*question, subject, limits, workers_, [this](std::uint64_t questions) {
+      progress_.show(questions, std::nullopt, std::nullopt, std::nullopt);
     });
     if (interrupted() && !m) return;
     if (!m) return say(fmt::format("{}: {} has no finding against it", t.file, subject.name));

@@ -6,6 +6,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/store.hpp"
 #include "oracles/confirmed.hpp"
+#include "oracles/requirements.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/relation_report.hpp"
@@ -38,7 +39,9 @@ CLI::Validator file_name() {
 CLI::Validator long_enough() {
   return CLI::Validator(
       [](const std::string& note) -> std::string {
-        return note.size() >= shortest_note ? "" : "it must say what went wrong, in a sentence";
+        const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n'; };
+        const auto blanks = std::size_t(std::ranges::count_if(note, is_blank));
+        return note.size() - blanks >= shortest_note ? "" : "it must say what went wrong, in a sentence";
       },
       "TEXT");
 }

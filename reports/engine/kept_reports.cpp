@@ -23,7 +23,12 @@ void KeptReports::list_those_on_disk() {
 }
 
 void KeptReports::take(const Examined& e) {
-  if (!is_bad(e.finding) || !retention_.keep(*counts_.of(*e.question.query, e.subject), e.finding)) return;
+  if (!is_bad(e.finding)) return;
+  const Tally& tally = *counts_.of(*e.question.query, e.subject);
+  const Variant variant{e.finding.branches, feature_regions_of(e.question), is_ordinary(e.question)};
+  const bool kept = retention_.keep(tally, e.finding, variant);
+  variants_.count(tally, e, variant, kept);
+  if (!kept) return;
   pending_.push_back({e.question, &e.subject, e.answer, std::string(e.output)});
 }
 

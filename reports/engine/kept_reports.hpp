@@ -9,6 +9,7 @@
 #include "reports/engine/campaign.hpp"
 #include "reports/engine/counts.hpp"
 #include "reports/engine/run_folder.hpp"
+#include "reports/engine/variant_counts.hpp"
 
 namespace nearmiss {
 
@@ -29,6 +30,8 @@ class KeptReports : public Sink {
 
   /// All reports; those of earlier runs in the folder come first.
   const std::vector<WrittenReport>& written() const { return written_; }
+  /// How many findings of this run there are of each kind and variant, also those that are not kept.
+  const VariantCounts& variants() const { return variants_; }
   /// The number of reports of this run.
   std::size_t count() const;
   /// Headline and file of the worst finding of each query, subject and fault; empty without findings.
@@ -50,6 +53,7 @@ class KeptReports : public Sink {
   Write write_;
   Workers* workers_ = nullptr;
   FindingRetention retention_;
+  VariantCounts variants_;
   std::vector<Pending> pending_;
   std::vector<WrittenReport> written_;
 };

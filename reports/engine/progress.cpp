@@ -27,7 +27,7 @@ Progress::~Progress() {
 void Progress::set_activity(std::string what) { what_ = std::move(what); }
 
 void Progress::show(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
-                    std::uint64_t findings) {
+                    std::optional<std::uint64_t> findings) {
   const auto now = Clock::now();
   if (now - last_shown_ < (terminal_ ? Clock::duration(200ms) : Clock::duration(10s))) return;
   last_shown_ = now;
@@ -37,13 +37,13 @@ void Progress::show(std::uint64_t done, std::optional<std::uint64_t> total, std:
 }
 
 std::string Progress::line(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
-                           std::uint64_t findings) const {
+                           std::optional<std::uint64_t> findings) const {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const double rate = double(done) / std::max(seconds, 1e-9);
   if (total && rate > 0) seconds_left = double(*total - std::min(done, *total)) / rate;
   std::string text = what_.empty() ? "" : what_ + ": ";
   text += count_text(done) + (total ? " of " + count_text(*total) : "") + " cases, ";
-  text += count_text(findings) + (findings == 1 ? " finding, " : " findings, ");
+  if (findings) text += plural_text(*findings, "finding") + ", ";
   text += count_text(std::uint64_t(rate)) + " cases/s";
   if (seconds_left) text += ", " + duration_text(*seconds_left) + " left";
   return text;

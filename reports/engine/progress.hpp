@@ -17,14 +17,15 @@ class Progress {
 
   /// Names the current work: "stored cases", "fuzzing moving_sphere_box".
   void set_activity(std::string what);
-  /// Also shows the time left where the total, or the seconds until the end, are known.
+  /// Also shows the time left where the total, or the seconds until the end, are known, and the findings where they are
+  /// counted.
   void show(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
-            std::uint64_t findings);
+            std::optional<std::uint64_t> findings);
 
  private:
   using Clock = std::chrono::steady_clock;
   std::string line(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,
-                   std::uint64_t findings) const;
+                   std::optional<std::uint64_t> findings) const;
 
   const bool terminal_;
   const Clock::time_point begin_;

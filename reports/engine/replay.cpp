@@ -212,7 +212,11 @@ Measure measure_of(const nlohmann::json& j, const std::string& file) {
 }
 
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file) {
-  if (!j.is_object() || !j.contains("finding") || !j.contains("subject") || !j["subject"].is_object()) return {};
+  if (!j.is_object() || !j.contains("finding") || !j.contains("subject")) return {};
+  if (!j["subject"].is_object()) {
+    throw BadInput(
+        fmt::format("{}: subject is {}; it must be an object with a name", file, one_line(j["subject"].dump(), 60)));
+  }
   const nlohmann::json name = j["subject"].value("name", nlohmann::json());
   const Subject* subject = name.is_string() ? find_subject(name.get<std::string>()) : nullptr;
   if (subject != nullptr) return subject;

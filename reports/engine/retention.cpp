@@ -4,11 +4,13 @@
 
 namespace nearmiss {
 
-bool Retention::keep(const std::string& kind, double above, std::uint64_t first_few) {
+bool Retention::keep(const std::string& kind, const std::string& variant, double above, First first) {
   Kept& kept = kept_[kind];
   const bool much_worse = above > 0 && above >= 2 * kept.worst;
-  if (kept.count >= first_few && !much_worse) return false;
+  const bool is_full = kept.count >= first.of_a_kind;
+  if (!much_worse && (is_full || kept.variants[variant] >= first.of_a_variant)) return false;
   ++kept.count;
+  if (!is_full) ++kept.variants[variant];
   kept.worst = std::max(kept.worst, above);
   return true;
 }

@@ -199,6 +199,7 @@ void Run::write_index(RunState state) {
          {"cases", counts_.cases()},
          {"findings", counts_.bad()}};
   counts_.add_to(j);
+  j["variants"] = kept_.variants().to_json();
   if (internal_errors().count() > 0) j["internal_errors"] = internal_errors().to_json();
   j.update(notes_->parts);
   j["reports"] = Json::array();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "reports/findings/breakage.hpp"
@@ -105,17 +106,18 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
           {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
 }
 
-bool FindingRetention::keep(const Tally& of, const Finding& f) {
-  const auto kind = [&](std::string_view fault) {
-    return fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
+bool FindingRetention::keep(const Tally& of, const Finding& f, const Variant& variant) {
+  const std::string alike =
+      fmt::format("{:x} {} {}", variant.branches, variant.ordinary, fmt::join(variant.regions.names(), ","));
+  const auto keeps = [&](std::string_view fault, const std::optional<Backward>& bound) {
+    const std::string kind = fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
+    return retention_.keep(kind, alike, bound ? bound->above : 0, {first_few, most_of_a_kind});
   };
-  if (f.verdict == Verdict::broke) return retention_.keep(kind("broke/" + of.breakage_of(f)), 0, first_few);
-  if (f.headline < 0) return retention_.keep(kind(fault_of(f)), f.backward ? f.backward->above : 0, first_few);
+  if (f.verdict == Verdict::broke) return keeps("broke/" + of.breakage_of(f), std::nullopt);
+  if (f.headline < 0) return keeps(fault_of(f), f.backward);
   bool any = false;
   for (const MemberFinding& m : f.members) {
-    if (!m.breaks()) continue;
-    const std::string fault = fmt::format("{}/{}", name_of(m.disagreement), m.member);
-    any = retention_.keep(kind(fault), m.backward ? m.backward->above : 0, first_few) || any;
+    if (m.breaks()) any = keeps(fmt::format("{}/{}", name_of(m.disagreement), m.member), m.backward) || any;
   }
   return any;
 }

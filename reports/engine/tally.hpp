@@ -11,6 +11,7 @@
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 #include "reports/engine/retention.hpp"
+#include "reports/findings/signature.hpp"
 
 namespace nearmiss {
 
@@ -56,12 +57,13 @@ struct Tally {
 nlohmann::ordered_json tally_to_json(const Tally& t);
 
 /// Selects the findings that become reports: for each query, subject and fault of a member, or kind of breakage in the
-/// tally, the first `first_few`, and then those whose proved backward bound is at least twice that of the worst kept so
-/// far. A finding with several faults is kept where one of its faults is.
+/// tally, the first `first_few` of each variant while there are fewer than `most_of_a_kind`, and then those whose
+/// proved backward bound is at least twice that of the worst kept so far. A finding with several faults is kept where
+/// one of its faults is.
 class FindingRetention {
  public:
-  bool keep(const Tally& of, const Finding& f);
-  static constexpr std::uint64_t first_few = 8;
+  bool keep(const Tally& of, const Finding& f, const Variant& variant = {});
+  static constexpr std::uint64_t first_few = 4, most_of_a_kind = 32;
 
  private:
   Retention retention_;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <compare>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "corpus/feature_regions.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -21,5 +23,32 @@ struct Signature {
 };
 
 Signature signature_of(const Finding& f);
+
+/// "backward error", "exact decisions"; "" for none.
+std::string_view name_of(Clause c);
+
+/// A signature in words, with its query and subject: the same for a finding and for the file of its report.
+struct FindingKind {
+  std::string query, subject;
+  std::string fault;   ///< fault_of(): "false-miss", "broke"
+  std::string member;  ///< "decision", "time"; empty for all members together, and for a subject that broke
+  std::string clause;  ///< name_of() the broken clause; kind_of_breakage() for a subject that broke
+
+  auto operator<=>(const FindingKind&) const = default;
+};
+
+FindingKind kind_of_finding(const Query& query, const std::string& subject, const Finding& f);
+/// The kind of the finding in a report file. Throws nlohmann::json::exception where the file is no report.
+FindingKind kind_in_report(const nlohmann::json& report);
+
+/// Findings of one kind whose cases lie in the same regions, take the same branches of the oracle, and have extreme
+/// numbers or not.
+struct Variant {
+  std::uint64_t branches = 0;  ///< Finding::branches of a judgement that computes no more than the verdict needs
+  FeatureRegions regions;
+  bool ordinary = true;  ///< is_ordinary()
+
+  auto operator<=>(const Variant&) const = default;
+};
 
 }  // namespace nearmiss

@@ -25,7 +25,7 @@ Answer Workers::ask(const Subject& subject, const Case& question) {
 
 Answer answer_of_given_up() { return Answer::without(Answer::Status::cannot_answer, "not asked: interrupted"); }
 
-void Workers::send(const Subject& subject, std::span<const Case> cases) {
+void Workers::send(const Subject& subject, std::span<const Case> cases, Rounding rounding) {
   const Offering& offering = subject.offering(cases.front().query->name);
   Asked& asked = of(subject);
   asked.all = offering.required.empty();
@@ -39,7 +39,7 @@ void Workers::send(const Subject& subject, std::span<const Case> cases) {
     if (!asked.all) asked.inside.push_back(i);
     flat_.insert(flat_.end(), cases[i].values.begin(), cases[i].values.end());
   }
-  if (!flat_.empty()) asked.worker->send(offering, flat_, cases.front().values.size());
+  if (!flat_.empty()) asked.worker->send(offering, flat_, cases.front().values.size(), rounding);
 }
 
 std::span<const Answer> Workers::receive(const Subject& subject) {
@@ -52,14 +52,25 @@ std::span<const Answer> Workers::receive(const Subject& subject) {
   return asked.answers;
 }
 
+std::optional<std::size_t> Workers::sent_at(const Asked& asked, std::size_t case_of_batch) const {
+  if (asked.all) return case_of_batch;
+  const auto at = std::lower_bound(asked.inside.begin(), asked.inside.end(), case_of_batch);
+  if (at == asked.inside.end() || *at != case_of_batch) return std::nullopt;
+  return std::size_t(at - asked.inside.begin());
+}
+
 std::string_view Workers::output(const Subject& subject, std::size_t case_of_batch) const {
   const auto found = workers_.find(&subject);
   if (found == workers_.end()) return {};
-  const Asked& asked = found->second;
-  if (asked.all) return asked.worker->output(case_of_batch);
-  const auto at = std::lower_bound(asked.inside.begin(), asked.inside.end(), case_of_batch);
-  if (at == asked.inside.end() || *at != case_of_batch) return {};
-  return asked.worker->output(std::size_t(at - asked.inside.begin()));
+  const auto at = sent_at(found->second, case_of_batch);
+  return at ? found->second.worker->output(*at) : std::string_view{};
+}
+
+std::uint8_t Workers::raised(const Subject& subject, std::size_t case_of_batch) const {
+  const auto found = workers_.find(&subject);
+  if (found == workers_.end()) return 0;
+  const auto at = sent_at(found->second, case_of_batch);
+  return at ? found->second.worker->raised(*at) : std::uint8_t{0};
 }
 
 double Workers::processor_seconds(const Subject& subject) const {

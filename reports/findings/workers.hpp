@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,10 +23,17 @@ class Workers {
   Answer ask(const Subject& subject, const Case& question);
   /// Sends at most `capacity_for` cases. Several subjects may get cases before the first receive(); received answers
   /// stay valid until the next send() to the subject.
-  void send(const Subject& subject, std::span<const Case> cases);
+  void send(const Subject& subject, std::span<const Case> cases, Rounding rounding = Rounding::its_own);
   std::span<const Answer> receive(const Subject& subject);
   /// The output of the subject's host when this case of the last batch broke (Worker::output).
   std::string_view output(const Subject& subject, std::size_t case_of_batch) const;
+
+  /// The exceptions that this case of the last batch raised (Worker::raised).
+  std::uint8_t raised(const Subject& subject, std::size_t case_of_batch) const;
+  /// Whether the subject can be asked in a given rounding: not a program behind pipes.
+  static bool sets_rounding(const Subject& subject) {
+    return !subject.host || subject.host->batches == HostProgram::Batches::shared;
+  }
 
   /// The processor time of the subject's process.
   double processor_seconds(const Subject& subject) const;
@@ -42,6 +50,8 @@ class Workers {
     std::vector<Answer> answers;      ///< and the answers to the whole batch
   };
   Asked& of(const Subject& subject);
+  /// The position of this case among the cases that were sent; empty where it was not sent.
+  std::optional<std::size_t> sent_at(const Asked& asked, std::size_t case_of_batch) const;
 
   Worker::WaitCallback on_wait_;
   std::map<const Subject*, Asked> workers_;

@@ -251,7 +251,10 @@ TEST_F(Promote, RefusesWrongNames) {
             std::string::npos);
   EXPECT_NE(promote({seed("apart"), "--note", "A note that is long enough."}).err.find("--subject is needed"),
             std::string::npos);
-  EXPECT_NE(promote({seed("apart"), "--note", "short", "-s", "fcl"}).err.find("in a sentence"), std::string::npos);
+  for (const char* note : {"short", "             ", "a        b   \t c"}) {
+    EXPECT_NE(promote({seed("apart"), "--note", note, "-s", "fcl"}).err.find("in a sentence"), std::string::npos)
+        << note;
+  }
   EXPECT_EQ(with({seed("apart"), "--name", "apart-one"}).exit_code, 0);
   EXPECT_EQ(stored("apart-one").expected.at(0).verdict, "agrees");
 }

@@ -13,6 +13,7 @@
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/signature.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/triage/fewer_regions.hpp"
 
 namespace nearmiss {
 
@@ -78,8 +79,13 @@ class SameFault {
 Case simplest(const Case& question, const MinimiseLimits& limits, SameFault& fault, Minimised::End& end) {
   fault.give(limits.time);
   const auto most = int(std::min<std::uint64_t>(limits.questions, INT_MAX));
-  Case found = shrink(
-      question, [&](const Case& c) { return fault.holds(c); }, most);
+  const auto holds = [&](const Case& c) { return fault.holds(c); };
+  const Case begin = limits.stays_in_regions ? in_fewer_regions(question, holds) : question;
+  const FeatureRegions regions = feature_regions_of(begin);
+  const auto keeps = [&](const Case& c) {
+    return (!limits.stays_in_regions || feature_regions_of(c).within(regions)) && fault.holds(c);
+  };
+  Case found = shrink(begin, keeps, most);
   end = interrupted()                           ? Minimised::End::interrupted
         : fault.has_ended()                     ? Minimised::End::time
         : fault.questions() >= limits.questions ? Minimised::End::questions

@@ -41,6 +41,9 @@ struct Minimised {
 struct MinimiseLimits {
   std::uint64_t questions = 20000;
   std::chrono::duration<double> time = std::chrono::minutes(1);
+  /// First leaves each region (corpus/feature_regions.hpp) that the finding does without, then enters no other. So the
+  /// simplest case of one mistake does not become a case of another, and its regions are those that the finding needs.
+  bool stays_in_regions = false;
 };
 
 /// Empty where nothing is to be found against the subject's answer. The subject must offer the query, and the case must

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/commands/tasks.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/text.hpp"
+#include "reports/triage/cause.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExplainCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {
+        "explain",
+        "find the cause of a finding, and show the evidence",
+        {"FILE is a case, a stored case or a report, as JSON. The subject of the report is asked the case again, in "
+         "the "
+         "four rounding modes, multiplied by powers of two, with neighbouring numbers, and generated cases of the same "
+         "query. Each answer is judged. Without a report and without --subject, every subject that offers the query is "
+         "examined.",
+         "A cause is named only where its test passed: rounding, absolute tolerance, iteration limit, unsupported, "
+         "overflow, underflow, convention, logic. Otherwise the finding is unexplained. docs/triage.md has the tests.",
+         "The report is written to FOLDER/QUERY/SUBJECT-FAULT-ID.json, with the cause and the evidence under "
+         "\"cause\". The result is the same each time, unless --seconds ended the search."},
+        judging_exit_status(),
+        {{"nearmiss explain reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings of a run."},
+         {"nearmiss explain --subject fcl case.json", "The finding of one subject on a case."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
+    selection_.declare_subjects(app);
+    add_measure(app, measure_);
+    add_whole_number(app, "--questions", questions_,
+                     "How often a subject is asked at most for a finding. Default: 4,000", 1, 1'000'000'000);
+    add_positive_number(app, "--seconds", seconds_, "The most time for a finding. Default: 20", "S", 1e6);
+    add_output_folder(app, out_, "The folder. Default: reports/runs/explained of the source tree");
+    app.add_flag("--json", json_, "Print a JSON array with the reports")->disable_flag_override();
+  }
+  int run(const CLI::App&) override {
+    std::vector<Task> tasks;
+    for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "explained"));
+    catch_interrupts();
+    for (const Task& t : tasks) {
+      set_measure(t.measure);
+      for (const Subject* s : t.subjects) {
+        if (!interrupted()) explain_for(t, *s);
+      }
+    }
+    if (json_) fmt::print("{}", pretty_json(reports_));
+    if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
+    return found_ > 0 ? 1 : interrupted() ? 2 : 0;
+  }
+
+ private:
+  void explain_for(const Task& t, const Subject& subject) {
+    const std::optional<Case> question = case_for(t, subject);
+    if (!question) return;
+    progress_.set_activity(fmt::format("explaining {}", subject.name));
+    progress_.show(0, std::nullopt, std::nullopt, std::nullopt);
+    Report r = examine(*question, subject, workers_);
+    if (interrupted()) return;
+    if (!is_bad(r.finding)) {
+      if (!json_) fmt::print("{}: {} has no finding against it\n", t.file, subject.name);
+      return;
+    }
+    const CauseLimits usual;
+    const Cause cause = cause_of(
+        r, subject,
+        {questions_.value_or(usual.questions), seconds_ ? std::chrono::duration<double>(*seconds_) : usual.time},
+        workers_);
+    if (interrupted()) return;
+    ++found_;
+    keep(t, subject, r, cause);
+  }
+  void keep(const Task& t, const Subject& subject, Report& r, const Cause& cause) {
+    const fs::path file = (out_.empty() ? runs_folder() / "explained" : fs::path(out_)) / r.question.query->name /
+                          fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
+    r.replay = replay_command(subject, file.string());
+    nlohmann::ordered_json j = report_to_json(r);
+    j["cause"] = cause_to_json(cause);
+    make_folder(file.parent_path());
+    write_file(file, pretty_json(j));
+    if (json_) {
+      reports_.push_back(std::move(j));
+      return;
+    }
+    const Replay page{r.question, t.file, r.truth, {r}, {}};
+    fmt::print("{}{}\n{}", std::exchange(first_, false) ? "" : "\n", replay_text(page), cause_text(cause));
+  }
+
+  std::vector<std::string> files_;
+  Selection selection_;
+  std::optional<double> measure_, seconds_;
+  std::optional<std::uint64_t> questions_;
+  std::string out_;
+  bool json_ = false, first_ = true;
+  nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
+  Workers workers_{[] { return !interrupted(); }};
+  Progress progress_;
+  std::uint64_t found_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> explain_command() { return std::make_unique<ExplainCommand>(); }
+
+}  // namespace nearmiss

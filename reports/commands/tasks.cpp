@@ -1,0 +1,34 @@
+#include "reports/commands/tasks.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "oracles/requirements.hpp"
+#include "reports/engine/relation_report.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/engine/run_folder.hpp"
+
+namespace nearmiss {
+
+Task read_task(const std::string& file, const Selection& selection, std::optional<double> measure,
+               const std::string& verb) {
+  settle_run_of(file);
+  const nlohmann::json j = parse_json(read_file(file), file);
+  if (read_relation_case(j, file))
+    throw BadInput(fmt::format("{}: it has several related cases, and one can be {}", file, verb));
+  const auto subject = selection.subject.empty() ? subject_of_report(j, file) : std::nullopt;
+  return {file, case_of(j, file), measure ? Measure{*measure, true} : measure_of(j, file),
+          subject ? std::vector<const Subject*>{*subject} : selection.subjects()};
+}
+
+std::optional<Case> case_for(const Task& t, const Subject& subject) {
+  const Offering& offering = subject.offering(t.question.query->name);
+  std::optional<Case> same = in_scalar(t.question, subject.scalar);
+  if (offering.answer != nullptr && same && unmet_by(*same, offering.required).empty()) return same;
+  if (t.subjects.size() == 1) throw BadInput(fmt::format("{}: {} cannot be asked this case", t.file, subject.name));
+  return std::nullopt;
+}
+
+}  // namespace nearmiss

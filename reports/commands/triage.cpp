@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/engine/run.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/text.hpp"
+#include "reports/triage/baseline.hpp"
+#include "reports/triage/triage.hpp"
+#include "reports/triage/triage_json.hpp"
+#include "reports/triage/triage_text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class TriageCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {
+        "triage",
+        "group findings into bugs, with their causes, and compare them with a baseline",
+        {"SOURCE is a run folder, a folder of reports or run folders, or a report. Every report's subject is asked "
+         "again. Of each kind of finding a few reports are minimised, and their causes are looked for by asking the "
+         "subject changed cases. Findings of the same query, subject, fault, cause, branch of the exact algorithm "
+         "and regions of the inputs have one signature: one row, with its number, its worst and its simplest case. "
+         "Rows are in the order of severity; docs/triage.md has the formula. Files that are no reports of this "
+         "version are named on standard error and skipped.",
+         "The result is written to FOLDER/triage.json, and the simplest cases to FOLDER/simplest/. What was "
+         "examined is kept there, so that the same command goes on where an earlier one ended.",
+         "With --baseline, rows are new, worse (at least twice the proved size), known, or fixed: the subject, asked "
+         "the cases of the baseline again, is right. A line 'ID accepted|upstream|reported URL|fixed VERSION "
+         "[at N %]  # why' in the file of --decisions takes a row out of the exit status until its proved size is "
+         "at least twice N % of the scene, or until it is found in that version."},
+        {{"0", "Nothing is new or worse, or decisions about it hold."},
+         {"1", "A row is new, worse or open again. Without --baseline every row is new."},
+         {"2",
+          "It could not run: wrong arguments, no report could be read, or an output that cannot be written. Or no "
+          "row is new, and it was interrupted. One line on standard error says why."},
+         internal_error_status()},
+        {{"nearmiss triage reports/runs/tuesday", "How many bugs is that?"},
+         {"nearmiss triage reports/runs/tuesday --baseline reports/runs/monday", "What has changed since?"},
+         {"nearmiss triage run --baseline known.json --decisions decisions.txt --junit triage.xml",
+          "A step of continuous integration."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("SOURCE", sources_, "A run folder, a folder of reports, or a report")->required()->type_name("");
+    declare_foreign_subjects(app);
+    app.add_option("--baseline", baseline_, "An earlier triage.json, or an earlier run folder")->type_name("FILE|DIR");
+    app.add_option("--decisions", decisions_, "The file of what was decided about signatures")->type_name("FILE");
+    add_positive_number(app, "--minutes", minutes_, "The most time to examine findings. Default: 5", "M", 1e5);
+    add_whole_number(app, "--rows", rows_, "How many rows are printed. Default: 8", 0, 1'000'000);
+    add_output_folder(app, out_, "The folder. Default: SOURCE/triage of the first folder");
+    app.add_option("--json", json_, "Also write the result to this file as JSON")->type_name("FILE");
+    app.add_option("--sarif", sarif_, "Also write it as SARIF 2.1.0")->type_name("FILE");
+    app.add_option("--junit", junit_, "Also write it as JUnit XML")->type_name("FILE");
+  }
+  int run(const CLI::App&) override {
+    const std::vector<Decision> decisions =
+        decisions_.empty() ? std::vector<Decision>() : decisions_in(read_file(decisions_), decisions_);
+    const Sources sources = read_sources(sources_);
+    name_skipped(sources);
+    if (sources.reports.empty() && !sources.skipped.empty())
+      throw BadInput(fmt::format("no report could be read; {} skipped", plural_text(sources.skipped.size(), "file")));
+    catch_interrupts();
+    const TriageSettings settings{folder(), std::chrono::duration<double>(60 * minutes_.value_or(default_minutes)),
+                                  [this](const std::string& what, std::uint64_t done, std::uint64_t of) {
+                                    progress_.set_activity(what);
+                                    progress_.show(done, of, std::nullopt, std::nullopt);
+                                  }};
+    Triage t = triage(sources, settings, workers_);
+    if (!baseline_.empty() && !interrupted()) compare(settings, t);
+    for (const std::string& id : apply(decisions, t)) {
+      say_on_stderr(fmt::format("nearmiss: {}: no signature has the id {}\n", decisions_, id));
+    }
+    write(settings.folder, t);
+    fmt::print("{}", triage_text(t, rows_.value_or(default_rows)));
+    const bool stands = std::any_of(t.signatures.begin(), t.signatures.end(), [](const auto& s) { return s.stands(); });
+    if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
+    return stands ? 1 : interrupted() ? 2 : 0;
+  }
+
+ private:
+  static constexpr double default_minutes = 5;
+  static constexpr std::uint64_t default_rows = 8;
+
+  fs::path folder() const {
+    if (!out_.empty()) return out_;
+    for (const std::string& s : sources_) {
+      std::error_code error;
+      if (fs::is_directory(s, error)) return fs::path(s) / "triage";
+    }
+    return runs_folder() / "triage";
+  }
+  void compare(const TriageSettings& settings, Triage& t) {
+    const std::vector<std::string> unasked = compare_with(read_baseline(baseline_, settings, workers_), t, workers_);
+    for (const std::string& subject : unasked) {
+      say_on_stderr(
+          fmt::format("nearmiss: {}: findings of {} are left out, which cannot be asked here\n", baseline_, subject));
+    }
+  }
+  void write(const fs::path& folder, const Triage& t) const {
+    make_folder(folder);
+    const std::string text = pretty_json(triage_to_json(t));
+    write_file(folder / "triage.json", text);
+    if (!json_.empty()) write_file(json_, text);
+    if (!sarif_.empty()) write_file(sarif_, pretty_json(triage_to_sarif(t)));
+    if (!junit_.empty()) write_file(junit_, triage_to_junit(t));
+  }
+
+  std::vector<std::string> sources_;
+  std::string baseline_, decisions_, out_, json_, sarif_, junit_;
+  std::optional<double> minutes_;
+  std::optional<std::uint64_t> rows_;
+  Workers workers_{[] { return !interrupted(); }};
+  Progress progress_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> triage_command() { return std::make_unique<TriageCommand>(); }
+
+}  // namespace nearmiss

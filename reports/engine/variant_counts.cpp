@@ -1,0 +1,51 @@
+#include "reports/engine/variant_counts.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace nearmiss {
+
+void VariantCounts::count(const Tally& tally, const Examined& e, const Variant& variant, bool kept) {
+  FindingKind kind = kind_of_finding(*e.question.query, e.subject.name, e.finding);
+  if (e.finding.verdict == Verdict::broke) kind.clause = tally.breakage_of(e.finding);
+  std::map<Variant, Count>& variants = counts_[std::move(kind)];
+  const bool is_known = variants.contains(variant) || variants.size() < most_variants;
+  Count& c = variants[is_known ? variant : Variant{0, {}, variant.ordinary}];
+  ++c.findings;
+  c.kept += kept;
+}
+
+nlohmann::ordered_json VariantCounts::to_json() const {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const auto& [kind, variants] : counts_) {
+    for (const auto& [variant, count] : variants) {
+      all.push_back({{"query", kind.query},
+                     {"subject", kind.subject},
+                     {"fault", kind.fault},
+                     {"member", kind.member},
+                     {"clause", kind.clause},
+                     {"branches", fmt::format("{:016x}", variant.branches)},
+                     {"regions", variant.regions.names()},
+                     {"ordinary", variant.ordinary},
+                     {"findings", count.findings},
+                     {"kept", count.kept}});
+    }
+  }
+  return all;
+}
+
+std::vector<CountedVariant> variants_in(const nlohmann::json& index) {
+  std::vector<CountedVariant> all;
+  if (!index.contains("variants")) return all;
+  for (const nlohmann::json& v : index.at("variants")) {
+    CountedVariant c{{v.at("query"), v.at("subject"), v.at("fault"), v.at("member"), v.at("clause")}, {}, {}};
+    c.variant = {std::stoull(v.at("branches").get<std::string>(), nullptr, 16), feature_regions_named(v.at("regions")),
+                 v.at("ordinary")};
+    c.count = {v.at("findings"), v.at("kept")};
+    all.push_back(std::move(c));
+  }
+  return all;
+}
+
+}  // namespace nearmiss

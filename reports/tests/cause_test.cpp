@@ -1,0 +1,395 @@
+/// Causes of findings: mistakes are planted, one of each kind, and each is named, with a test that passed as evidence.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/fit.hpp"
+#include "corpus/generator.hpp"
+#include "corpus/source_folder.hpp"
+#include "impl/subject/provenance.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
+#include "reports/triage/cause.hpp"
+#include "reports/triage/readings.hpp"
+#include "reports/triage/regions.hpp"
+#include "reports/triage/scales.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Values = std::span<const double>;
+
+/// A right answer, from the certified tier.
+Answer right(const char* query, Values values) {
+  static const Subject certified = [] {
+    for (const Subject& own : own_subjects_in_process()) {
+      if (own.name == "collide-certified-double") return own;
+    }
+    throw std::logic_error("no certified tier");
+  }();
+  return certified.offering(query).answer(values);
+}
+
+Subject planted(const char* query, Answer (*answer)(Values), Scalar scalar = Scalar::float64,
+                collide::Contract contract = {.backward = 0x1p20}) {
+  Subject s{.name = "planted", .version = "1", .scalar = scalar, .offerings = {}};
+  s.offerings.push_back({query, Offer::answers, "", contract, answer, {}});
+  return s;
+}
+
+Case case_of(const char* query, std::vector<double> values, Scalar scalar = Scalar::float64) {
+  return {find_query(query), scalar, std::move(values), "test", 0, 0, {}};
+}
+
+Cause cause(const Subject& subject, const Case& question, const CauseLimits& limits = {}) {
+  Workers workers;
+  const Report report = examine(question, subject, workers);
+  EXPECT_TRUE(is_bad(report.finding)) << "the mistake is not found";
+  return cause_of(report, subject, limits, workers);
+}
+
+/// The first generated case that counts against the subject and for which `wanted` holds.
+template <class Wanted>
+Case first_finding(const Subject& s, const Wanted& wanted) {
+  Workers workers;
+  const Query& query = *find_query(s.offerings[0].query);
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    Case c;
+    generate_inside(c, query, s.scalar, 1, i, {});
+    if (!has_extreme_mutator(c) && wanted(c) && is_bad(examine(c, s, workers).finding)) return c;
+  }
+  throw std::logic_error("no finding");
+}
+Case first_finding(const Subject& s) {
+  return first_finding(s, [](const Case&) { return true; });
+}
+
+std::string text_of(const Cause& c) { return cause_text(c); }
+
+// sphere_sphere_overlap: center1 x y z, radius1, center2 x y z, radius2.
+
+double gap(Values q) { return std::hypot(q[0] - q[4], q[1] - q[5], q[2] - q[6]) - q[3] - q[7]; }
+
+Answer with_slack(Values q) {
+  Answer a;
+  a.yes = gap(q) <= 1e-6;
+  return a;
+}
+
+TEST(Cause, AbsoluteToleranceOfAGap) {
+  const Subject s = planted("sphere_sphere_overlap", with_slack, Scalar::float64, {.backward = 8});
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 0.2, 0.3, 0.5, 1.3, 0.2, 0.3, 0.7 - 4.1e-7}));
+  EXPECT_EQ(c.kind, CauseKind::absolute_tolerance) << text_of(c);
+  EXPECT_EQ(c.key, "1e-6 length") << text_of(c);
+  EXPECT_NE(c.text.find("the gap or overlap"), std::string::npos) << text_of(c);
+}
+
+Answer blind_for_small(Values q) {
+  Answer a = right("sphere_box_overlap", q);
+  if (q[3] < 1e-3) a.yes = false;
+  return a;
+}
+
+TEST(Cause, AbsoluteToleranceOfASize) {
+  const Subject s = planted("sphere_box_overlap", blind_for_small);
+  const Cause c = cause(s, case_of("sphere_box_overlap", {0.5, 0.25, 0.125, 3e-4, 0.25, 0, 0, 1, 2, 3, 0, 0, 0.25, 1}));
+  EXPECT_EQ(c.kind, CauseKind::absolute_tolerance) << text_of(c);
+  EXPECT_EQ(c.key, "1e-3 length") << text_of(c);
+  EXPECT_NE(c.text.find("sphere.radius"), std::string::npos) << text_of(c);
+}
+
+// moving_sphere_box: the answer is a time, a location and a normal.
+
+template <int sign>
+Answer turned_normal(Values q) {
+  Answer a = right("moving_sphere_box", q);
+  for (std::size_t i = 4; i < 7; ++i) a.values[i] *= sign;
+  return a;
+}
+Answer distance_for_time(Values q) {
+  Answer a = right("moving_sphere_box", q);
+  a.values[0] *= std::hypot(q[4], q[5], q[6]);
+  return a;
+}
+Answer center_for_contact(Values q) {
+  Answer a = right("moving_sphere_box", q);
+  for (std::size_t k = 0; a.yes && k < 3; ++k) a.values[1 + k] = q[k] + q[4 + k] * a.values[0];
+  return a;
+}
+std::string convention_of(Answer (*answer)(Values)) {
+  const Subject s = planted("moving_sphere_box", answer);
+  const Cause c = cause(s, first_finding(s));
+  EXPECT_EQ(c.kind, CauseKind::convention) << text_of(c);
+  return c.key;
+}
+
+TEST(Cause, Conventions) {
+  EXPECT_EQ(convention_of(turned_normal<-1>), "normal reversed");
+  EXPECT_EQ(convention_of(turned_normal<2>), "normal not of unit length");
+  EXPECT_EQ(convention_of(distance_for_time), "distance in place of time");
+  EXPECT_EQ(convention_of(center_for_contact), "center in place of the contact");
+}
+
+Answer strict(Values q) {
+  Answer a = right("sphere_sphere_overlap", q);
+  const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], r = q[3] + q[7];
+  if (x * x + y * y + z * z == r * r) a.yes = false;
+  return a;
+}
+
+TEST(Cause, StrictInPlaceOfClosed) {
+  const Subject s = planted("sphere_sphere_overlap", strict, Scalar::float64, {.backward = 8, .exact_decisions = true});
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0, 0, 0, 1, 3, 4, 0, 4}));
+  EXPECT_EQ(c.kind, CauseKind::convention) << text_of(c);
+  EXPECT_EQ(c.key, "strict instead of closed");
+}
+
+Answer upright(Values q) {
+  std::vector<double> values(q.begin(), q.end());
+  std::fill_n(values.begin() + 13, 3, 0.0);
+  values[16] = 1;
+  return right("moving_sphere_box", values);
+}
+
+TEST(Cause, UnsupportedRotation) {
+  const Subject s = planted("moving_sphere_box", upright);
+  const Cause c = cause(s, first_finding(s));
+  EXPECT_EQ(c.kind, CauseKind::unsupported) << text_of(c);
+  EXPECT_EQ(c.key, "rotation ignored");
+}
+
+Answer throws_for_points(Values q) {
+  if (q[3] == 0) return Answer::without(Answer::Status::broke, "exception: no support point");
+  return right("moving_sphere_box", q);
+}
+
+TEST(Cause, UnsupportedRegion) {
+  const Subject s = planted("moving_sphere_box", throws_for_points);
+  const Cause c = cause(s, first_finding(s));
+  EXPECT_EQ(c.kind, CauseKind::unsupported) << text_of(c);
+  EXPECT_EQ(c.key, "sphere.radius of zero");
+}
+
+/// Squares of floats overflow above 2^64, and the comparison of two infinities is a hit.
+Answer squares_in_float(Values q) {
+  volatile float x = float(q[0]) - float(q[4]), y = float(q[1]) - float(q[5]), z = float(q[2]) - float(q[6]),
+                 r = float(q[3]) + float(q[7]);
+  Answer a;
+  a.yes = x * x + y * y + z * z <= r * r;
+  return a;
+}
+
+TEST(Cause, OverflowOfAProduct) {
+  const Subject s = planted("sphere_sphere_overlap", squares_in_float, Scalar::float32);
+  const Cause c =
+      cause(s, case_of("sphere_sphere_overlap", {0, 0, 0, 0x1p70, 0x1p75, 0x1p73, 0, 0x1p71}, Scalar::float32));
+  EXPECT_EQ(c.kind, CauseKind::overflow) << text_of(c);
+}
+
+TEST(Cause, UnderflowOfAProduct) {
+  const Subject s = planted("sphere_sphere_overlap", squares_in_float, Scalar::float32);
+  const Cause c =
+      cause(s, case_of("sphere_sphere_overlap", {0, 0, 0, 0x1p-90, 0x1p-80, 0x1p-82, 0, 0x1p-91}, Scalar::float32));
+  EXPECT_EQ(c.kind, CauseKind::underflow) << text_of(c);
+}
+
+/// The discriminant of balls that are far away cancels in float.
+Answer cancels(Values q) {
+  volatile float xx = float(q[0]) * float(q[0]), yy = float(q[4]) * float(q[4]), xy = float(q[0]) * float(q[4]);
+  volatile float r = float(q[3]) + float(q[7]);
+  volatile float square = xx + yy;
+  square = square - 2 * xy;
+  Answer a = right("sphere_sphere_overlap", q);
+  if (q[1] == q[5] && q[2] == q[6]) a.yes = square <= r * r;
+  return a;
+}
+
+TEST(Cause, RoundingThatIsUnstable) {
+  const Subject s = planted("sphere_sphere_overlap", cancels, Scalar::float32, {.backward = 64});
+  const Cause c = cause(
+      s, case_of("sphere_sphere_overlap", {float(10007.37), 1, 2, 0.25, float(10008.61), 1, 2, 0.25}, Scalar::float32));
+  EXPECT_EQ(c.kind, CauseKind::rounding) << text_of(c);
+}
+
+/// The sign of one term is wrong.
+Answer wrong_sign(Values q) {
+  Answer a;
+  a.yes = std::hypot(q[0] - q[4], q[1] + q[5], q[2] - q[6]) <= q[3] + q[7];
+  return a;
+}
+
+TEST(Cause, LogicOfAWrongSign) {
+  const Subject s = planted("sphere_sphere_overlap", wrong_sign);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 1.7, 0.3, 0.7, 0.4, 1.1, 0.2, 0.6}));
+  EXPECT_EQ(c.kind, CauseKind::logic) << text_of(c);
+}
+
+/// Samples the motion at eight times until it must have passed.
+Answer samples(Values q) {
+  Answer a;
+  a.yes = false;
+  a.values[0] = INFINITY;
+  const double end = 2 * std::hypot(q[0] - q[7], q[1] - q[8], q[2] - q[9]) / std::hypot(q[4], q[5], q[6]);
+  for (int i = 0; i <= 8 && !a.yes; ++i) {
+    const double t = end * i / 8;
+    const double at[] = {q[0] + q[4] * t, q[1] + q[5] * t, q[2] + q[6] * t, q[3], q[7], q[8], q[9], q[10]};
+    a.yes = gap(at) <= 0;
+  }
+  if (a.yes) a = right("moving_sphere_sphere", q);
+  return a;
+}
+
+TEST(Cause, TooFewStepsAlongAMotion) {
+  const Subject s = planted("moving_sphere_sphere", samples);
+  const Cause c = cause(s, case_of("moving_sphere_sphere", {-20.3, 0.1, 0.2, 0.4, 1.7, 0.1, 0, 1.9, 1.3, 0.1, 0.5}));
+  EXPECT_EQ(c.kind, CauseKind::iteration_limit) << text_of(c);
+  EXPECT_EQ(c.key, "steps along the motion");
+}
+
+/// Wrong by a hash of the last bits of the inputs: no hypothesis is true.
+Answer fickle(Values q) {
+  Answer a = right("sphere_sphere_overlap", q);
+  if (q[3] == 0.7) a.yes = !a.yes;
+  return a;
+}
+
+TEST(Cause, StaysUnexplainedWhereNoTestPasses) {
+  const Subject s = planted("sphere_sphere_overlap", fickle);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 1.7, 0.3, 0.7, 4.4, 1.1, 0.2, 0.6}));
+  EXPECT_EQ(c.kind, CauseKind::unexplained) << text_of(c);
+  EXPECT_FALSE(c.evidence.empty());
+  EXPECT_NE(text_of(c).find("Cause: unexplained"), std::string::npos);
+}
+
+TEST(Cause, StopsAtItsLimits) {
+  const Subject s = planted("sphere_sphere_overlap", wrong_sign);
+  const Case question = case_of("sphere_sphere_overlap", {0.1, 1.7, 0.3, 0.7, 0.4, 1.1, 0.2, 0.6});
+  const Cause few = cause(s, question, {.questions = 100});
+  EXPECT_EQ(few.kind, CauseKind::unexplained) << text_of(few);
+  EXPECT_LE(few.questions, 100u);
+  const Cause no_time = cause(s, question, {.time = std::chrono::seconds(0)});
+  EXPECT_EQ(no_time.kind, CauseKind::unexplained) << text_of(no_time);
+}
+
+TEST(Cause, IsTheSameEachTime) {
+  const Subject s = planted("moving_sphere_box", turned_normal<-1>);
+  const Case question = first_finding(s);
+  const Cause once = cause(s, question), twice = cause(s, question);
+  EXPECT_EQ(text_of(once), text_of(twice));
+  EXPECT_EQ(once.questions, twice.questions);
+}
+
+TEST(Cause, KernelsOfCollideAreComparedWithExactReals) {
+  Subject s = planted("sphere_sphere_overlap", cancels, Scalar::float32, {.backward = 64});
+  s.name = "collide-planted-float";
+  s.own = true;
+  const Cause c = cause(
+      s, case_of("sphere_sphere_overlap", {float(10007.37), 1, 2, 0.25, float(10008.61), 1, 2, 0.25}, Scalar::float32));
+  EXPECT_EQ(c.kind, CauseKind::rounding) << text_of(c);
+  EXPECT_NE(text_of(c).find("collide-certified-float"), std::string::npos) << text_of(c);
+}
+
+// The rounding of a host.
+
+Answer tells_its_rounding(Values q) {
+  volatile double one = 1, tiny = 0x1p-60 * q[3];
+  Answer a;
+  a.yes = one + tiny > 1;
+  return a;
+}
+
+TEST(Cause, ASubjectIsAskedInEveryRoundingAndItsExceptionsAreSeen) {
+  const Subject s = planted("sphere_sphere_overlap", tells_its_rounding);
+  Workers workers;
+  const Case inexact = case_of("sphere_sphere_overlap", {0, 0, 0, 1, 5, 0, 0, 1}), exact = [&] {
+    Case c = inexact;
+    c.values[3] = 0;
+    return c;
+  }();
+  for (const auto& [rounding, yes] : std::initializer_list<std::pair<Rounding, bool>>{{Rounding::its_own, false},
+                                                                                      {Rounding::upward, true},
+                                                                                      {Rounding::to_nearest, false},
+                                                                                      {Rounding::downward, false},
+                                                                                      {Rounding::toward_zero, false}}) {
+    workers.send(s, {&inexact, 1}, rounding);
+    EXPECT_EQ(workers.receive(s).front().yes, yes) << int(rounding);
+    EXPECT_EQ(workers.raised(s, 0), rounding == Rounding::its_own ? 0 : raised_inexact);
+  }
+  workers.send(s, {&exact, 1}, Rounding::upward);
+  workers.receive(s);
+  EXPECT_EQ(workers.raised(s, 0), 0);
+}
+
+TEST(Scales, AreExactOrNothing) {
+  const Case c = case_of("sphere_sphere_overlap", {0, 0, 0, 1, 3, 0, 0, 0x1p-140}, Scalar::float32);
+  const ScaleGroup& lengths = scale_groups()[0];
+  const auto twice = scaled(c, lengths, 1);
+  ASSERT_TRUE(twice.has_value());
+  EXPECT_EQ(twice->values, (std::vector<double>{0, 0, 0, 2, 6, 0, 0, 0x1p-139}));
+  EXPECT_FALSE(scaled(c, lengths, -20).has_value());
+  EXPECT_FALSE(scaled(c, lengths, 128).has_value());
+  EXPECT_FALSE(scaled(c, scale_groups()[1], 1).has_value()) << "there is no velocity";
+}
+
+TEST(Readings, MakeNoDifferenceToARightAnswerOrMakeItWrong) {
+  const Case c = case_of("moving_sphere_box", {-5, 0.25, 0.5, 1, 2, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 0.25, 1});
+  const Answer a = right("moving_sphere_box", c.values);
+  const IsRight is_right = [](const Case& other, const Answer& answer) {
+    return judge(other, answer, Standard{{.backward = 0x1p20}}, Detail::verdict).verdict <= Verdict::not_proved;
+  };
+  ASSERT_TRUE(is_right(c, a));
+  for (const Reading& reading : readings()) {
+    const bool harmless = reading.name == "normal not of unit length";
+    EXPECT_EQ(reading.right(c, a, is_right).value_or(harmless), harmless) << reading.name;
+  }
+}
+
+TEST(Regions, HoldWhereTheInputsSaySo) {
+  const Case c = case_of("moving_sphere_box", {-5, 0.25, 0.5, 0, 2, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 0.25, 1});
+  std::vector<std::string> names;
+  for (const Region& r : regions_of(*c.query)) {
+    if (r.has(c)) names.push_back(r.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"sphere.radius of zero", "a quaternion that is not of unit length",
+                                             "a shape without extent", "a turned box"}));
+}
+
+TEST(Explain, WritesAReportWithTheCause) {
+  const TemporaryFolder folder;
+  const std::string plugin = plugin_file("skim_plugin"), out = (folder / "why").string();
+  ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", "closest_point_segment", "--cases", "2000",
+                      "--seed", "1", "--out", (folder / "r").string()})
+                .exit_code,
+            1);
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  const std::string found = (folder / "r" / index["reports"][0]["file"].get<std::string>()).string();
+  const Ran ran = nearmiss({"explain", "--plugin", plugin, found, "--out", out});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  EXPECT_NE(ran.out.find("Inputs\n"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("\nCause: "), std::string::npos) << ran.out;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "why" / "closest_point_segment")) files.push_back(entry);
+  ASSERT_EQ(files.size(), 1u);
+  const json after = json::parse(read_file(files[0]));
+  EXPECT_EQ(complaints(after, "report.schema.json"), "");
+  EXPECT_FALSE(after["cause"]["evidence"].empty());
+  const Ran again = nearmiss({"explain", "--plugin", plugin, files[0].string(), "--out", out, "--json"});
+  EXPECT_EQ(json::parse(again.out).at(0)["cause"], after["cause"]);
+}
+
+TEST(Explain, EndsWithZeroWhereNothingIsFound) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"explain", "-s", "collide-fast-double", "--out", (folder / "r").string(),
+                            source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("collide-fast-double has no finding against it"), std::string::npos) << ran.out;
+  EXPECT_FALSE(fs::exists(folder / "r"));
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,31 @@
+/// Compares the signatures of a triage with those of an earlier one, and with what was decided about them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/triage/triage.hpp"
+
+namespace nearmiss {
+
+/// The signatures of the file of an earlier triage, or of a run folder: those of FOLDER/triage/triage.json where it is
+/// there; otherwise its reports are triaged as `settings` say, and those whose subject is right now make rows of their
+/// own by kind. Throws BadInput.
+std::vector<TriagedSignature> read_baseline(const std::string& name, const TriageSettings& settings, Workers& workers);
+
+/// Sets `change` of every signature, and adds the rows of the baseline that have no signature now: fixed where the
+/// subject, asked their cases again, is right, otherwise known. Returns the subjects of rows that cannot be asked,
+/// which are left out.
+std::vector<std::string> compare_with(const std::vector<TriagedSignature>& baseline, Triage& now, Workers& workers);
+
+/// Lines "ID accepted|upstream|reported URL|fixed VERSION [at N %]  # why"; empty lines and lines that begin with # say
+/// nothing. `where` is the name of the file, for messages. Throws BadInput for any other line, and for an ID twice.
+std::vector<Decision> decisions_in(const std::string& text, const std::string& where);
+
+/// Sets `decision` of the signatures with these ids. A decision is open again where the proved size is at least twice
+/// that of its line, and where a signature that was fixed in a version is here in this or a later version. Returns the
+/// ids of no signature.
+std::vector<std::string> apply(const std::vector<Decision>& decisions, Triage& now);
+
+}  // namespace nearmiss

@@ -1,0 +1,56 @@
+/// The cause of a finding: a hypothesis that was tested by asking the subject again.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/findings/report.hpp"
+
+namespace nearmiss {
+
+/// Kinds of causes. Each but the last is named only where a test of it passed.
+enum class CauseKind {
+  rounding,
+  absolute_tolerance,
+  iteration_limit,
+  unsupported,
+  overflow,
+  underflow,
+  convention,
+  logic,
+  unexplained
+};
+
+/// What was tried, and what was seen: a line each.
+struct Evidence {
+  std::string test, result;
+};
+
+struct Cause {
+  CauseKind kind = CauseKind::unexplained;
+  std::string key;   ///< tells two bugs of a kind apart, stable within one bug: "normal reversed"; may be empty
+  std::string text;  ///< one sentence
+  std::vector<Evidence> evidence;
+  std::uint64_t questions = 0;
+};
+
+struct CauseLimits {
+  std::uint64_t questions = 4000;
+  std::chrono::duration<double> time = std::chrono::seconds(20);
+};
+
+/// Tests hypotheses, the most specific first, and names the first whose test passed. The report must have a bad finding
+/// (is_bad). The result is the same in every run, unless a limit of time ends the search.
+Cause cause_of(const Report& report, const Subject& subject, const CauseLimits& limits, Workers& workers);
+
+std::string_view name_of(CauseKind kind);
+/// {"kind", "key", "text", "evidence": [{"test", "result"}], "questions"}
+nlohmann::ordered_json cause_to_json(const Cause& cause);
+/// The section of a page: a heading, the sentence, and the evidence.
+std::string cause_text(const Cause& cause);
+
+}  // namespace nearmiss

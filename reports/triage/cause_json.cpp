@@ -1,0 +1,20 @@
+#include "reports/triage/cause_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace nearmiss {
+
+Cause cause_from_json(const nlohmann::json& j) {
+  Cause cause;
+  const std::string kind = j.at("kind");
+  for (int k = 0; k <= int(CauseKind::unexplained); ++k) {
+    if (kind == name_of(CauseKind(k))) cause.kind = CauseKind(k);
+  }
+  cause.key = j.at("key");
+  cause.text = j.at("text");
+  for (const nlohmann::json& e : j.at("evidence")) cause.evidence.push_back({e.at("test"), e.at("result")});
+  cause.questions = j.value("questions", std::uint64_t(0));
+  return cause;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,137 @@
+#include "reports/triage/quantities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "oracles/judge.hpp"
+#include "oracles/requirements.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector vector_at(const Case& c, std::size_t i) { return {c.values[i], c.values[i + 1], c.values[i + 2]}; }
+double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double area(const Case& c, const std::array<std::size_t, 3>& t) {
+  const Vector a = minus(vector_at(c, t[1]), vector_at(c, t[0])), b = minus(vector_at(c, t[2]), vector_at(c, t[0]));
+  return length({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}) / 2;
+}
+
+/// "sphere.center" of "sphere.center.x".
+std::string vector_name(const Query& q, std::size_t i) {
+  const std::string& name = q.inputs[i].name;
+  return name.size() > 2 ? name.substr(0, name.size() - 2) : name;
+}
+
+bool begins_vector(const Query& q, std::size_t i) {
+  return (q.inputs[i].name.ends_with(".x") || q.inputs[i].name == "x") && i + 2 < q.inputs.size();
+}
+
+double largest_number(const Case& c) {
+  double largest = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Role role = c.query->inputs[i].role;
+    if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
+  }
+  return largest;
+}
+
+/// The case with the positions of the first operand moved along an axis.
+Case moved(const Case& c, std::size_t axis, double by) {
+  constexpr std::string_view axes[] = {".x", ".y", ".z"};
+  Case other = c;
+  other.scalar = Scalar::float64;
+  const std::string& first = c.query->inputs.front().name;
+  const std::string operand = first.substr(0, first.find('.') + 1);
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Field& f = c.query->inputs[i];
+    if (f.role == Role::position && f.name.starts_with(operand) && f.name.ends_with(axes[axis])) other.values[i] += by;
+  }
+  return other;
+}
+
+/// How far the first operand must move along an axis to change the decision; infinite where it does not.
+double way_to_flip(const Case& c, bool decision, std::size_t axis, double direction, double largest) {
+  constexpr int finest = -50, coarsest = 2, bisections = 8;
+  const auto flips = [&](double by) { return exact_decision(moved(c, axis, direction * by)) != decision; };
+  for (int k = finest; k <= coarsest; ++k) {
+    double far = std::ldexp(largest, k), near = far / 2;
+    if (!flips(far)) continue;
+    for (int i = 0; i < bisections; ++i) {
+      const double middle = (near + far) / 2;
+      (flips(middle) ? far : near) = middle;
+    }
+    return (near + far) / 2;
+  }
+  return INFINITY;
+}
+
+/// The distance to the nearest flip, from those along the axes: exact to first order for a flat border.
+double gap_of(const Case& c) {
+  const double largest = largest_number(c);
+  if (!(largest > 0)) return 0;
+  const bool decision = exact_decision(c);
+  double inverse_square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double way =
+        std::min(way_to_flip(c, decision, axis, 1, largest), way_to_flip(c, decision, axis, -1, largest));
+    inverse_square += 1 / (way * way);
+  }
+  return inverse_square > 0 ? 1 / std::sqrt(inverse_square) : 0;
+}
+
+/// The time of the exact contact; 0 where there is none.
+double contact_time(const Case& c) {
+  if (c.query->kind != Kind::impact) return 0;
+  for (const Alternative& right : truth_of(c).alternatives) {
+    if (right.yes) return std::max(0.0, right.values[0].low);
+  }
+  return 0;
+}
+
+void add_vectors(const Case& c, std::vector<Quantity>& all) {
+  const Query& q = *c.query;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Role role = q.inputs[i].role;
+    if (role == Role::size || role == Role::time) all.push_back({q.inputs[i].name, std::abs(c.values[i])});
+    if (!begins_vector(q, i)) continue;
+    if (role == Role::position) places.push_back(i);
+    if (role == Role::velocity || role == Role::direction)
+      all.push_back({"the length of " + vector_name(q, i), length(vector_at(c, i))});
+    if (role == Role::rotation)
+      all.push_back({"the length of " + vector_name(q, i), std::hypot(length(vector_at(c, i)), c.values[i + 3])});
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t i = 0; i < k; ++i) {
+      all.push_back({fmt::format("the distance from {} to {}", vector_name(q, places[i]), vector_name(q, places[k])),
+                     length(minus(vector_at(c, places[i]), vector_at(c, places[k])))});
+    }
+  }
+  for (const std::size_t i : places)
+    all.push_back({fmt::format("the distance of {} from the origin", vector_name(q, i)), length(vector_at(c, i))});
+}
+
+}  // namespace
+
+std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
+  std::vector<Quantity> all;
+  if (with_gap) all.push_back({"the gap or overlap", gap_of(c)});
+  add_vectors(c, all);
+  for (const auto& t : parts_of(*c.query).triangles) all.push_back({"the area of the triangle", area(c, t)});
+  const auto& velocities = parts_of(*c.query).velocities;
+  if (!velocities.empty()) {
+    const double time = contact_time(c);
+    all.push_back({"the time of the contact", time});
+    all.push_back({"the distance moved until the contact", time * length(vector_at(c, velocities[0]))});
+  }
+  return all;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,26 @@
+/// The closed table of alternative readings of a query: other meanings of its inputs or of its answer.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "reports/triage/cause.hpp"
+
+namespace nearmiss {
+
+/// Whether nothing is proved against an answer to a case.
+using IsRight = std::function<bool(const Case&, const Answer&)>;
+
+struct Reading {
+  std::string_view name;  ///< "normal reversed": the key of the cause
+  std::string_view what;  ///< completes "the answer is right if "
+  CauseKind kind = CauseKind::convention;
+  /// Whether the answer is right under this reading; empty where the reading makes no difference to the case.
+  std::optional<bool> (*right)(const Case& c, const Answer& a, const IsRight& is_right) = nullptr;
+};
+
+std::span<const Reading> readings();
+
+}  // namespace nearmiss

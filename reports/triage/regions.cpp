@@ -1,0 +1,52 @@
+#include "reports/triage/regions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "oracles/requirements.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The cases that do not meet a precondition.
+std::string_view outside_of(Precondition p) {
+  switch (p) {
+    case Precondition::true_rectangle: return "four corners that are not those of a rectangle";
+    case Precondition::unit_normal: return "a given normal that is not of unit length";
+    case Precondition::unit_direction: return "a direction that is not of unit length";
+    case Precondition::unit_quaternion: return "a quaternion that is not of unit length";
+    case Precondition::starts_outside: return "a start in contact";
+    case Precondition::moves: return "a velocity of zero";
+    case Precondition::no_zero_sizes: return "a shape without extent";
+  }
+  return "?";
+}
+
+bool is_turned(const Case& c) {
+  const auto& all = parts_of(*c.query).quaternions;
+  return std::any_of(all.begin(), all.end(),
+                     [&](std::size_t i) { return c.values[i] != 0 || c.values[i + 1] != 0 || c.values[i + 2] != 0; });
+}
+
+}  // namespace
+
+std::vector<Region> regions_of(const Query& query) {
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
+    const Field& f = query.inputs[i];
+    if (f.role == Role::size)
+      regions.push_back({fmt::format("{} of zero", f.name), [i](const Case& c) { return c.values[i] == 0; }});
+    if (f.role == Role::flag)
+      regions.push_back({fmt::format("the flag {}", f.name), [i](const Case& c) { return c.values[i] != 0; }});
+  }
+  for (const Precondition p : all_preconditions) {
+    if (concerns(p, query))
+      regions.push_back({std::string(outside_of(p)), [p](const Case& c) { return !meets(c, p); }});
+  }
+  if (!parts_of(query).quaternions.empty()) regions.push_back({"a turned box", is_turned});
+  return regions;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,21 @@
+/// Regions of the inputs of a query that an implementation may leave out.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "impl/catalogue/case.hpp"
+
+namespace nearmiss {
+
+struct Region {
+  std::string name;  ///< "a radius of zero"
+  std::function<bool(const Case&)> has;
+};
+
+/// The regions that the query's inputs have, from names and roles alone: zero sizes, starts in contact, turned boxes,
+/// vectors that are not of unit length, flags that are set.
+std::vector<Region> regions_of(const Query& query);
+
+}  // namespace nearmiss

@@ -1,0 +1,142 @@
+#include "reports/triage/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss {
+
+namespace {
+
+int lengths(Role role) {
+  return role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset ? 1 : 0;
+}
+int speeds(Role role) { return role == Role::velocity ? 1 : role == Role::time ? -1 : 0; }
+int directions(Role role) { return role == Role::direction || role == Role::offset ? 1 : 0; }
+int rotations(Role role) { return role == Role::rotation ? 1 : 0; }
+
+constexpr ScaleGroup groups[] = {{"lengths and velocities", "length", lengths},
+                                 {"velocities", "speed", speeds},
+                                 {"directions", "length of a direction", directions},
+                                 {"quaternions", "length of a quaternion", rotations}};
+
+/// The exponents of a scan in one direction.
+constexpr int steps[] = {1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024};
+
+bool has_raised(const Trial& t, Raised exception) { return (t.raised & exception) != 0; }
+
+/// The trials at these exponents; exponents that are not exact are left out.
+std::vector<ScaleScan::At> ask_at(Trials& trials, const Case& c, const ScaleGroup& group, std::span<const int> ks) {
+  std::vector<Case> cases;
+  std::vector<ScaleScan::At> at;
+  for (const int k : ks) {
+    const auto other = k == 0 ? std::optional(c) : scaled(c, group, k);
+    if (!other) continue;
+    cases.push_back(*other);
+    at.push_back({k, {}});
+  }
+  std::vector<Trial> asked = trials.ask(cases, trials.sets_rounding() ? Rounding::to_nearest : Rounding::its_own);
+  for (std::size_t i = 0; i < at.size(); ++i) at[i].trial = std::move(asked[i]);
+  return at;
+}
+
+/// The first pair of neighbours in this direction of which the second is right and all before have the finding.
+std::optional<Flip> first_flip(std::span<const ScaleScan::At> sorted, int direction) {
+  int last = 0;
+  const auto next = [&](int after) {
+    const ScaleScan::At* found = nullptr;
+    for (const ScaleScan::At& a : sorted) {
+      const bool beyond = direction > 0 ? a.k > after : a.k < after;
+      if (beyond && (found == nullptr || std::abs(a.k) < std::abs(found->k))) found = &a;
+    }
+    return found;
+  };
+  for (const ScaleScan::At* a = next(0); a != nullptr; a = next(a->k)) {
+    if (a->trial.outcome == Outcome::right) return Flip{last, a->k};
+    if (a->trial.outcome != Outcome::same) return std::nullopt;
+    last = a->k;
+  }
+  return std::nullopt;
+}
+
+/// Bisects until the exponents are neighbours. Empty where an answer between is neither.
+std::optional<Flip> bisected(Trials& trials, const Case& c, const ScaleGroup& group, Flip f,
+                             std::vector<ScaleScan::At>& into) {
+  while (std::abs(f.wrong - f.right) > 1) {
+    const int middle = (f.wrong + f.right) / 2;
+    std::vector<ScaleScan::At> asked = ask_at(trials, c, group, std::span(&middle, 1));
+    if (asked.empty()) return std::nullopt;
+    const Outcome outcome = asked.front().trial.outcome;
+    into.push_back(std::move(asked.front()));
+    if (outcome != Outcome::same && outcome != Outcome::right) return std::nullopt;
+    (outcome == Outcome::same ? f.wrong : f.right) = middle;
+  }
+  return f;
+}
+
+/// The flip nearest to scale 1.
+std::optional<Flip> nearest_flip(Trials& trials, const Case& c, const ScaleGroup& group,
+                                 std::vector<ScaleScan::At>& at) {
+  std::optional<Flip> nearest;
+  for (const int direction : {1, -1}) {
+    auto flip = first_flip(at, direction);
+    if (flip) flip = bisected(trials, c, group, *flip, at);
+    if (flip && (!nearest || std::abs(flip->right) < std::abs(nearest->right))) nearest = flip;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::span<const ScaleGroup> scale_groups() { return groups; }
+
+std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k) {
+  Case other = c;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const int by = k * group.order(c.query->inputs[i].role);
+    other.values[i] = std::ldexp(c.values[i], by);
+    if (!std::isfinite(other.values[i]) || !representable(other.values[i], c.scalar)) return std::nullopt;
+    if (std::ldexp(other.values[i], -by) != c.values[i]) return std::nullopt;
+  }
+  if (other.values == c.values || c.query->broken(other.values)) return std::nullopt;
+  return other;
+}
+
+bool ScaleScan::explained_by(Raised exception) const {
+  if (!flip) return false;
+  const bool upward = flip->right > flip->wrong;
+  bool always = true, never_beyond = false;
+  for (const At& a : trials) {
+    const bool wrong_side = upward ? a.k <= flip->wrong : a.k >= flip->wrong;
+    if (wrong_side && a.trial.outcome == Outcome::same && (upward ? a.k >= 0 : a.k <= 0))
+      always = always && has_raised(a.trial, exception);
+    if (!wrong_side && a.trial.outcome == Outcome::right) never_beyond |= !has_raised(a.trial, exception);
+  }
+  return always && never_beyond;
+}
+
+ScaleScan scan(Trials& trials, const ScaleGroup& group) {
+  std::vector<int> ks{0};
+  for (const int step : steps) ks.insert(ks.end(), {step, -step});
+  ScaleScan s;
+  s.group = &group;
+  const Case& c = trials.base().question;
+  s.trials = ask_at(trials, c, group, ks);
+  if (s.trials.size() > 1) s.flip = nearest_flip(trials, c, group, s.trials);
+  std::sort(s.trials.begin(), s.trials.end(), [](const auto& a, const auto& b) { return a.k < b.k; });
+  return s;
+}
+
+std::optional<Flip> flip_near(Trials& trials, const Case& c, const ScaleGroup& group, const Flip& known) {
+  std::vector<int> ks;
+  const int direction = known.right > known.wrong ? 1 : -1;
+  for (int k = 0; k <= 64; k += k < 8 ? 1 : 4) ks.push_back(direction * k);
+  for (int d = -6; d <= 6; ++d) ks.push_back(known.right + d);
+  std::sort(ks.begin(), ks.end());
+  ks.erase(std::unique(ks.begin(), ks.end()), ks.end());
+  std::erase_if(ks, [&](int k) { return k * direction < 0; });
+  std::vector<ScaleScan::At> at = ask_at(trials, c, group, ks);
+  const auto flip = first_flip(at, direction);
+  return flip ? bisected(trials, c, group, *flip, at) : std::nullopt;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,265 @@
+#include "reports/triage/triage_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "reports/findings/text.hpp"
+#include "reports/triage/cause_json.hpp"
+#include "reports/triage/triage_text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int triage_schema_version = 1;
+
+template <class T>
+Json or_null(const std::optional<T>& x) {
+  return x ? Json(*x) : Json(nullptr);
+}
+
+Json decision_to_json(const std::optional<Decision>& d) {
+  if (!d) return nullptr;
+  return {{"kind", name_of(d->kind)},
+          {"url", d->kind == Decision::Kind::reported ? Json(d->argument) : Json(nullptr)},
+          {"version", d->kind == Decision::Kind::fixed ? Json(d->argument) : Json(nullptr)},
+          {"note", d->note},
+          {"reopened", d->reopened}};
+}
+
+Json case_of_signature(const Case& c) {
+  Json j = case_to_json(c);
+  j.erase("origin");
+  return j;
+}
+
+Json signature_to_json(const TriagedSignature& s) {
+  Json cause = cause_to_json(s.cause);
+  cause.erase("questions");
+  return {{"id", s.id},
+          {"query", s.kind.query},
+          {"subject", s.kind.subject},
+          {"version", s.version},
+          {"scalar", name_of(s.case_of_simplest.scalar)},
+          {"fault", s.kind.fault},
+          {"member", s.kind.member},
+          {"clause", s.kind.clause},
+          {"cause", cause},
+          {"examined", s.examined},
+          {"regions", s.regions.names()},
+          {"branches", fmt::format("{:016x}", s.branches)},
+          {"change", s.change ? Json(name_of(*s.change)) : Json(nullptr)},
+          {"decision", decision_to_json(s.decision)},
+          {"severity", s.severity},
+          {"severity_text", severity_text(s)},
+          {"count", s.reports.size()},
+          {"findings", s.findings},
+          {"ordinary_share", s.ordinary_share},
+          {"headline", s.headline},
+          {"above_epsilon", or_null(s.size.above_epsilon)},
+          {"relative", s.size.relative},
+          {"amount", s.size.amount},
+          {"unit", s.size.unit},
+          {"worst", s.worst},
+          {"simplest", s.simplest},
+          {"case", case_of_signature(s.case_of_simplest)},
+          {"reports", s.reports},
+          {"ids", s.ids}};
+}
+
+Json totals(const Triage& t) {
+  std::uint64_t reports = 0, findings = 0, reopened = 0;
+  for (const TriagedSignature& s : t.signatures) {
+    reports += s.reports.size(), findings += s.findings;
+    reopened += s.decision && s.decision->reopened;
+  }
+  const auto of = [&](SignatureChange c) {
+    return std::count_if(t.signatures.begin(), t.signatures.end(), [&](const auto& s) { return s.change == c; });
+  };
+  return {{"signatures", t.signatures.size()},
+          {"reports", reports},
+          {"findings", findings},
+          {"new", of(SignatureChange::fresh)},
+          {"worse", of(SignatureChange::worse)},
+          {"known", of(SignatureChange::known)},
+          {"fixed", of(SignatureChange::fixed)},
+          {"reopened", reopened},
+          {"right_now", t.right_now.size()}};
+}
+
+TriagedSignature signature_from_json(const nlohmann::json& j, const std::string& where) {
+  TriagedSignature s;
+  s.id = j.at("id");
+  s.kind = {j.at("query"), j.at("subject"), j.at("fault"), j.at("member"), j.at("clause")};
+  s.cause = cause_from_json(j.at("cause"));
+  s.branches = std::stoull(j.at("branches").get<std::string>(), nullptr, 16);
+  s.regions = feature_regions_named(j.at("regions"));
+  s.version = j.at("version");
+  s.examined = j.at("examined");
+  s.size.relative = j.at("relative");
+  if (!j.at("above_epsilon").is_null()) s.size.above_epsilon = j.at("above_epsilon").get<double>();
+  s.size.amount = j.at("amount"), s.size.unit = j.at("unit");
+  s.severity = j.at("severity");
+  s.headline = j.at("headline");
+  s.findings = j.at("findings");
+  s.ordinary_share = j.at("ordinary_share");
+  s.worst = j.at("worst"), s.simplest = j.at("simplest");
+  s.case_of_simplest = case_from_json(j.at("case"), where);
+  s.reports = j.at("reports").get<std::vector<std::string>>();
+  s.ids = j.at("ids").get<std::vector<std::string>>();
+  if (j.at("change") == name_of(SignatureChange::fixed)) s.change = SignatureChange::fixed;
+  return s;
+}
+
+// SARIF.
+
+std::string level_of(const TriagedSignature& s) {
+  if (!s.stands()) return "note";
+  return s.kind.fault == "broke" || s.kind.fault == "false-miss" || s.kind.fault == "false-hit" ? "error" : "warning";
+}
+
+std::string_view baseline_state(SignatureChange c) {
+  switch (c) {
+    case SignatureChange::fresh: return "new";
+    case SignatureChange::worse: return "updated";
+    case SignatureChange::known: return "unchanged";
+    case SignatureChange::fixed: return "absent";
+  }
+  return "none";
+}
+
+/// A file as a reference that RFC 3986 allows: other characters than those of plain names are escaped.
+std::string uri_of(const std::string& file) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+  std::string uri = file.starts_with('/') ? "file://" : "";
+  for (const char c : file) {
+    uri += plain.find(c) != std::string_view::npos ? std::string(1, c) : fmt::format("%{:02X}", std::uint8_t(c));
+  }
+  return uri;
+}
+
+Json sarif_result(const TriagedSignature& s) {
+  Json r{{"ruleId", s.kind.fault},
+         {"level", level_of(s)},
+         {"message", {{"text", fmt::format("{}. {} Signature {}.", s.headline, s.cause.text, s.id)}}},
+         {"partialFingerprints", {{"nearmissSignature/v1", s.id}}}};
+  const std::string& file = s.simplest.empty() ? s.worst : s.simplest;
+  if (!file.empty()) {
+    r["locations"] = Json::array({{{"physicalLocation", {{"artifactLocation", {{"uri", uri_of(file)}}}}}}});
+  }
+  r["occurrenceCount"] = std::max<std::uint64_t>(1, s.findings);
+  if (s.change) r["baselineState"] = baseline_state(*s.change);
+  if (s.decision && !s.decision->reopened) {
+    const std::string why = s.decision->note.empty() ? std::string(name_of(s.decision->kind)) : s.decision->note;
+    r["suppressions"] = Json::array({{{"kind", "external"}, {"status", "accepted"}, {"justification", why}}});
+  }
+  r["properties"] = {{"query", s.kind.query},
+                     {"subject", s.kind.subject},
+                     {"severity", s.severity},
+                     {"cause", name_of(s.cause.kind)},
+                     {"reports", s.reports.size()}};
+  return r;
+}
+
+// JUnit.
+
+/// Text of XML 1.0: escaped, and without the control characters that it forbids.
+std::string xml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += std::uint8_t(c) < 0x20 && c != '\n' ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string junit_outcome(const TriagedSignature& s) {
+  if (s.change == SignatureChange::fixed) return "";
+  const std::string_view change = s.change ? name_of(*s.change) : "stands";
+  if (s.stands()) {
+    return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n", xml(s.kind.fault),
+                       xml(fmt::format("{}: {}", change, s.headline)), xml(signature_text(s)));
+  }
+  const std::string why = s.decision ? std::string(name_of(s.decision->kind)) : std::string(change);
+  return fmt::format("      <skipped message=\"{}\"/>\n", xml(why));
+}
+
+}  // namespace
+
+Json triage_to_json(const Triage& t) {
+  Json skipped = Json::array(), signatures = Json::array();
+  for (const auto& [file, why] : t.skipped) skipped.push_back({{"file", file}, {"why", why}});
+  for (const TriagedSignature& s : t.signatures) signatures.push_back(signature_to_json(s));
+  return {{"schema", triage_schema_version},
+          {"environment", environment_to_json()},
+          {"sources", t.sources},
+          {"skipped", skipped},
+          {"signatures", signatures},
+          {"totals", totals(t)}};
+}
+
+std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, const std::string& where) {
+  try {
+    if (j.at("schema") != triage_schema_version)
+      throw BadInput(fmt::format("{}: its schema is {}; this build reads the result of a triage of schema {}", where,
+                                 one_line(j.at("schema").dump(), 20), triage_schema_version));
+    std::vector<TriagedSignature> all;
+    for (const nlohmann::json& s : j.at("signatures")) all.push_back(signature_from_json(s, where));
+    return all;
+  } catch (const nlohmann::json::exception&) {
+    throw BadInput(fmt::format("{}: it is no result of a triage", where));
+  } catch (const std::logic_error&) {  // of std::stoull
+    throw BadInput(fmt::format("{}: it is no result of a triage", where));
+  }
+}
+
+Json triage_to_sarif(const Triage& t) {
+  Json rules = Json::array(), results = Json::array();
+  for (const TriagedSignature& s : t.signatures) {
+    const bool is_known =
+        std::any_of(rules.begin(), rules.end(), [&](const Json& r) { return r["id"] == s.kind.fault; });
+    std::string words = s.kind.fault;
+    std::replace(words.begin(), words.end(), '-', ' ');
+    if (!is_known) rules.push_back({{"id", s.kind.fault}, {"shortDescription", {{"text", words}}}});
+    results.push_back(sarif_result(s));
+  }
+  const Json environment = environment_to_json();
+  return {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+          {"version", "2.1.0"},
+          {"runs",
+           Json::array(
+               {{{"tool", {{"driver", {{"name", "nearmiss"}, {"version", environment["nearmiss"]}, {"rules", rules}}}}},
+                 {"results", results}}})}};
+}
+
+std::string triage_to_junit(const Triage& t) {
+  std::size_t failures = 0, skipped = 0;
+  std::string cases;
+  for (const TriagedSignature& s : t.signatures) {
+    failures += s.stands();
+    skipped += !s.stands() && s.change != SignatureChange::fixed;
+    const std::string outcome = junit_outcome(s);
+    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{} {}\"", xml(s.kind.subject), xml(s.kind.query),
+                         xml(s.kind.fault), s.id);
+    cases += outcome.empty() ? "/>\n" : ">\n" + outcome + "    </testcase>\n";
+  }
+  const std::string counts =
+      fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\"", t.signatures.size(), failures, skipped);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {0}>\n  <testsuite name=\"nearmiss triage\" {0}>\n{1}"
+      "  </testsuite>\n</testsuites>\n",
+      counts, cases);
+}
+
+}  // namespace nearmiss
