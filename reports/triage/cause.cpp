@@ -36,6 +36,8 @@ constexpr std::size_t neighbours = 64;    ///< cases an ulp away
 
 /// "Nearly all": 9 of 10.
 bool nearly_all(std::size_t part, std::size_t all) { return all > 0 && 10 * part >= 9 * all; }
+/// "Most": 3 of 4.
+bool most(std::size_t part, std::size_t all) { return all > 0 && 4 * part >= 3 * all; }
 /// "Some, and not nearly all": 1 to 9 of 10.
 bool is_mixed(std::size_t part, std::size_t all) { return 10 * part >= all && 10 * part <= 9 * all && part > 0; }
 
@@ -202,20 +204,20 @@ class Investigation {
     if (t.outcome == Outcome::right) return true;
     return reading.decides && t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
   }
+  /// A reading of the decision alone says nothing about the cases in which it makes no difference.
+  static void count_finding(const Reading& reading, std::optional<bool> fits, Support& s) {
+    s.with_finding += fits || !reading.decides;
+    s.explained += fits.value_or(false);
+  }
   Support support_of(const Reading& reading) {
     Support s;
-    for (const Trial& t : similar()) {
-      ++s.with_finding;
-      s.explained += reading.right(t.question, t.answer, is_right_).value_or(false);
-    }
+    for (const Trial& t : similar()) count_finding(reading, reading.right(t.question, t.answer, is_right_), s);
     for (const Trial& t : sample()) {
       if (t.outcome == Outcome::none) continue;
       const std::optional<bool> fits = reading.right(t.question, t.answer, is_right_);
       s.against_it += contradicts(reading, t) && !fits.value_or(true);
-      if (t.outcome == Outcome::right) continue;
-      s.for_it += fits.value_or(false);
-      s.with_finding += t.outcome == Outcome::same;
-      s.explained += t.outcome == Outcome::same && fits.value_or(false);
+      s.for_it += t.outcome != Outcome::right && fits.value_or(false);
+      if (t.outcome == Outcome::same) count_finding(reading, fits, s);
     }
     return s;
   }
@@ -272,11 +274,14 @@ class Investigation {
     saw(fmt::format("Generated cases with and without {} were asked.", region.name),
         fmt::format("Wrong are {} with it, and {} without it.", of_text(in_all - in_right, in_all),
                     of_text(out_all - out_right, out_all)));
-    const bool holds =
-        in_all >= least && out_all >= least && nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all);
-    if (!holds) return std::nullopt;
+    if (in_all < least || out_all < least) return std::nullopt;
+    if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
+      return Named{CauseKind::unsupported, region.name,
+                   fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
+    const bool only_here = out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
+    if (!only_here) return std::nullopt;
     return Named{CauseKind::unsupported, region.name,
-                 fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
+                 fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
   }
 
   // Absolute tolerances
@@ -329,11 +334,12 @@ class Investigation {
 
   struct Flipped {
     Case at_wrong, at_right;  ///< the case at both sides of its flip
+    bool is_sharp;
   };
 
   std::optional<Named> tolerance() {
     for (const ScaleScan& s : scans_) {
-      if (!s.flip || !s.flip->is_sharp() || !is_clean(s)) continue;
+      if (!s.flip || !is_clean(s)) continue;
       if (auto named = tolerance_in(s)) return named;
     }
     if (std::none_of(scans_.begin(), scans_.end(), [](const ScaleScan& s) { return s.flip.has_value(); }))
@@ -342,16 +348,19 @@ class Investigation {
           "The answer is right at no scale.");
     return std::nullopt;
   }
-  /// No overflow and no underflow at either side of the flip.
+  /// No overflow and no underflow from the one side of the flip to the other.
   bool is_clean(const ScaleScan& s) const {
-    return std::none_of(s.trials.begin(), s.trials.end(), [&](const ScaleScan::At& a) {
-      return (a.k == s.flip->wrong || a.k == s.flip->right) && (a.trial.raised & (raised_overflow | raised_underflow));
+    const auto [low, high] = std::minmax(s.flip->wrong, s.flip->right);
+    return std::none_of(s.trials.begin(), s.trials.end(), [low = low, high = high](const ScaleScan::At& a) {
+      return a.k >= low && a.k <= high && (a.trial.raised & (raised_overflow | raised_underflow)) != 0;
     });
   }
   std::vector<Flipped> flips_of(const ScaleScan& s) {
     std::vector<Flipped> all;
     const auto at = [&](const Case& c, int k) { return k == 0 ? c : *scaled(c, *s.group, k); };
-    const auto add = [&](const Case& c, const Flip& f) { all.push_back({at(c, f.wrong), at(c, f.right)}); };
+    const auto add = [&](const Case& c, const Flip& f) {
+      all.push_back({at(c, f.wrong), at(c, f.right), f.is_sharp()});
+    };
     add(question(), *s.flip);
     for (const Trial& t : similar()) {
       if (trials_.is_over()) break;
@@ -368,7 +377,7 @@ class Investigation {
                     s.flip->wrong, s.flip->right, similar().size(), flips.size() - 1));
     if (best) return named_tolerance(s, *best, flips.size());
     constexpr std::size_t least = 3;
-    if (flips.size() < least || !nearly_all(flips.size() - 1, similar().size())) return std::nullopt;
+    if (flips.size() < least || !most(flips.size() - 1, similar().size())) return std::nullopt;
     saw("The flips of these cases were compared with sizes, distances, gaps, areas and times.",
         "No such quantity has the same value at every flip.");
     return Named{
@@ -387,6 +396,7 @@ class Investigation {
     const bool with_gap = decides(trials_.query().kind);
     std::vector<Constant> all;
     for (const Flipped& f : flips) {
+      if (!f.is_sharp) continue;
       const auto a = quantities_of(f.at_wrong, with_gap), b = quantities_of(f.at_right, with_gap);
       all.resize(a.size());
       for (std::size_t i = 0; i < a.size(); ++i) {
@@ -395,7 +405,8 @@ class Investigation {
         all[i].high = std::min(all[i].high, std::max(a[i].value, b[i].value));
       }
     }
-    return widest(std::move(all), flips.size(), with_gap);
+    const auto sharp = std::count_if(flips.begin(), flips.end(), [](const Flipped& f) { return f.is_sharp; });
+    return widest(std::move(all), std::size_t(sharp), with_gap);
   }
   /// Of the quantities that are equal at every flip, the one that differs most between the cases at one scale. A
   /// quantity that differs in a few of the cases alone may be equal by chance.

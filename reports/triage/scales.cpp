@@ -153,7 +153,7 @@ std::optional<Flip> flip_near(Trials& trials, const Case& c, const ScaleGroup& g
   std::vector<ScaleScan::At> at = ask_at(trials, c, group, ks);
   auto flip = first_flip(at, direction);
   if (flip) flip = bisected(trials, c, group, *flip, at);
-  return flip && flip->is_sharp() ? flip : std::nullopt;
+  return flip;
 }
 
 }  // namespace nearmiss

@@ -45,7 +45,7 @@ struct ScaleScan {
 
 /// Scans one group; answers have the raised exceptions where the subject can be asked so.
 ScaleScan scan(Trials& trials, const ScaleGroup& group);
-/// The sharp flip of another case with the same finding, sought from a flip known of a similar case; empty where there
+/// The flip of another case with the same finding, sought from a flip known of a similar case; empty where there
 /// is none.
 std::optional<Flip> flip_near(Trials& trials, const Case& c, const ScaleGroup& group, const Flip& known);
 
