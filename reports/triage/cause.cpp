@@ -413,6 +413,7 @@ class Investigation {
   std::optional<Constant> widest(std::vector<Constant> all, std::size_t flips, bool with_gap) {
     constexpr std::size_t least_flips = 5, least_different = 4;
     constexpr double error_of_estimates = 1.02;
+    if (flips < least_flips) return std::nullopt;
     const auto own = quantities_of(question(), with_gap);
     std::vector<std::size_t> different(all.size(), 0);
     std::vector<double> furthest(all.size(), 1);
@@ -425,7 +426,7 @@ class Investigation {
       }
     }
     std::optional<Constant> best;
-    for (std::size_t i = 0; i < all.size() && flips >= least_flips; ++i) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].spread = furthest[i];
       const bool is_constant = all[i].low > 0 && all[i].low <= all[i].high * error_of_estimates;
       const bool is_finite = std::isfinite(all[i].spread) && std::isfinite(all[i].high);
