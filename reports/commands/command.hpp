@@ -40,6 +40,8 @@ std::unique_ptr<Command> relations_command();
 std::unique_ptr<Command> replay_command();
 std::unique_ptr<Command> minimise_command();
 std::unique_ptr<Command> promote_command();
+std::unique_ptr<Command> emit_test_command();
+std::unique_ptr<Command> upstream_report_command();
 std::unique_ptr<Command> import_command();
 std::unique_ptr<Command> extremes_command();
 std::unique_ptr<Command> sweep_command();
