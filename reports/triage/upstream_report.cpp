@@ -85,9 +85,10 @@ std::string referees(const Report& r) {
   if (r.referees.empty()) return "";
   std::string text = "## Other libraries\n\n| library | answer | |\n|---|---|---|\n";
   for (const Opinion& o : r.referees) {
-    const std::string verdict = o.finding.verdict == Verdict::agrees       ? "right"
-                                : o.finding.verdict == Verdict::not_proved ? "right within a bound"
-                                                                           : std::string(name_of(o.finding.verdict));
+    const bool differs = o.finding.disagreement != Disagreement::none;
+    const std::string verdict = o.finding.verdict == Verdict::agrees ? "right"
+                                : differs                            ? std::string(name_of(o.finding.disagreement))
+                                                                     : std::string(name_of(o.finding.verdict));
     text += fmt::format("| {} (`{}`) | {} | {} |\n", o.version, o.referee,
                         answer_text(*r.question.query, o.answer, r.question.scalar), verdict);
   }
