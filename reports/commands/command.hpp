@@ -44,6 +44,8 @@ std::unique_ptr<Command> explain_command();
 std::unique_ptr<Command> triage_command();
 std::unique_ptr<Command> promote_command();
 std::unique_ptr<Command> bisect_command();
+std::unique_ptr<Command> emit_test_command();
+std::unique_ptr<Command> upstream_report_command();
 std::unique_ptr<Command> import_command();
 std::unique_ptr<Command> extremes_command();
 std::unique_ptr<Command> sweep_command();

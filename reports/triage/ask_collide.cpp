@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/triage/asking.hpp"
+
+namespace nearmiss {
+
+namespace collide_text {
+namespace {
+
+using namespace collide;
+
+/// Literals of one scalar.
+struct Numbers {
+  Scalar scalar;
+
+  std::string type() const { return std::string(name_of(scalar)); }
+  std::string operator()(double x) const {
+    if (scalar == Scalar::float64) return literal(x);
+    const std::string text = fmt::format("{}", float(x));
+    return text + (text.find_first_of(".e") == std::string::npos ? ".0f" : "f");
+  }
+  std::string operator()(const Vec3<double>& v) const {
+    return fmt::format("{{{}, {}, {}}}", (*this)(v.x), (*this)(v.y), (*this)(v.z));
+  }
+};
+
+/// "Sphere<float>{{0.0f, 0.0f, 0.0f}, 1.0f}" without the namespace.
+struct CollideShape {
+  Numbers of;
+
+  std::string made(const char* type, const std::string& members) const {
+    return fmt::format("{}<{}>{{{}}}", type, of.type(), members);
+  }
+  std::string operator()(const Sphere<double>& s) const { return made("Sphere", of(s.center) + ", " + of(s.radius)); }
+  std::string operator()(const Box<double>& b) const {
+    const auto& [x, y, z, w] = b.orientation;
+    return made("Box", fmt::format("{}, {}, {{{}, {}, {}, {}}}", of(b.center), of(b.half), of(x), of(y), of(z), of(w)));
+  }
+  std::string operator()(const Capsule<double>& c) const {
+    return made("Capsule", of(c.p0) + ", " + of(c.p1) + ", " + of(c.radius));
+  }
+  std::string operator()(const Plane<double>& p) const { return made("Plane", of(p.normal) + ", " + of(p.offset)); }
+  std::string operator()(const Triangle<double>& t) const {
+    return made("Triangle", of(t.v0) + ", " + of(t.v1) + ", " + of(t.v2));
+  }
+  std::string operator()(const AABox<double>& b) const { return made("AABox", of(b.min) + ", " + of(b.max)); }
+  std::string operator()(const Rectangle<double>& r) const {
+    return made("Rectangle", of(r.v0) + ", " + of(r.v1) + ", " + of(r.v2) + ", " + of(r.v3));
+  }
+  std::string operator()(const Segment<double>& s) const { return made("Segment", of(s.v0) + ", " + of(s.v1)); }
+  std::string operator()(const Line<double>& l) const { return made("Line", of(l.point) + ", " + of(l.direction)); }
+  std::string operator()(const Ray<double>& r) const { return made("Ray", of(r.origin) + ", " + of(r.direction)); }
+};
+
+/// The argument as the function takes it; some take prepared shapes.
+std::string prepared(std::string_view query, const std::string& name, const std::string& tier) {
+  const auto by = [&](const char* function) { return fmt::format("collide::{}<{}>({})", function, tier, name); };
+  if (query == "closest_point_segment_unit" && name == "segment") return by("prepare_segment");
+  if (query == "closest_point_triangle_perimeter_edges" && name == "triangle") return by("prepare_triangle_edges");
+  if (query == "moving_point_triangle_prepared" && name == "triangle") return by("prepare_triangle");
+  if (query == "ray_aabox" && name == "ray") return by("prepare_ray");
+  if (query == "ray_aabox" && name == "aabox") return by("prepare_aabox");
+  return name;
+}
+
+/// One declaration of each input, and the arguments of the function.
+struct Arguments {
+  std::string declarations, list;
+
+  void add(const std::string& declaration, const std::string& argument) {
+    declarations += "const " + declaration + ";\n";
+    list += (list.empty() ? "" : ", ") + argument;
+  }
+};
+
+Arguments arguments_of(const Case& question, const std::string& tier) {
+  const Query& query = *question.query;
+  const Scene scene(question);
+  const Numbers of{question.scalar};
+  Arguments a;
+  std::vector<Operand> shapes = scene.operands();
+  std::string last;
+  for (const Field& f : query.inputs) {
+    const std::string name = f.name.substr(0, f.name.find('.'));
+    if (name == last || name == "forever") continue;
+    last = name;
+    const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const Operand& o) { return o.name == name; });
+    if (shape != shapes.end()) {
+      a.add(fmt::format("auto {} = collide::{}", name, std::visit(CollideShape{of}, shape->shape)),
+            prepared(query.name, name, tier));
+    } else if (f.name != name) {
+      a.add(fmt::format("collide::Vec3<{}> {}{}", of.type(), name, of(scene.vector(name))), name);
+    } else if (f.role == Role::flag) {
+      a.add(fmt::format("bool {} = {}", name, scene.flag(name)), name);
+    } else if (f.role == Role::index) {
+      a.add(fmt::format("int {} = {}", name, int(scene.number(name))), name);
+    } else if (scene.has("forever") && scene.flag("forever")) {
+      a.add(fmt::format("{} {} = INFINITY", of.type(), name), name);
+    } else {
+      a.add(fmt::format("{} {} = {}", of.type(), name, of(scene.number(name))), name);
+    }
+  }
+  return a;
+}
+
+/// "corners.2.point.x" as an expression: "corners[2].point.x".
+std::string expression_of(const std::string& field) {
+  std::string text;
+  for (std::size_t at = 0; at < field.size();) {
+    const std::size_t end = std::min(field.find('.', at), field.size());
+    const std::string part = field.substr(at, end - at);
+    const bool number = part.find_first_not_of("0123456789") == std::string::npos;
+    text += number ? "[" + part + "]" : (text.empty() ? "" : ".") + part;
+    at = end + 1;
+  }
+  return text;
+}
+
+std::string tier_of(const Subject& subject) {
+  return subject.name.find("certified") != std::string::npos  ? "collide::Certified"
+         : subject.name.find("accurate") != std::string::npos ? "collide::Accurate"
+                                                              : "collide::Fast";
+}
+
+}  // namespace
+}  // namespace collide_text
+
+Asking ask_collide(const Case& question, const Subject& subject) {
+  using namespace collide_text;
+  const Query& query = *question.query;
+  const std::string tier = tier_of(subject);
+  const bool certified = tier == "collide::Certified";
+  const Arguments arguments = arguments_of(question, tier);
+  Asking asking;
+  asking.style = Asking::Style::googletest;
+  asking.suite = "Nearmiss";
+  asking.includes =
+      fmt::format("{}#include <collide/{}.hpp>\n", certified ? "#include <collide/certified.hpp>\n" : "", query.name);
+  asking.statements = arguments.declarations +
+                      fmt::format("const auto answer = collide::{}<{}>({});\n", query.name, tier, arguments.list);
+  if (decides(query.kind)) asking.statements += "got_yes = answer.yes();\n";
+  for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
+    const Layout::Part& part = query.layout.parts[m];
+    asking.members.push_back(query.member_name(m));
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
+      asking.statements += fmt::format("{}{} = answer.{};\n", variable_of(query.member_name(m)), index,
+                                       expression_of(query.outputs[i].name));
+    }
+  }
+  asking.build =
+      std::string("g++ -std=c++20 test.cpp -lgtest -lgtest_main -lpthread") + (certified ? " -lmpfr -lgmp" : "");
+  return asking;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include "reports/triage/asking.hpp"
+
+namespace nearmiss {
+
+namespace plugin_text {
+namespace {
+
+constexpr std::string_view helper = R"(/* The function of the plugin that answers the query; NULL where it has none. */
+static nearmiss_answer_function function_for(const char* query) {
+  const nearmiss_plugin* plugin = nearmiss_plugin_entry();
+  for (size_t i = 0; i < plugin->offer_count; ++i) {
+    if (strcmp(plugin->offers[i].query, query) == 0) return plugin->offers[i].answer;
+  }
+  return NULL;
+}
+)";
+
+}  // namespace
+}  // namespace plugin_text
+
+Asking ask_plugin(const Case& question, const Subject&) {
+  using namespace plugin_text;
+  const Query& query = *question.query;
+  std::string inputs;
+  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
+    inputs += fmt::format("    {}, /* {} */\n", literal(question.values[i]), query.inputs[i].name);
+  }
+  Asking asking;
+  asking.style = Asking::Style::c;
+  asking.includes = "#include <string.h>\n\n#include \"nearmiss_plugin.h\"\n";
+  asking.helpers = helper;
+  asking.statements = fmt::format("const double inputs[] = {{\n{}}};\n", inputs) +
+                      fmt::format("const nearmiss_answer_function ask = function_for(\"{}\");\n", query.name) +
+                      "nearmiss_answer answer;\n"
+                      "memset(&answer, 0, sizeof answer);\n"
+                      "answer.given = ~(uint64_t)0;\n"
+                      "if (ask == NULL || ask(inputs, &answer) != NEARMISS_ANSWERED) {\n"
+                      "  printf(\"FAILED: no answer: %.200s\\n\", answer.why);\n"
+                      "  return 1;\n"
+                      "}\n";
+  if (decides(query.kind)) asking.statements += "got_yes = answer.yes;\n";
+  for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
+    const Layout::Part& part = query.layout.parts[m];
+    asking.members.push_back(query.member_name(m));
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
+      asking.statements += fmt::format("if (answer.given >> {} & 1) {}{} = answer.values[{}];\n", i,
+                                       variable_of(query.member_name(m)), index, i);
+    }
+  }
+  asking.build = "cc test.c plugin.c -lm";
+  return asking;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,104 @@
+#include "reports/triage/asking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "corpus/errors.hpp"
+#include "impl/adapters/motion.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+}  // namespace
+
+std::string filled_in(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> values) {
+  std::string filled;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] != '$') {
+      filled += text[at++];
+      continue;
+    }
+    std::size_t end = at + 1;
+    while (end < text.size() && is_of_name(text[end])) ++end;
+    const std::string_view name = text.substr(at + 1, end - at - 1);
+    const auto value = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == name; });
+    if (value == values.end()) throw std::logic_error("no value for $" + std::string(name));
+    filled += value->second;
+    at = end;
+  }
+  return filled;
+}
+
+std::string literal(double x) {
+  const std::string text = fmt::format("{}", x);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string literals(const collide::Vec3<double>& v) {
+  return fmt::format("{}, {}, {}", literal(v.x), literal(v.y), literal(v.z));
+}
+
+std::string indented(std::string_view text) {
+  std::string out;
+  bool starts = true;
+  for (const char c : text) {
+    if (starts && c != '\n') out += "  ";
+    out += c;
+    starts = c == '\n';
+  }
+  return out;
+}
+
+std::string variable_of(std::string_view member) {
+  std::string name = "got_" + std::string(member);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+collide::Capsule<double> way_of_sphere(const Scene& scene) {
+  struct {
+    collide::Sphere<double> sphere;
+    collide::Vec3<double> velocity;
+    double limit;
+    bool forever;
+  } q;
+  const Moving moving = moving_of(scene);
+  q = {{moving.from, moving.radius}, moving.velocity, scene.number("limit"), scene.flag("forever")};
+  const auto way = adapters::way_of(q, ball_around(target_of(scene).shape));
+  if (!way) throw BadInput(adapters::no_end);
+  return *way;
+}
+
+Moving moving_of(const Scene& scene) {
+  if (scene.has("point.x")) return {scene.vector("point"), 0, scene.vector("velocity")};
+  return {scene.vector("sphere.center"), scene.number("sphere.radius"), scene.vector("velocity")};
+}
+
+Operand target_of(const Scene& scene) {
+  const std::vector<Operand> all = scene.operands();
+  if (all.empty()) throw std::logic_error("nothing to meet");
+  return all.back();  // the moving shape, if any, stands first
+}
+
+collide::Sphere<double> ball_around(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) -> collide::Sphere<double> {
+        if constexpr (requires { adapters::ball_around(s); }) return adapters::ball_around(s);
+        throw std::logic_error("a shape without a ball around it");
+      },
+      shape);
+}
+
+std::pair<Operand, Operand> two_operands(const Scene& scene) {
+  const std::vector<Operand> all = scene.operands();
+  if (all.size() != 2) throw std::logic_error("not two shapes");
+  return {all[0], all[1]};
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,44 @@
+/// A case as typed shapes, for texts about it.
+#pragma once
+
+#include <collide/shapes.hpp>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "impl/catalogue/case.hpp"
+
+namespace nearmiss {
+
+using Shape =
+    std::variant<collide::Sphere<double>, collide::Box<double>, collide::Capsule<double>, collide::Plane<double>,
+                 collide::Triangle<double>, collide::AABox<double>, collide::Rectangle<double>,
+                 collide::Segment<double>, collide::Line<double>, collide::Ray<double>>;
+
+/// An input of the query that is a shape.
+struct Operand {
+  std::string name;  ///< "box", "sphere1"
+  Shape shape;
+};
+
+/// Finds the inputs of a case by name. Refers to the case.
+class Scene {
+ public:
+  explicit Scene(const Case& question) : question_(question) {}
+
+  bool has(std::string_view name) const;
+  /// The input must be there: "limit", "box.center.x".
+  double number(std::string_view name) const;
+  bool flag(std::string_view name) const { return number(name) != 0; }
+  collide::Vec3<double> vector(const std::string& name) const;
+  /// Every shape, in the order of the inputs.
+  std::vector<Operand> operands() const;
+
+ private:
+  Shape shape(const std::string& name) const;
+
+  const Case& question_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,15 @@
+/// A picture of a case's scene in characters.
+#pragma once
+
+#include <string>
+
+#include "reports/findings/report.hpp"
+
+namespace nearmiss {
+
+/// The scene seen along one coordinate axis: the one along which the motion, the distance of the shapes and the exact
+/// normal extend least. A shape is drawn by its exact projection, sampled at the middle of each character. Lines of
+/// text with a legend; empty for a scene that is a point, is not finite, or has a shape without a projection.
+std::string scene_picture(const Report& r);
+
+}  // namespace nearmiss
