@@ -1,4 +1,4 @@
-#include "reports/triage/emit_test.hpp"
+#include "reports/upstream/emit_test.hpp"
 
 #include <fmt/format.h>
 

@@ -60,11 +60,6 @@ class CommandLine {
                       replay_command, minimise_command, explain_command, triage_command, diff_command, bisect_command,
                       emit_test_command, upstream_report_command, promote_command, import_command, oss_fuzz_command,
                       completion_command}) {
-=======
-      replay_command, minimise_command, promote_command, emit_test_command, upstream_report_command, import_command,
-          oss_fuzz_command, completion_command
-    }) {
->>>>>>> refs/helpers/emit
       add(make());
     }
     CLI::App* help = root_.add_subcommand("help", "print the manual of a command");

@@ -1,4 +1,4 @@
-#include "reports/triage/upstream_report.hpp"
+#include "reports/upstream/upstream_report.hpp"
 
 #include <fmt/format.h>
 

@@ -14,9 +14,9 @@
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/tests/program.hpp"
-#include "reports/triage/emit_test.hpp"
-#include "reports/triage/right_answers.hpp"
-#include "reports/triage/scene_picture.hpp"
+#include "reports/upstream/emit_test.hpp"
+#include "reports/upstream/right_answers.hpp"
+#include "reports/upstream/scene_picture.hpp"
 
 namespace nearmiss {
 namespace {

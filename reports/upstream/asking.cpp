@@ -1,4 +1,4 @@
-#include "reports/triage/asking.hpp"
+#include "reports/upstream/asking.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "reports/triage/emit_test.hpp"
+#include "reports/upstream/emit_test.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/version.hpp"
-#include "reports/triage/asking.hpp"
+#include "reports/upstream/asking.hpp"
 
 namespace nearmiss {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "reports/triage/asking.hpp"
+#include "reports/upstream/asking.hpp"
 
 namespace nearmiss {
 

@@ -4,7 +4,7 @@
 
 #include "corpus/errors.hpp"
 #include "impl/adapters/motion.hpp"
-#include "reports/triage/asking.hpp"
+#include "reports/upstream/asking.hpp"
 
 namespace nearmiss {
 

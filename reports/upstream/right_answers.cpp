@@ -1,4 +1,4 @@
-#include "reports/triage/right_answers.hpp"
+#include "reports/upstream/right_answers.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reports/findings/report.hpp"
-#include "reports/triage/right_answers.hpp"
+#include "reports/upstream/right_answers.hpp"
 
 namespace nearmiss {
 

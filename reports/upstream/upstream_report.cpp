@@ -1,4 +1,4 @@
-#include "reports/triage/upstream_report.hpp"
+#include "reports/upstream/upstream_report.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/version.hpp"
-#include "reports/triage/emit_test.hpp"
-#include "reports/triage/scene_picture.hpp"
+#include "reports/upstream/emit_test.hpp"
+#include "reports/upstream/scene_picture.hpp"
 
 namespace nearmiss {
 

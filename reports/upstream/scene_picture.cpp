@@ -1,4 +1,4 @@
-#include "reports/triage/scene_picture.hpp"
+#include "reports/upstream/scene_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "impl/adapters/motion.hpp"
-#include "reports/triage/scene.hpp"
+#include "reports/upstream/scene.hpp"
 
 namespace nearmiss {
 

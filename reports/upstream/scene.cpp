@@ -1,4 +1,4 @@
-#include "reports/triage/scene.hpp"
+#include "reports/upstream/scene.hpp"
 
 #include <algorithm>
 #include <stdexcept>

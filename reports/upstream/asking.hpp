@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "impl/subject/subject.hpp"
-#include "reports/triage/scene.hpp"
+#include "reports/upstream/scene.hpp"
 
 namespace nearmiss {
 

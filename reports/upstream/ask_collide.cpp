@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/triage/asking.hpp"
+#include "reports/upstream/asking.hpp"
 
 namespace nearmiss {
 
