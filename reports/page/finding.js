@@ -173,7 +173,7 @@ nearmiss.finding = (() => {
   /// The scale at which the inputs would have to move, in units of the scene.
   function movedBy(r) {
     const b = r.report.finding.backward, moved = b && b.moved ? b.moved.position : null;
-    return typeof moved === "number" ? moved / r.scene.unit : 0;
+    return typeof moved === "number" ? moved / 2 ** r.scene.unit_exponent : 0;
   }
   function show(newRow) {
     row = newRow;

@@ -43,7 +43,7 @@ nearmiss.numbers = (() => {
       else if (key.startsWith("on")) e.addEventListener(key.slice(2), v);
       else e.setAttribute(key, v === true ? "" : v);
     }
-    for (const child of children.flat()) if (child !== null && child !== undefined) e.append(child);
+    for (const child of children.flat(Infinity)) if (child !== null && child !== undefined) e.append(child);
     return e;
   }
   return {exact, about, raised, readable, count, percent, epsilons, plural, element};

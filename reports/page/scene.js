@@ -32,7 +32,7 @@ nearmiss.scene = (() => {
 
   class Picture {
     constructor(host, scene, texts) {
-      Object.assign(this, {host, scene, texts, at: 0, showGhosts: true});
+      Object.assign(this, {host, scene, texts, at: 0});
       this.canvas = rendererOrNull().domElement;
       this.canvas.setAttribute("role", "img");
       this.canvas.setAttribute("aria-label", texts.label);
@@ -56,7 +56,7 @@ nearmiss.scene = (() => {
     limits() {
       const s = this.scene, log = x => Math.log2(x);
       const start = s.motion ? Math.abs(s.motion.start) : 0;
-      this.fit = log(1.25 / Math.max(s.reach, 0.7 * Math.min(start, 4 * s.reach), 1e-300));  // with the start where it is near
+      this.fit = log(1.45 / Math.max(s.reach, 0.7 * Math.min(start, 4 * s.reach), 1e-300));  // with the start where it is near
       this.least = Math.min(this.fit, log(0.9 / Math.max(start, s.reach, 1e-300))) - 1;
       this.most = Math.max(log(0.35 / s.ulp), this.fit) + 2;
       const apart = this.disagreement();
@@ -267,7 +267,9 @@ nearmiss.scene = (() => {
     /// A length of the picture at the contact, in the scene's unit and in ulps.
     tellScale() {
       const pixels = this.size[1] / (2 * Math.tan(this.camera.fov * Math.PI / 360) * this.camera.position.distanceTo(this.controls.target));
-      const real = 90 / pixels / this.zoom, nice = 10 ** Math.floor(Math.log10(real * this.scene.unit)), wide = nice / this.scene.unit;
+      const unit = 2 ** this.scene.unit_exponent, real = 90 / pixels / this.zoom;
+      this.bar.hidden = !(unit > 0 && unit < Infinity);
+      const nice = 10 ** Math.floor(Math.log10(real * unit)), wide = nice / unit;
       const fits = [5, 2, 1].find(k => k * wide <= real) || 1, ulps = fits * wide / this.scene.ulp;
       this.bar.firstChild.style.width = `${fits * wide * this.zoom * pixels}px`;
       this.barText.textContent = `${about(fits * nice)}${ulps < 1e6 ? ` = ${about(ulps)} ulp` : ""}`;

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Opens the page that `nearmiss render` writes in Chromium, and uses it as a person does.
 
-  reports/tests/page_test.py --build FOLDER [--images FOLDER]
+  reports/tests/page_test.py --build FOLDER                      tests the page of a build
+  reports/tests/page_test.py --build FOLDER --images docs/images  writes the pictures of the documentation instead
 
-Exit code 77: Chromium, its driver or python3-selenium is not installed, or the build writes no pages. With --images the
-pictures of docs/images are written instead. The programs and the folder are those of a build.
+Exit code 77: Chromium, its driver or python3-selenium is not installed, or the build writes no pages.
 """
 
 import argparse
@@ -177,7 +177,7 @@ class Page(unittest.TestCase):
                 self.browser.run("nearmiss.scene.level(arguments[0])", level)
                 drawn, colours = self.browser.run(COUNT_PIXELS)
                 self.assertGreater(drawn, 100, f"{query}, {level}")
-                self.assertGreater(colours, 1, f"{query}, {level}")
+                self.assertTrue(colours > 1 or level == "ulp", f"{query}, {level}")
 
     def test_draws_nothing_without_shapes(self):
         """The count of pixels tells a picture from none."""
@@ -328,5 +328,39 @@ class Page(unittest.TestCase):
             self.assertGreater(self.browser.run(COUNT_PIXELS)[0], 100)
 
 
+def write_images(folder):
+    """The pictures of docs/images, from findings of the libraries."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as name:
+        nearmiss("run", "-s", "fcl", "-s", "bullet", "--cases", 5000, "--seed", 1, "--out", f"{name}/night", codes=(0, 1))
+        nearmiss("render", f"{name}/night", "--seconds", 120)
+        browser = Browser()
+        browser.open(f"{name}/night/index.html")
+
+        def select(subject, query, fault):
+            browser.run("""
+              const wanted = [...arguments], is = r => ['subject', 'query', 'fault'].every((c, i) => nearmiss.data.value(r, c) === wanted[i]);
+              nearmiss.table.select(nearmiss.table.rows().findIndex(is));""", subject, query, fault)
+
+        def keep(image):
+            time.sleep(0.5)
+            (folder / f"{image}.png").write_bytes(browser.screenshot())
+            print(f"{image}.png: {(folder / (image + '.png')).stat().st_size / 1000:.0f} kB")
+
+        select("bullet", "moving_sphere_capsule", "wrong time")
+        keep("page")
+        select("fcl", "moving_sphere_box", "false miss")
+        browser.run("nearmiss.scene.level('ulp')")
+        browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        keep("page-ulp")
+        browser.cdp("Emulation.setEmulatedMedia", features=[])
+        browser.run("document.querySelector('.plots').parentElement.scrollIntoView()")
+        keep("page-plots")
+        browser.driver.quit()
+
+
 if __name__ == "__main__":
+    if OPTIONS.images:
+        write_images(OPTIONS.images)
+        sys.exit(0)
     unittest.main(argv=[sys.argv[0], "-v"])

@@ -33,13 +33,18 @@ Json read_object(const fs::path& file) {
 bool is_run(const fs::path& folder) { return fs::exists(folder / "index.json"); }
 
 /// The member, or null.
-Json member_of(const Json& j, const char* name) { return j.is_object() && j.contains(name) ? j.at(name) : Json(); }
+const Json& member_of(const Json& j, const char* name) {
+  static const Json none;
+  if (!j.is_object()) return none;
+  const auto at = j.find(name);
+  return at == j.end() ? none : *at;
+}
 std::string text_of_member(const Json& j, const char* name) {
-  const Json m = member_of(j, name);
+  const Json& m = member_of(j, name);
   return m.is_string() ? m.get<std::string>() : "";
 }
 double number_of_member(const Json& j, const char* name) {
-  const Json m = member_of(j, name);
+  const Json& m = member_of(j, name);
   return m.is_number() ? m.get<double>() : 0;
 }
 
@@ -81,7 +86,7 @@ KindOfFinding kind_in_index(const Json& report) {
 std::map<KindOfFinding, std::string> changes_in(const Json& index) {
   std::map<KindOfFinding, std::string> changes;
   for (const char* whose : {"ours", "others"}) {
-    const Json kinds = member_of(member_of(index, "night"), whose);
+    const Json& kinds = member_of(member_of(index, "night"), whose);
     for (const char* change : {"new", "worse", "known", "fixed"}) {
       for (const Json& report : member_of(kinds, change)) changes[kind_in_index(report)] = change;
     }
@@ -133,7 +138,7 @@ std::vector<Json> signatures_in_index(const Json& index) {
 Json night_of(const fs::path& run, const Json& index) {
   std::map<std::string, double> wrong;
   for (const Json& t : member_of(index, "tallies")) {
-    const Json verdicts = member_of(t, "verdicts");
+    const Json& verdicts = member_of(t, "verdicts");
     wrong[text_of_member(t, "subject")] += number_of_member(verdicts, "violates contract") +
                                            number_of_member(verdicts, "differs by more than the measure") +
                                            number_of_member(verdicts, "broke");
@@ -185,7 +190,7 @@ Json row_of(const Json& s, PageWords& words) {
   for (const char* c : word_columns) row.push_back(words.index_of(member_of(s, c)));
   row.push_back(words.index_of(member_of(member_of(s, "cause"), "kind")));
   row.push_back(words.index_of(member_of(member_of(s, "cause"), "text")));
-  const Json decision = member_of(s, "decision");
+  const Json& decision = member_of(s, "decision");
   row.push_back(member_of(decision, "reopened") == true ? words.index_of("reopened")
                                                         : words.index_of(member_of(decision, "kind")));
   for (const char* c : plain_columns) row.push_back(member_of(s, c));
@@ -200,7 +205,7 @@ Json details_of(const Json& s) {
          {"decision", member_of(s, "decision")},
          {"test", member_of(s, "test")},
          {"files", Json::array()}};
-  const Json files = member_of(s, "reports");
+  const Json& files = member_of(s, "reports");
   for (std::size_t i = 0; files.is_array() && i < std::min(files.size(), most_reports); ++i)
     d["files"].push_back(files[i]);
   return d;
@@ -234,7 +239,7 @@ PageData::PageData(fs::path folder) : folder_(std::move(folder)), run_(folder_) 
 
 void PageData::read_triage(const fs::path& file) {
   const Json j = read_object(file);
-  const Json list = member_of(j, "signatures");
+  const Json& list = member_of(j, "signatures");
   if (number_of_member(j, "schema") != 1 || !list.is_array())
     throw BadInput(fmt::format("{}: it is not a triage of schema 1", file.string()));
   for (const Json& s : list) {
@@ -246,7 +251,7 @@ void PageData::read_triage(const fs::path& file) {
               {"sources", member_of(j, "sources")},
               {"environment", member_of(j, "environment")}};
   if (is_run(folder_)) summary_["run"] = read_object(folder_ / "index.json");
-  const Json skipped = member_of(j, "skipped");
+  const Json& skipped = member_of(j, "skipped");
   if (skipped.is_array()) skipped_ = skipped;
 }
 

@@ -121,12 +121,9 @@ class ScenePicture {
   }
 
   Json to_json() const {
-    Json j{{"scalar", name_of(question_.scalar)},
-           {"anchor", Json::array({anchor_[0], anchor_[1], anchor_[2]})},
-           {"unit", unit_.convert_to<double>()},
-           {"ulp", (ulp_at_anchor() / unit_).convert_to<double>()},
-           {"reach", (reach_ / unit_).convert_to<double>()},
-           {"shapes", Json::array()}};
+    Json j{{"scalar", name_of(question_.scalar)}, {"anchor", Json::array({anchor_[0], anchor_[1], anchor_[2]})},
+           {"unit_exponent", unit_exponent_},     {"ulp", rounded(ulp_at_anchor() / unit_)},
+           {"reach", rounded(reach_ / unit_)},    {"shapes", Json::array()}};
     for (const SceneShape& s : inputs_.shapes) j["shapes"].push_back(shape_to_json(s, unit_));
     j["motion"] = motion();
     j["contacts"] = Json::array();
@@ -232,7 +229,8 @@ class ScenePicture {
     SceneReal all = reach_;
     if (inputs_.velocity) all = std::max<SceneReal>(all, length(*inputs_.velocity) * time_);
     if (all == 0) all = ulp_at_anchor();
-    unit_ = ldexp(SceneReal(1), ilogb(all) + 1);
+    unit_exponent_ = int(ilogb(all)) + 1;
+    unit_ = ldexp(SceneReal(1), unit_exponent_);
     if (reach_ == 0) reach_ = all;
   }
 
@@ -250,10 +248,10 @@ class ScenePicture {
   Json motion() const {
     if (!inputs_.velocity || moving() == nullptr) return nullptr;
     const SceneReal speed = length(*inputs_.velocity);
-    const auto distance = [&](const SceneReal& t) { return ((t - time_) * speed / unit_).convert_to<double>(); };
+    const auto distance = [&](const SceneReal& t) { return rounded((t - time_) * speed / unit_); };
     Json j{{"along", vector_to_json(unit(*inputs_.velocity))},
-           {"time", time_.convert_to<double>()},
-           {"time_per_unit", speed == 0 ? 0.0 : SceneReal(unit_ / speed).convert_to<double>()},
+           {"time", rounded(time_)},
+           {"time_per_unit", speed == 0 ? 0.0 : rounded(unit_ / speed)},
            {"start", distance(0)},
            {"limit", inputs_.time ? Json(distance(*inputs_.time)) : Json(nullptr)},
            {"true", nullptr},
@@ -293,6 +291,7 @@ class ScenePicture {
   SceneContact claimed_;
   std::vector<SceneContact> true_;
   SceneReal time_ = 0, unit_ = 1, reach_ = 0;
+  int unit_exponent_ = 0;
   std::array<double, 3> anchor_{};
 };
 

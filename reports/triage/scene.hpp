@@ -14,10 +14,10 @@ namespace nearmiss {
 /// The velocity moves the shape that stands before it.
 ///
 /// All coordinates are relative to `anchor`, a point of the subject's scalar at or near the true contact, and divided
-/// by `unit`, a power of two that is about as large as the scene. Each number is computed with 512 bits and rounded
-/// once, so its relative error is at most 2^-53 however small it is: a picture stays still at every zoom. What is
-/// curved or flat is given by signed distances from the anchor for the same reason: the faces of a box as n . x <= d, a
-/// sphere by |center| - radius. A moving shape stands where it is at the time `motion.time`.
+/// by 2^unit_exponent, which is about as large as the scene. Each number is computed with 512 bits and rounded once, so
+/// even a distance far below an ulp of the coordinates has the digits of a double: a picture stays still at every zoom.
+/// What is curved or flat is given by signed distances from the anchor for the same reason: the faces of a box as n . x
+/// <= d, a sphere by |center| - radius. A moving shape stands where it is at the time `motion.time`.
 ///
 /// Positions of the true contact are enclosures, given by their middle and half their width.
 nlohmann::ordered_json scene_of(const Case& question, const nlohmann::json& report);

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 namespace nearmiss {
+
+double rounded(const SceneReal& x) {
+  constexpr double most = std::numeric_limits<double>::max();
+  return std::clamp(x.convert_to<double>(), -most, most);
+}
 
 SceneReal dot(const SceneVector& a, const SceneVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SceneVector cross(const SceneVector& a, const SceneVector& b) {
@@ -174,8 +180,6 @@ SceneVector nearest_in_box(const SceneVector& p, const SceneShape& box) {
 }
 
 // --- writing -------------------------------------------------------------------------------------------------------
-
-double rounded(const SceneReal& x) { return x.convert_to<double>(); }
 
 /// The line that carries a shape: its point nearest to the origin, the unit direction, and where the shape begins and
 /// ends on it; null: it does not end.

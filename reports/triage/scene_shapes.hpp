@@ -19,6 +19,9 @@ using SceneReal =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<512, boost::multiprecision::digit_base_2>,
                                   boost::multiprecision::et_off>;
 
+/// The nearest double; the largest one for a number beyond it, because JSON has no infinity.
+double rounded(const SceneReal& x);
+
 struct SceneVector {
   SceneReal x = 0, y = 0, z = 0;
 
