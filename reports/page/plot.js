@@ -22,7 +22,7 @@ nearmiss.plot = (() => {
   }
 
   function draw(plot, ownText, plainly) {
-    const width = 330, height = 104, left = 28, right = 8, top = 8, bottom = 20;
+    const width = 330, height = 104, left = 28, right = 12, top = 8, bottom = 20;
     const least = Math.min(...plot.samples.filter(s => s[0] !== 0).map(s => Math.log2(Math.abs(s[0]) / plot.scale)));
     const place = change => (change === 0 ? 0 : Math.sign(change) * (Math.log2(Math.abs(change) / plot.scale) - least + 3));
     const reach = Math.max(...plot.samples.map(s => Math.abs(place(s[0]))));

@@ -40,6 +40,15 @@ nearmiss.shapes = (() => {
     }
   }
 
+  /// Lines in a plane, which show its slope where none of its edges is in sight.
+  function mesh(drawing, foot, t, s, size, steps) {
+    for (let i = 0; i <= steps; ++i) {
+      const u = size * (2 * i / steps - 1);
+      drawing.line(add(add(foot, t, u), s, -size), add(add(foot, t, u), s, size));
+      drawing.line(add(add(foot, s, u), t, -size), add(add(foot, s, u), t, size));
+    }
+  }
+
   /// The part of the plane n . x = d within half-spaces m . x <= e. An edge on a half-space's border becomes a line.
   function flat(drawing, n, d, halfSpaces, size = far) {
     if (!(Math.abs(d) < size * 1.5)) return;
@@ -60,6 +69,7 @@ nearmiss.shapes = (() => {
     }
     for (let i = 2; i < polygon.length; ++i) drawing.triangle(polygon[0].at, polygon[i - 1].at, polygon[i].at);
     polygon.forEach((p, i) => { if (p.border) drawing.line(p.at, polygon[(i + 1) % polygon.length].at); });
+    if (!polygon.some(p => p.border)) mesh(drawing, foot, t, s, size, 10);
   }
 
   function moved(face, by) { return {n: face.n, d: face.d + dot(face.n, by)}; }
@@ -164,14 +174,8 @@ nearmiss.shapes = (() => {
   function draw(shape, by, zoom) {
     const d = new Drawing();
     if (shape.plane) {
-      const face = scaled(moved(shape.plane, by), zoom), extent = 2.4;
+      const face = scaled(moved(shape.plane, by), zoom), extent = 2.4;  // of a plane a piece is drawn
       flat(d, face.n, face.d, [], extent);
-      const [t, s] = tangents(face.n), foot = times(face.n, face.d), steps = 8;
-      for (let i = 0; i <= steps && Math.abs(face.d) < extent * 1.5; ++i) {
-        const u = extent * (2 * i / steps - 1);
-        d.line(add(add(foot, t, u), s, -extent), add(add(foot, t, u), s, extent));
-        d.line(add(add(foot, s, u), t, -extent), add(add(foot, s, u), t, extent));
-      }
     } else if (shape.faces) {
       box(d, shape, by, zoom);
     } else if (shape.pieces) {

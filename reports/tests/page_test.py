@@ -120,7 +120,7 @@ class Browser:
         return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
 
     def screenshot(self):
-        return base64.b64decode(self.cdp("Page.captureScreenshot")["data"])
+        return base64.b64decode(self.cdp("Page.captureScreenshot", format="webp", quality=88)["data"])
 
 
 # How many pixels of the picture have a colour, and how many colours there are.
@@ -344,10 +344,10 @@ def write_images(folder):
 
         def keep(image):
             time.sleep(0.5)
-            (folder / f"{image}.png").write_bytes(browser.screenshot())
-            print(f"{image}.png: {(folder / (image + '.png')).stat().st_size / 1000:.0f} kB")
+            (folder / f"{image}.webp").write_bytes(browser.screenshot())
+            print(f"{image}.webp: {(folder / (image + '.webp')).stat().st_size / 1000:.0f} kB")
 
-        select("bullet", "moving_sphere_capsule", "wrong time")
+        select("bullet", "box_box_penetration", "wrong normal")
         keep("page")
         select("fcl", "moving_sphere_box", "false miss")
         browser.run("nearmiss.scene.level('ulp')")
