@@ -12,6 +12,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
 #include "corpus/source_folder.hpp"
+#include "reports/engine/html.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
@@ -84,21 +85,8 @@ bool begun(const ExtremesMap& m) {
   });
 }
 
-/// Replaces the first `mark` in the template by `text`.
-[[maybe_unused]] void put(std::string& page, std::string_view mark, std::string_view text) {
-  const std::size_t at = page.find(mark);
-  if (at == std::string::npos) throw std::logic_error(fmt::format("extremes.html has no {}", mark));
-  page.replace(at, mark.size(), text);
-}
-
 /// The report as JSON text. Bytes that are not UTF-8, for example in an argument, become U+FFFD.
 std::string text_of(const Json& report) { return report.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-/// Escapes "</", so that the text cannot end the script element around it.
-[[maybe_unused]] std::string for_a_script(std::string text) {
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
-  return text;
-}
 
 }  // namespace
 
@@ -221,8 +209,8 @@ nlohmann::ordered_json Extremes::to_json() const {
 std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) {
 #ifdef NEARMISS_D3_FILE
   std::string page = read_file(source_folder() + "/reports/extremes.html");
-  put(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
-  put(page, "/*DATA*/", for_a_script(text_of(report)));
+  put_in_page(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
+  put_in_page(page, "/*DATA*/", for_a_script(text_of(report)));
   return page;
 #else
   (void)report;

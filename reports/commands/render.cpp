@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "corpus/codec.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/progress.hpp"
+#include "reports/findings/text.hpp"
+#include "reports/page/page.hpp"
+#include "reports/page/page_data.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+class RenderCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {
+        "render",
+        "write a page of the findings, with pictures",
+        {"FOLDER holds a triage, a run, or several runs. The page is one HTML file that needs no network: a table of "
+         "the "
+         "signatures, and for each of them the picture of its scene down to the last bit, the error as a function of "
+         "each number, what plays no part, the cause with its evidence, the referees, and the command that replays it.",
+         "With triage.json in FOLDER, the page shows that triage. Without it the page shows the run in FOLDER, with "
+         "one "
+         "row for each query, subject and fault, or the newest run among its subfolders. Several runs in subfolders "
+         "make a trend.",
+         "For the plots the subject of each shown report is asked again with each number moved, the most severe "
+         "first, for at most --seconds. Reports are added in the same order until the page has 18 MB; the table has "
+         "all of them."},
+        {{"0", "The page is written. A report that cannot be read is named in it."},
+         {"2",
+          "The folder holds no findings, the page cannot be written, or this build lacks node-d3 or libjs-three."}},
+        {{"nearmiss render reports/runs/nightly", "Writes index.html there."},
+         {"nearmiss render reports/runs --out page.html", "The newest run, with the trend of all."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FOLDER", folder_, "A folder with triage.json, with index.json, or of such folders")
+        ->required()
+        ->type_name("");
+    declare_foreign_subjects(app);
+    app.add_option("--out", out_, "The page. Default: index.html in FOLDER")->type_name("FILE");
+    app.add_option("--seconds", seconds_, "The most time to ask subjects for the plots; 0: no plots. Default: 60")
+        ->type_name("S")
+        ->check(number_from(0, 1e6));
+  }
+  int run(const CLI::App&) override {
+    check_page_can_be_written();  // before the work
+    catch_interrupts();
+    PageData data(folder_);
+    add_reports(data);
+    const fs::path file = out_.empty() ? fs::path(folder_) / "index.html" : fs::path(out_);
+    write_file(file, page_with(data.to_json()));
+    fmt::print("{} in {} ({:.1f} MB)\n", plural_text(data.signatures(), "signature"), file.string(),
+               double(fs::file_size(file)) / 1e6);
+    return 0;
+  }
+
+ private:
+  void add_reports(PageData& data) {
+    Workers workers([] { return !interrupted(); });
+    Progress progress;
+    progress.set_activity("reading reports");
+    const Clock::time_point until =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds_));
+    const auto has_time = [&] { return !interrupted() && Clock::now() < until; };
+    data.add_reports(most_page_data, workers, has_time, [&](std::size_t done) {
+      progress.show(done, data.signatures(), std::nullopt, 0);
+      return !interrupted();
+    });
+  }
+
+  std::string folder_, out_;
+  double seconds_ = 60;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> render_command() { return std::make_unique<RenderCommand>(); }
+
+}  // namespace nearmiss

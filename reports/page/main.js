@@ -1,0 +1,77 @@
+"use strict";
+/// The head of the page, the keys, and the switch between light and dark.
+(() => {
+  const {data, table, finding, scene} = nearmiss, {element, count, plural} = nearmiss.numbers;
+  const {summary} = data.raw, totals = summary.totals || {}, run = summary.run || {};
+
+  // --- head ---
+  document.title = `Nearmiss: ${data.raw.name}`;
+  document.getElementById("run").textContent = [data.raw.name, run.started ? run.started.replace("T", " ").replace(/:\d\dZ$/, " UTC") : null,
+    summary.environment ? `nearmiss ${summary.environment.nearmiss}` : null].filter(Boolean).join(" · ");
+  const changed = name => Array.from({length: data.count}, (_, r) => data.value(r, "change")).filter(c => c === name).length;
+  const change = name => totals[name] ?? changed(name);
+  const regressions = [[change("new"), "new"], [change("worse"), "worse"], [totals.reopened || 0, "reopened"]].filter(([n]) => n > 0);
+  const anyChange = regressions.length > 0 || change("known") > 0 || change("fixed") > 0;
+  const verdict = regressions.length ? `${regressions.map(([n, w]) => `${count(n)} ${w}`).join(", ")}` : anyChange ? "Nothing new" : plural(data.count, "signature");
+  document.getElementById("verdict").append(element("b", {class: regressions.length ? "bad" : null}, verdict),
+    anyChange ? ` of ${plural(data.count, "signature")}` : "");
+
+  const total = (name, n) => (typeof n === "number" ? element("div", {}, element("dt", {}, name), element("dd", {}, count(n))) : null);
+  document.getElementById("totals").append(...[total("answers", run.cases), total("findings", totals.findings), total("reports", totals.reports),
+    total("known", anyChange ? change("known") : null), total("fixed", anyChange ? change("fixed") : null)].filter(Boolean));
+  const trend = nearmiss.trend.draw(data.raw.trend);
+  if (trend) document.getElementById("trend").append(trend);
+  const notes = [];
+  for (const link of data.raw.extremes) notes.push(element("a", {href: link}, "maps of extremes"));
+  if (data.raw.skipped.length) {
+    notes.push(element("details", {}, element("summary", {}, `${plural(data.raw.skipped.length, "file")} skipped`),
+      element("ul", {}, data.raw.skipped.map(s => element("li", {}, `${s.file}: ${s.why}`)))));
+  }
+  if (notes.length) document.getElementById("verdict").after(element("p", {class: "notes"}, notes));
+
+  // --- light and dark ---
+  const root = document.documentElement;
+  const isDark = () => (root.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
+  function setTheme(theme) {
+    root.dataset.theme = theme;
+    try { localStorage.setItem("nearmiss-theme", theme); } catch (e) { /* a page of a file may have no storage */ }
+    scene.redraw();
+  }
+  try { if (localStorage.getItem("nearmiss-theme")) root.dataset.theme = localStorage.getItem("nearmiss-theme"); } catch (e) { /* as above */ }
+  const switchTheme = () => setTheme(isDark() ? "light" : "dark");
+  document.getElementById("theme").addEventListener("click", switchTheme);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => scene.redraw());
+
+  // --- keys ---
+  const keys = document.getElementById("keys"), filter = document.getElementById("filter");
+  document.getElementById("help").addEventListener("click", () => keys.showModal());
+  const actions = {
+    j: () => table.step(1), k: () => table.step(-1), ArrowDown: () => table.step(1), ArrowUp: () => table.step(-1),
+    Enter: () => finding.focus(), "/": () => { filter.focus(); filter.select(); }, "?": () => keys.showModal(),
+    w: () => finding.choose("worst"), s: () => finding.choose("simplest"), c: () => finding.copyReplay(), t: switchTheme,
+    1: () => scene.level("scene"), 2: () => scene.level("disagreement"), 3: () => scene.level("ulp"), Escape: () => table.focus(),
+  };
+  document.addEventListener("keydown", e => {
+    if (keys.open || e.ctrlKey || e.metaKey || e.altKey) return;
+    const inField = e.target.matches("input[type=search], textarea");
+    if (inField && e.key !== "Escape" && e.key !== "Enter") return;
+    if (inField && e.key === "Enter") { e.preventDefault(); table.select(0); table.focus(); return; }
+    const isArrow = e.key.startsWith("Arrow");
+    if (isArrow && !e.target.closest("#table")) return;
+    if (e.key === "Enter" && e.target.matches("button, a, summary")) return;
+    const action = actions[e.key];
+    if (!action) return;
+    e.preventDefault();
+    action();
+  });
+
+  // --- the selected signature is in the address ---
+  table.begin(row => {
+    finding.show(row);
+    history.replaceState(null, "", `#${data.value(row, "id")}`);
+  });
+  const wanted = location.hash.slice(1);
+  const at = table.rows().findIndex(row => data.value(row, "id") === wanted);
+  if (data.count > 0) table.select(Math.max(0, at));
+  else document.getElementById("finding").append(element("p", {class: "note"}, "Nothing was found."));
+})();

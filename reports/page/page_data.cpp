@@ -1,0 +1,379 @@
+#include "reports/page/page_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "corpus/codec.hpp"
+#include "corpus/errors.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/engine/run_folder.hpp"
+#include "reports/findings/hash.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/page/error_plot.hpp"
+#include "reports/page/scene.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// An object whose form nobody has checked. Throws BadInput.
+Json read_object(const fs::path& file) {
+  Json j = Json::parse(read_file(file), nullptr, false);
+  if (!j.is_object()) throw BadInput(fmt::format("{}: it is not a JSON object", file.string()));
+  return j;
+}
+
+bool is_run(const fs::path& folder) { return fs::exists(folder / "index.json"); }
+
+/// The member, or null.
+const Json& member_of(const Json& j, const char* name) {
+  static const Json none;
+  if (!j.is_object()) return none;
+  const auto at = j.find(name);
+  return at == j.end() ? none : *at;
+}
+std::string text_of_member(const Json& j, const char* name) {
+  const Json& m = member_of(j, name);
+  return m.is_string() ? m.get<std::string>() : "";
+}
+double number_of_member(const Json& j, const char* name) {
+  const Json& m = member_of(j, name);
+  return m.is_number() ? m.get<double>() : 0;
+}
+
+// --- a run without a triage ------------------------------------------------------------------------------------------
+
+/// The words for the fault of a report in an index.
+std::string fault_in_index(const Json& report) {
+  const std::string breakage = text_of_member(report, "breakage");
+  return breakage.empty() ? text_of_member(report, "disagreement") : breakage;
+}
+
+/// A wrong decision or a breakage is above every wrong number; among its like the proved bound decides.
+double severity_of(const Json& report) {
+  const std::string d = text_of_member(report, "disagreement");
+  const bool is_grave =
+      text_of_member(report, "verdict") == "broke" || d == "false miss" || d == "false hit" || d == "not finite";
+  const double above = number_of_member(report, "backward_above_epsilon");
+  return (is_grave ? 100 : 0) + std::log2(1 + std::max(0.0, above));
+}
+
+/// How many findings of this kind the run counted.
+Json counted_in(const Json& index, const Json& report) {
+  for (const Json& t : member_of(index, "tallies")) {
+    if (member_of(t, "query") != report.at("query") || member_of(t, "subject") != report.at("subject")) continue;
+    const std::string breakage = text_of_member(report, "breakage");
+    if (!breakage.empty()) return member_of(member_of(t, "breakages"), breakage.c_str());
+    const std::string d = text_of_member(report, "disagreement");
+    return member_of(member_of(member_of(t, "disagreements"), d.c_str()), "violations");
+  }
+  return nullptr;
+}
+
+using KindOfFinding = std::tuple<std::string, std::string, std::string>;
+KindOfFinding kind_in_index(const Json& report) {
+  return {text_of_member(report, "query"), text_of_member(report, "subject"), fault_in_index(report)};
+}
+
+/// What a night says about each kind: "new", "worse", "known" or "fixed".
+std::map<KindOfFinding, std::string> changes_in(const Json& index) {
+  std::map<KindOfFinding, std::string> changes;
+  for (const char* whose : {"ours", "others"}) {
+    const Json& kinds = member_of(member_of(index, "night"), whose);
+    for (const char* change : {"new", "worse", "known", "fixed"}) {
+      for (const Json& report : member_of(kinds, change)) changes[kind_in_index(report)] = change;
+    }
+  }
+  return changes;
+}
+
+Json signature_in_index(const Json& index, const KindOfFinding& kind, const std::vector<const Json*>& reports) {
+  const Json& worst = **std::max_element(
+      reports.begin(), reports.end(), [](const Json* a, const Json* b) { return severity_of(*a) < severity_of(*b); });
+  Fnv1a hash;
+  for (const std::string& word : {std::get<0>(kind), std::get<1>(kind), std::get<2>(kind)}) hash.add(word);
+  const std::string file = text_of_member(worst, "file");
+  Json s{{"id", hash.id()},
+         {"query", std::get<0>(kind)},
+         {"subject", std::get<1>(kind)},
+         {"fault", std::get<2>(kind)},
+         {"severity", severity_of(worst)},
+         {"count", reports.size()},
+         {"findings", counted_in(index, worst)},
+         {"headline", text_of_member(worst, "headline")},
+         {"above_epsilon", member_of(worst, "backward_above_epsilon")},
+         {"worst", file},
+         {"simplest", file},
+         {"reports", Json::array()}};
+  for (const Json* r : reports) s["reports"].push_back(text_of_member(*r, "file"));
+  return s;
+}
+
+std::vector<Json> signatures_in_index(const Json& index) {
+  const std::map<KindOfFinding, std::string> changes = changes_in(index);
+  std::map<KindOfFinding, std::vector<const Json*>> kinds;
+  const auto reports = index.find("reports");
+  if (reports != index.end()) {
+    for (const Json& r : *reports) kinds[kind_in_index(r)].push_back(&r);
+  }
+  std::vector<Json> signatures;
+  for (const auto& [kind, list] : kinds) {
+    signatures.push_back(signature_in_index(index, kind, list));
+    const auto change = changes.find(kind);
+    signatures.back()["change"] = change == changes.end() ? Json(nullptr) : Json(change->second);
+  }
+  return signatures;
+}
+
+// --- the trend -------------------------------------------------------------------------------------------------------
+
+/// One night: what each subject was asked, and how often it was wrong.
+Json night_of(const fs::path& run, const Json& index) {
+  std::map<std::string, double> wrong;
+  for (const Json& t : member_of(index, "tallies")) {
+    const Json& verdicts = member_of(t, "verdicts");
+    wrong[text_of_member(t, "subject")] += number_of_member(verdicts, "violates contract") +
+                                           number_of_member(verdicts, "differs by more than the measure") +
+                                           number_of_member(verdicts, "broke");
+  }
+  return {{"run", run.filename().string()},
+          {"started", text_of_member(index, "started")},
+          {"cases", number_of_member(index, "cases")},
+          {"findings", number_of_member(index, "findings")},
+          {"subjects", wrong}};
+}
+
+// --- compact rows ----------------------------------------------------------------------------------------------------
+
+/// Numbers for words, so that a word of many rows is written once.
+class PageWords {
+ public:
+  Json index_of(const Json& word) {
+    if (!word.is_string()) return nullptr;
+    const auto [at, is_new] = indices_.try_emplace(word.get<std::string>(), indices_.size());
+    if (is_new) words_.push_back(word);
+    return at->second;
+  }
+  const Json& words() const { return words_; }
+
+ private:
+  std::map<std::string, std::size_t> indices_;
+  Json words_ = Json::array();
+};
+
+constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",        "fault",
+                                        "member", "clause",  "change",  "severity_text", "headline"};
+constexpr const char* plain_columns[] = {"id",      "severity", "count", "findings", "ordinary_share", "above_epsilon",
+                                         "relative"};
+
+/// Further rows have no headline of their own: 100,000 of them would be most of the page.
+constexpr std::size_t most_headlines = 20'000;
+constexpr std::size_t headline_column = std::size(word_columns) - 1;
+
+Json columns_of_rows() {
+  Json columns = Json::array();
+  for (const char* c : word_columns) columns.push_back(c);
+  for (const char* c : {"cause", "cause_text", "decision"}) columns.push_back(c);
+  for (const char* c : plain_columns) columns.push_back(c);
+  return columns;
+}
+
+Json row_of(const Json& s, PageWords& words) {
+  Json row = Json::array();
+  for (const char* c : word_columns) row.push_back(words.index_of(member_of(s, c)));
+  row.push_back(words.index_of(member_of(member_of(s, "cause"), "kind")));
+  row.push_back(words.index_of(member_of(member_of(s, "cause"), "text")));
+  const Json& decision = member_of(s, "decision");
+  row.push_back(member_of(decision, "reopened") == true ? words.index_of("reopened")
+                                                        : words.index_of(member_of(decision, "kind")));
+  for (const char* c : plain_columns) row.push_back(member_of(s, c));
+  return row;
+}
+
+/// The rest of a signature, for those whose reports are in the page.
+Json details_of(const Json& s) {
+  constexpr std::size_t most_reports = 20;
+  Json d{{"cause", member_of(s, "cause")},
+         {"regions", member_of(s, "regions")},
+         {"decision", member_of(s, "decision")},
+         {"test", member_of(s, "test")},
+         {"files", Json::array()}};
+  const Json& files = member_of(s, "reports");
+  for (std::size_t i = 0; files.is_array() && i < std::min(files.size(), most_reports); ++i)
+    d["files"].push_back(files[i]);
+  return d;
+}
+
+/// The regressions of the night come first.
+int rank_of(const Json& s) {
+  if (member_of(member_of(s, "decision"), "reopened") == true) return 0;
+  const std::string change = text_of_member(s, "change");
+  return change == "worse" ? 1 : change == "new" ? 2 : change == "fixed" ? 4 : 3;
+}
+
+}  // namespace
+
+PageData::PageData(fs::path folder) : folder_(std::move(folder)), run_(folder_) {
+  if (!fs::is_directory(folder_)) throw BadInput(fmt::format("{}: it is not a folder", folder_.string()));
+  settle_run(folder_);
+  settle_runs_below(folder_);
+  read_trend();
+  if (fs::exists(folder_ / "triage.json")) {
+    read_triage(folder_ / "triage.json");
+  } else if (is_run(folder_)) {
+    read_run(folder_);
+  } else if (!trend_.empty()) {
+    read_run(folder_ / text_of_member(trend_.back(), "run"));
+  } else {
+    throw BadInput(fmt::format("{}: it holds neither triage.json nor a run's index.json", folder_.string()));
+  }
+  sort_signatures();
+}
+
+void PageData::read_triage(const fs::path& file) {
+  const Json j = read_object(file);
+  const Json& list = member_of(j, "signatures");
+  if (number_of_member(j, "schema") != 1 || !list.is_array())
+    throw BadInput(fmt::format("{}: it is not a triage of schema 1", file.string()));
+  for (const Json& s : list) {
+    if (!s.is_object()) throw BadInput(fmt::format("{}: a signature is not an object", file.string()));
+    signatures_.push_back(s);
+  }
+  summary_ = {{"kind", "triage"},
+              {"totals", member_of(j, "totals")},
+              {"sources", member_of(j, "sources")},
+              {"environment", member_of(j, "environment")}};
+  if (is_run(folder_)) summary_["run"] = read_object(folder_ / "index.json");
+  const Json& skipped = member_of(j, "skipped");
+  if (skipped.is_array()) skipped_ = skipped;
+}
+
+void PageData::read_run(const fs::path& run) {
+  run_ = run;
+  Json index = read_object(run / "index.json");
+  if (number_of_member(index, "schema") != 2)
+    throw BadInput(fmt::format("{}: it is not the index of a run, version 2", (run / "index.json").string()));
+  signatures_ = signatures_in_index(index);
+  std::uint64_t reports = 0;
+  for (const Json& s : signatures_) reports += s.at("count").get<std::uint64_t>();
+  summary_ = {{"kind", "run"},
+              {"totals",
+               {{"signatures", signatures_.size()}, {"reports", reports}, {"findings", member_of(index, "findings")}}},
+              {"environment", member_of(index, "environment")},
+              {"run", index}};
+}
+
+void PageData::read_trend() {
+  std::vector<Json> nights;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (!entry.is_directory() || !is_run(entry.path())) continue;
+    const Json index = Json::parse(read_file(entry.path() / "index.json"), nullptr, false);
+    if (index.is_object() && number_of_member(index, "schema") == 2) {
+      nights.push_back(night_of(entry.path(), index));
+    } else {
+      skipped_.push_back(
+          {{"file", (entry.path() / "index.json").string()}, {"why", "it is not the index of a run, version 2"}});
+    }
+  }
+  std::sort(nights.begin(), nights.end(), [](const Json& a, const Json& b) {
+    return std::tuple(text_of_member(a, "started"), text_of_member(a, "run")) <
+           std::tuple(text_of_member(b, "started"), text_of_member(b, "run"));
+  });
+  for (Json& n : nights) trend_.push_back(std::move(n));
+}
+
+void PageData::sort_signatures() {
+  std::stable_sort(signatures_.begin(), signatures_.end(), [](const Json& a, const Json& b) {
+    return std::tuple(rank_of(a), -number_of_member(a, "severity")) <
+           std::tuple(rank_of(b), -number_of_member(b, "severity"));
+  });
+}
+
+fs::path PageData::file_of(const std::string& path) const {
+  const fs::path below = run_ / path;
+  return fs::exists(below) ? below : fs::path(path);
+}
+
+void PageData::add_reports(std::size_t most_bytes, Workers& workers, const std::function<bool()>& has_time,
+                           const std::function<bool(std::size_t)>& tick) {
+  std::size_t bytes = to_json().dump(-1, ' ', false, Json::error_handler_t::replace).size();
+  for (const Json& s : signatures_) {
+    if (!tick(reports_.size())) return;
+    const std::string worst = text_of_member(s, "worst"), simplest = text_of_member(s, "simplest");
+    Json both{{"worst", nullptr}, {"simplest", nullptr}, {"details", details_of(s)}};
+    if (!worst.empty()) both["worst"] = report_text(worst, workers, has_time);
+    if (!simplest.empty() && simplest != worst) both["simplest"] = report_text(simplest, workers, has_time);
+    bytes += both.dump(-1, ' ', false, Json::error_handler_t::replace).size();
+    if (bytes > most_bytes) return;
+    reports_.push_back(std::move(both));
+  }
+}
+
+std::string PageData::report_text(const std::string& path, Workers& workers, const std::function<bool()>& has_time) {
+  const fs::path file = file_of(path);
+  try {
+    const std::string text = read_file(file);
+    const nlohmann::json report = parse_json(text, file.string());
+    const Case question = case_of(report, file.string());
+    Json j{{"file", path}, {"report", Json::parse(text)}, {"scene", scene_of(question, report)}, {"plots", nullptr}};
+    const Subject* subject = find_subject(report.at("subject").at("name").get<std::string>());
+    const bool can_ask = subject != nullptr && subject->scalar == question.scalar &&
+                         !(subject->offering(question.query->name).answer == nullptr);
+    if (can_ask && has_time()) {
+      set_measure(measure_of(report, file.string()));
+      j["plots"] = error_plots(question, *subject, workers, has_time);
+      ++sampled_;
+    }
+    return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  } catch (const ReportedError& e) {
+    skipped_.push_back({{"file", path}, {"why", e.what()}});
+  } catch (const Json::exception& e) {
+    skipped_.push_back({{"file", path}, {"why", fmt::format("it is no report of this version ({})", e.what())}});
+  }
+  return "null";
+}
+
+Json PageData::extremes() const {
+  Json pages = Json::array();
+  for (const fs::path& folder : {folder_, run_}) {
+    for (const char* name : {"extremes.html", "extremes/extremes.html"}) {
+      const std::string link = fs::relative(folder / name, folder_).generic_string();
+      if (fs::exists(folder / name) && std::find(pages.begin(), pages.end(), link) == pages.end())
+        pages.push_back(link);
+    }
+  }
+  return pages;
+}
+
+nlohmann::ordered_json PageData::to_json() const {
+  PageWords words;
+  Json rows = Json::array();
+  for (const Json& s : signatures_) {
+    rows.push_back(row_of(s, words));
+    if (rows.size() > most_headlines) rows.back()[headline_column] = nullptr;
+  }
+  Json summary = summary_;
+  if (member_of(summary, "run").is_object()) {  // the page needs none of the lists of an index
+    for (const char* list : {"reports", "tallies", "stages", "touches", "not_offered", "by_class", "night", "climbs"})
+      summary["run"].erase(list);
+  }
+  return {{"schema", 1},
+          {"name", fs::absolute(folder_).lexically_normal().filename().string()},
+          {"summary", summary},
+          {"trend", trend_},
+          {"skipped", skipped_},
+          {"extremes", extremes()},
+          {"words", words.words()},
+          {"columns", columns_of_rows()},
+          {"rows", rows},
+          {"reports", reports_}};
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,54 @@
+/// The data of the page of a triage or of a run: its signatures, the trend, and its reports with their pictures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/findings/workers.hpp"
+
+namespace nearmiss {
+
+/// Reads a folder for its page: triage.json where there is one; otherwise the index.json of a run, with one signature
+/// for each query, subject and fault; otherwise the newest run among the folder's subfolders. Several runs make a
+/// trend.
+class PageData {
+ public:
+  /// Throws BadInput for a folder without a run or a triage, and for one whose files cannot be read.
+  explicit PageData(std::filesystem::path folder);
+
+  std::size_t signatures() const { return signatures_.size(); }
+
+  /// Reads the worst and the simplest report of each signature, the most severe first, and adds their scenes, until the
+  /// data of the page has `most_bytes`. The plots of errors ask the reports' subjects, as long as `has_time` says; a
+  /// subject that this build does not have is not asked. `tick` is called with the number of signatures that are done;
+  /// false ends the reading. A report that cannot be read is named under "skipped".
+  void add_reports(std::size_t most_bytes, Workers& workers, const std::function<bool()>& has_time,
+                   const std::function<bool(std::size_t)>& tick);
+
+  /// The data as reports/page.schema.json describes them.
+  nlohmann::ordered_json to_json() const;
+
+ private:
+  using Json = nlohmann::ordered_json;
+
+  void read_triage(const std::filesystem::path& file);
+  void read_run(const std::filesystem::path& run);
+  void read_trend();
+  void sort_signatures();
+  /// The report with its scene and its plots as text; "null" where it cannot be read.
+  std::string report_text(const std::string& path, Workers& workers, const std::function<bool()>& has_time);
+  std::filesystem::path file_of(const std::string& path) const;
+  Json extremes() const;
+
+  std::filesystem::path folder_, run_;  ///< paths of reports are relative to `run_`
+  Json summary_, trend_ = Json::array(), skipped_ = Json::array();
+  std::vector<Json> signatures_;  ///< in the form of triage.json
+  std::vector<Json> reports_;     ///< of the first signatures: {"worst", "simplest"}; the second may be null: the same
+  std::uint64_t sampled_ = 0;     ///< reports with plots
+};
+
+}  // namespace nearmiss
