@@ -129,6 +129,9 @@ bool touches_at_impact(const Case& c, const Answer& a, const Subject& s) {
 /// The location has the right distance from a sphere's center, or from a plane, within 2 ulp of each number.
 bool lies_on_the_surface(const Case& c, const Answer& a) {
   const std::size_t x = output(*c.query, "location.x");
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::isinf(a.values[x + k])) return true;  // beyond the largest number: the distance cannot be told
+  }
   const auto distance = [&](const char* center, long double& rounding) {
     const std::size_t at = input(*c.query, center);
     long double sum = 0;

@@ -56,7 +56,7 @@ struct BulletShape {
   }
 };
 
-std::string declared(const Operand& o) { return std::visit(BulletShape{o.name}, o.shape); }
+std::string declared(const NamedShape& o) { return std::visit(BulletShape{o.name}, o.shape); }
 
 constexpr std::string_view contact_helpers =
     R"(/// Collects the deepest contact of the algorithm of Bullet's dispatcher.
@@ -129,7 +129,7 @@ CastEnd cast_end(const Moving& m, const Shape& target, Scalar scalar) {
   return {duration, end};
 }
 
-Asking overlap(const Operand& a, const Operand& b) {
+Asking overlap(const NamedShape& a, const NamedShape& b) {
   Asking asking;
   asking.helpers = contact_helpers;
   asking.statements = declared(a) + declared(b) +
@@ -140,7 +140,7 @@ Asking overlap(const Operand& a, const Operand& b) {
   return asking;
 }
 
-Asking depth(const Operand& a, const Operand& b, bool to_first, bool has_contact) {
+Asking depth(const NamedShape& a, const NamedShape& b, bool to_first, bool has_contact) {
   Asking asking = overlap(a, b);
   asking.statements += filled_in(
       "if (got_yes) {\n"
@@ -167,7 +167,7 @@ if (got_yes) {
 }
 )";
 
-std::string cast(const Moving& m, const Operand& b, const std::string& by, Scalar scalar) {
+std::string cast(const Moving& m, const NamedShape& b, const std::string& by, Scalar scalar) {
   const CastEnd e = cast_end(m, b.shape, scalar);
   return by + filled_in(cast_result, {{"from", literals(m.from)},
                                       {"end", literals(e.end)},
@@ -175,7 +175,7 @@ std::string cast(const Moving& m, const Operand& b, const std::string& by, Scala
                                       {"duration", literal(e.duration)}});
 }
 
-Asking point_cast(const Moving& m, const Operand& b, Scalar scalar) {
+Asking point_cast(const Moving& m, const NamedShape& b, Scalar scalar) {
   Asking asking;
   asking.helpers = cast_helpers;
   asking.statements = declared(b) + cast(m, b,
@@ -189,7 +189,7 @@ Asking point_cast(const Moving& m, const Operand& b, Scalar scalar) {
   return asking;
 }
 
-Asking sweep(const Moving& m, const Operand& a, const Operand& b, Scalar scalar) {
+Asking sweep(const Moving& m, const NamedShape& a, const NamedShape& b, Scalar scalar) {
   Asking asking = overlap(a, b);
   asking.helpers += "\n" + std::string(cast_helpers);
   asking.statements +=
@@ -205,7 +205,7 @@ Asking sweep(const Moving& m, const Operand& a, const Operand& b, Scalar scalar)
   return asking;
 }
 
-Asking triangle_ray(const Moving& m, const Operand& b, Scalar scalar) {
+Asking triangle_ray(const Moving& m, const NamedShape& b, Scalar scalar) {
   const CastEnd e = cast_end(m, b.shape, scalar);
   Asking asking;
   asking.helpers = triangle_helpers;
@@ -225,7 +225,7 @@ Asking triangle_ray(const Moving& m, const Operand& b, Scalar scalar) {
   return asking;
 }
 
-Asking aabox_ray(const Moving& m, const Operand& b, Scalar scalar) {
+Asking aabox_ray(const Moving& m, const NamedShape& b, Scalar scalar) {
   const CastEnd e = cast_end(m, b.shape, scalar);
   Asking asking;
   asking.statements =
@@ -239,7 +239,7 @@ Asking aabox_ray(const Moving& m, const Operand& b, Scalar scalar) {
   return asking;
 }
 
-Asking sphere_triangle(const Operand& a, const Operand& b) {
+Asking sphere_triangle(const NamedShape& a, const NamedShape& b) {
   Asking asking;
   asking.statements =
       declared(a) + filled_in(
@@ -259,7 +259,7 @@ Asking asking_of(const Case& question) {
   const Scene scene(question);
   const Scalar scalar = question.scalar;
   if (scene.has("point.x")) {
-    const Operand b = target_of(scene);
+    const NamedShape b = target_of(scene);
     if (scene.has("triangle.v0.x")) return triangle_ray(moving_of(scene), b, scalar);
     if (scene.has("aabox.min.x")) return aabox_ray(moving_of(scene), b, scalar);
     return point_cast(moving_of(scene), b, scalar);

@@ -81,13 +81,13 @@ Arguments arguments_of(const Case& question, const std::string& tier) {
   const Scene scene(question);
   const Numbers of{question.scalar};
   Arguments a;
-  std::vector<Operand> shapes = scene.operands();
+  std::vector<NamedShape> shapes = scene.operands();
   std::string last;
   for (const Field& f : query.inputs) {
     const std::string name = f.name.substr(0, f.name.find('.'));
     if (name == last || name == "forever") continue;
     last = name;
-    const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const Operand& o) { return o.name == name; });
+    const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const NamedShape& o) { return o.name == name; });
     if (shape != shapes.end()) {
       a.add(fmt::format("auto {} = collide::{}", name, std::visit(CollideShape{of}, shape->shape)),
             prepared(query.name, name, tier));

@@ -73,7 +73,7 @@ struct FclShape {
   }
 };
 
-std::string declared(const Operand& o) { return std::visit(FclShape{o.name}, o.shape); }
+std::string declared(const NamedShape& o) { return std::visit(FclShape{o.name}, o.shape); }
 
 constexpr std::string_view at_helper = R"(fcl::Transform3d at(double x, double y, double z) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
@@ -132,7 +132,7 @@ std::string triangle(const std::string& a, bool libccd) {
       {{"a", a}, {"a_pose", a + "_pose"}, {"solver", libccd ? "GJKSolver_libccd" : "GJKSolver_indep"}});
 }
 
-std::string motion(const Moving& moving, const Operand& target, const std::string& solver, bool naive) {
+std::string motion(const Moving& moving, const NamedShape& target, const std::string& solver, bool naive) {
   const Plane<double>* plane = std::get_if<Plane<double>>(&target.shape);
   const double horizon =
       plane != nullptr ? adapters::time_to_pass(moving.from, moving.radius, moving.velocity, *plane)
@@ -180,7 +180,7 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
   asking.helpers = at_helper;
   asking.build = "g++ -std=c++17 test.cpp $(pkg-config --cflags --libs fcl eigen3) -lgtest -lpthread";
   if (scene.has("limit")) {
-    const Operand way{"way", way_of_sphere(scene)}, target = target_of(scene);
+    const NamedShape way{"way", way_of_sphere(scene)}, target = target_of(scene);
     asking.statements = declared(way) + declared(target) + decision("way", target.name, solver);
     return asking;
   }

@@ -137,7 +137,7 @@ Asking ask_libccd(const Case& question, const Subject& subject) {
   const Scene scene(question);
   const bool gjk = subject.name == "libccd-gjk", is_depth = question.query->kind == Kind::depth;
   const auto [first, second] =
-      scene.has("limit") ? std::pair(Operand{"way", way_of_sphere(scene)}, target_of(scene)) : two_operands(scene);
+      scene.has("limit") ? std::pair(NamedShape{"way", way_of_sphere(scene)}, target_of(scene)) : two_operands(scene);
   const Declared a = std::visit(CcdShape{first.name}, first.shape), b = std::visit(CcdShape{second.name}, second.shape);
   Asking asking;
   asking.includes = "#include <ccd/ccd.h>\n#include <ccd/vec3.h>\n";

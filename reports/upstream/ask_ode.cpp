@@ -48,7 +48,7 @@ struct OdeShape {
   }
 };
 
-std::string declared(const Operand& o) { return std::visit(OdeShape{o.name}, o.shape); }
+std::string declared(const NamedShape& o) { return std::visit(OdeShape{o.name}, o.shape); }
 
 constexpr std::string_view deepest_helper = R"(/// The number of contacts; the deepest of them in `deepest`.
 int contacts_of(dGeomID a, dGeomID b, dContactGeom* deepest) {
@@ -61,7 +61,7 @@ int contacts_of(dGeomID a, dGeomID b, dContactGeom* deepest) {
 }
 )";
 
-Asking overlap(const Operand& a, const Operand& b) {
+Asking overlap(const NamedShape& a, const NamedShape& b) {
   Asking asking;
   asking.helpers = deepest_helper;
   asking.statements = declared(a) + declared(b) +
@@ -72,7 +72,7 @@ Asking overlap(const Operand& a, const Operand& b) {
   return asking;
 }
 
-Asking depth(const Operand& a, const Operand& b, bool to_first) {
+Asking depth(const NamedShape& a, const NamedShape& b, bool to_first) {
   Asking asking = overlap(a, b);
   asking.statements += filled_in(
       "if (got_yes) {\n"
@@ -109,7 +109,7 @@ std::string ray(const Moving& m, const std::string& to, double horizon, bool wit
          "}\n";
 }
 
-Asking sphere_ray(const Scene& scene, const Operand& b) {
+Asking sphere_ray(const Scene& scene, const NamedShape& b) {
   const Moving m = moving_of(scene);
   const double horizon = adapters::time_to_pass(m.from, 0, m.velocity, std::get<Sphere<double>>(b.shape));
   Asking asking;
@@ -128,7 +128,7 @@ Asking sphere_ray(const Scene& scene, const Operand& b) {
   return asking;
 }
 
-Asking solid_ray(const Scene& scene, const Operand& b, const std::string& point_depth) {
+Asking solid_ray(const Scene& scene, const NamedShape& b, const std::string& point_depth) {
   const Moving m = moving_of(scene);
   const double horizon = adapters::time_to_pass(m.from, 0, m.velocity, ball_around(b.shape));
   Asking asking;
@@ -140,7 +140,7 @@ Asking solid_ray(const Scene& scene, const Operand& b, const std::string& point_
   return asking;
 }
 
-Asking plane_ray(const Scene& scene, const Operand& b) {
+Asking plane_ray(const Scene& scene, const NamedShape& b) {
   const Moving m = moving_of(scene);
   const Plane<double>& plane = std::get<Plane<double>>(b.shape);
   Asking asking;
@@ -160,7 +160,7 @@ Asking plane_ray(const Scene& scene, const Operand& b) {
 Asking asking_of(const Case& question) {
   const Scene scene(question);
   if (scene.has("point.x")) {
-    const Operand b = target_of(scene);
+    const NamedShape b = target_of(scene);
     if (scene.has("sphere.radius")) return sphere_ray(scene, b);
     if (scene.has("plane.normal.x")) return plane_ray(scene, b);
     return solid_ray(scene, b, scene.has("box.half.x") ? "dGeomBoxPointDepth" : "dGeomCapsulePointDepth");

@@ -80,8 +80,8 @@ Moving moving_of(const Scene& scene) {
   return {scene.vector("sphere.center"), scene.number("sphere.radius"), scene.vector("velocity")};
 }
 
-Operand target_of(const Scene& scene) {
-  const std::vector<Operand> all = scene.operands();
+NamedShape target_of(const Scene& scene) {
+  const std::vector<NamedShape> all = scene.operands();
   if (all.empty()) throw std::logic_error("nothing to meet");
   return all.back();  // the moving shape, if any, stands first
 }
@@ -95,8 +95,8 @@ collide::Sphere<double> ball_around(const Shape& shape) {
       shape);
 }
 
-std::pair<Operand, Operand> two_operands(const Scene& scene) {
-  const std::vector<Operand> all = scene.operands();
+std::pair<NamedShape, NamedShape> two_operands(const Scene& scene) {
+  const std::vector<NamedShape> all = scene.operands();
   if (all.size() != 2) throw std::logic_error("not two shapes");
   return {all[0], all[1]};
 }

@@ -57,10 +57,10 @@ struct Moving {
 };
 Moving moving_of(const Scene& scene);
 /// The shape that is met.
-Operand target_of(const Scene& scene);
+NamedShape target_of(const Scene& scene);
 /// A ball around the shape, as adapters choose it for the length of a cast. The shape must be bounded.
 collide::Sphere<double> ball_around(const Shape& shape);
 /// The operands of a query that has two shapes.
-std::pair<Operand, Operand> two_operands(const Scene& scene);
+std::pair<NamedShape, NamedShape> two_operands(const Scene& scene);
 
 }  // namespace nearmiss

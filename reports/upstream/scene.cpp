@@ -39,8 +39,8 @@ Vec3<double> Scene::vector(const std::string& name) const {
   return {number(name + ".x"), number(name + ".y"), number(name + ".z")};
 }
 
-std::vector<Operand> Scene::operands() const {
-  std::vector<Operand> all;
+std::vector<NamedShape> Scene::operands() const {
+  std::vector<NamedShape> all;
   for (const Field& f : question_.query->inputs) {
     const std::string name = f.name.substr(0, f.name.find('.'));
     // A lone vector has three leaves of one level: "point.x". A shape has a leaf with another name, or deeper ones.

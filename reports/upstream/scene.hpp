@@ -17,7 +17,7 @@ using Shape =
                  collide::Segment<double>, collide::Line<double>, collide::Ray<double>>;
 
 /// An input of the query that is a shape.
-struct Operand {
+struct NamedShape {
   std::string name;  ///< "box", "sphere1"
   Shape shape;
 };
@@ -33,7 +33,7 @@ class Scene {
   bool flag(std::string_view name) const { return number(name) != 0; }
   collide::Vec3<double> vector(const std::string& name) const;
   /// Every shape, in the order of the inputs.
-  std::vector<Operand> operands() const;
+  std::vector<NamedShape> operands() const;
 
  private:
   Shape shape(const std::string& name) const;

@@ -107,7 +107,7 @@ struct ToRounded {
 
 /// What a case shows.
 struct Things {
-  std::vector<Operand> shapes;
+  std::vector<NamedShape> shapes;
   std::optional<Vec3<double>> start, velocity, contact;
   std::optional<Vec3<double>> normal;
   double time = 0;  ///< the exact time of contact
@@ -158,7 +158,7 @@ View view_of(const Things& t, const std::vector<Rounded>& shapes) {
   if (shapes.size() == 2 && !shapes[0].points.empty() && !shapes[1].points.empty()) {
     add(shapes[1].points.front() - shapes[0].points.front());
   }
-  for (const Operand& o : t.shapes) {
+  for (const NamedShape& o : t.shapes) {
     if (const auto* plane = std::get_if<Plane<double>>(&o.shape)) add(plane->normal);
   }
   const int along = int(std::min_element(score.rbegin(), score.rend()) - score.rbegin());
@@ -251,7 +251,7 @@ bool is_behind(const Plane<double>& plane, const View& view, const Flat& p, doub
 std::string scene_picture(const Report& r) {
   const Things t = things_of(r);
   std::vector<Rounded> shapes;
-  for (const Operand& o : t.shapes) {
+  for (const NamedShape& o : t.shapes) {
     shapes.push_back(std::visit(ToRounded(), o.shape));
     const bool plane = std::holds_alternative<Plane<double>>(o.shape);
     if (shapes.back().points.empty() && !plane) return "";

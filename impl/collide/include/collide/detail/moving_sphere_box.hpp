@@ -76,6 +76,11 @@ struct PointPastBox {
     }
     if (!(closing > T(0))) return T(-1);
     if (axes == 1) return positive_part((abs(beyond(last)) - radius) / abs(step[last]));
+    if constexpr (MachineNumber<T>) {
+      // The squares underflow. Within the range of the contract the motion along these axes is then far below the
+      // rounding error of the velocity.
+      if (!(speed2 >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon())) return T(-1);
+    }
     const T nearest = closing / speed2;
     Vec3<T> offset{}, from_box{};
     const auto set = [](Vec3<T>& v, int i, const T& x) { (i == 0 ? v.x : i == 1 ? v.y : v.z) = x; };
