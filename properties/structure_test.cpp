@@ -43,11 +43,13 @@ constexpr Room rooms[] = {
     {"reports/findings", 8},
     {"reports/engine", 9},
     {"reports/triage", 10},
-    {"reports/commands", 11},
-    {"reports/tests", 12},
-    {"properties", 12},
-    {"fuzz", 12},
-    {"benchmarks", 12},
+    {"reports/upstream", 11},
+    {"reports/page", 11},
+    {"reports/commands", 12},
+    {"reports/tests", 13},
+    {"properties", 13},
+    {"fuzz", 13},
+    {"benchmarks", 13},
 };
 
 /// The innermost folder of the list that contains the file.
