@@ -152,7 +152,8 @@ class Investigation {
     constexpr int powers = 4;
     const int highest = (trials_.subject().scalar == Scalar::float32 ? 128 : 1024) / powers;
     const int at_flip = largest_exponent(question()) + s.flip->wrong;
-    if (at_flip < highest && at_flip > -highest) return std::nullopt;
+    const bool toward_one = largest_exponent(question()) * s.flip->right < 0;
+    if (!toward_one || (at_flip < highest && at_flip > -highest)) return std::nullopt;
     saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
         fmt::format(
             "With 2^{} the answer is right. The subject breaks from 1 to 2^{}, where the largest number is about "
@@ -161,6 +162,7 @@ class Investigation {
     return Named{at_flip > 0 ? CauseKind::overflow : CauseKind::underflow, std::string(s.group->name),
                  "The subject breaks where products of its inputs leave the range of the scalar, and only there."};
   }
+  /// Of the positions and sizes.
   static int largest_exponent(const Case& c) {
     double largest = 0;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
@@ -194,9 +196,9 @@ class Investigation {
 
     /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
     bool holds() const {
-      constexpr std::size_t least = 4;
-      return explained >= least && nearly_all(explained, with_finding) &&
-             (against_it == 0 || nearly_all(for_it, for_it + against_it));
+      constexpr std::size_t least = 4, least_generated = 2;
+      return explained >= least && nearly_all(explained, with_finding) && for_it >= least_generated &&
+             nearly_all(for_it, for_it + against_it);
     }
   };
   /// The answer would be wrong under the reading if the reading made a difference.
@@ -226,6 +228,7 @@ class Investigation {
     if (trials_.base().answer.status != Answer::Status::answered) return std::nullopt;
     std::vector<std::string> by_chance;
     for (const Reading& reading : readings()) {
+      if (reading.decides && !is_wrong_decision()) continue;
       if (!reading.right(question(), trials_.base().answer, is_right_).value_or(false)) continue;
       const Support s = support_of(reading);
       if (s.holds()) return named_reading(reading, s);
@@ -236,6 +239,10 @@ class Investigation {
     saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
         "None explains the answers." + which);
     return std::nullopt;
+  }
+  bool is_wrong_decision() const {
+    const Disagreement d = trials_.base().finding.disagreement;
+    return d == Disagreement::false_hit || d == Disagreement::false_miss;
   }
   Named named_reading(const Reading& reading, const Support& s) {
     saw(fmt::format("The answers were judged as if {}.", reading.what),
@@ -267,7 +274,7 @@ class Investigation {
     return trials_.ask(cases);
   }
   std::optional<Named> tested(const Region& region) {
-    constexpr std::size_t least = 8;
+    constexpr std::size_t least = 6;
     const std::vector<Trial> in = cases_of(region, true), out = cases_of(region, false);
     const std::size_t in_right = count(in, Outcome::right), out_right = count(out, Outcome::right);
     const std::size_t in_all = in.size() - count(in, Outcome::none), out_all = out.size() - count(out, Outcome::none);
@@ -278,7 +285,8 @@ class Investigation {
     if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
       return Named{CauseKind::unsupported, region.name,
                    fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
-    const bool only_here = out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
+    const bool only_here =
+        region.is_special && out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
     if (!only_here) return std::nullopt;
     return Named{CauseKind::unsupported, region.name,
                  fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
@@ -378,12 +386,20 @@ class Investigation {
     if (best) return named_tolerance(s, *best, flips.size());
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar().size())) return std::nullopt;
+    double low = INFINITY, high = 0;
+    for (const Flipped& f : flips) {
+      const double largest = largest_of(f.at_wrong, *s.group);
+      low = std::min(low, largest), high = std::max(high, largest);
+    }
     saw("The flips of these cases were compared with sizes, distances, gaps, areas and times.",
-        "No such quantity has the same value at every flip.");
-    return Named{
-        CauseKind::absolute_tolerance, fmt::format("unknown {}", s.group->unit),
-        fmt::format("The answer depends on the scale of the {}: the subject compares something with a constant.",
-                    s.group->name)};
+        fmt::format(
+            "No such quantity has the same value at every flip. The largest of the multiplied numbers is between "
+            "{:.2g} and {:.2g} there.",
+            low, high));
+    return Named{CauseKind::absolute_tolerance, fmt::format("unknown {}", s.group->unit),
+                 fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
+                             "{:.2g} and {:.2g}. The subject compares something with a constant.",
+                             s.group->name, low, high)};
   }
 
   /// A quantity that has about the same value at every flip, and different values in the cases.
@@ -469,11 +485,12 @@ class Investigation {
   }
 
   std::optional<Named> rounding() {
-    const std::vector<Trial> near = trials_.ask(ulp_neighbours(question(), neighbours, 1, seed_));
+    constexpr int ulps = 8;
+    const std::vector<Trial> near = trials_.ask(ulp_neighbours(question(), neighbours, ulps, seed_));
     near_same_ = count(near, Outcome::same), near_right_ = count(near, Outcome::right);
     near_all_ = near.size() - count(near, Outcome::none);
     if (auto named = by_roundings()) return named;
-    saw(fmt::format("{} cases were asked whose numbers are at most one ulp away.", near_all_),
+    saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", near_all_),
         fmt::format("{} have the finding, and {} are right.", near_same_, near_right_));
     if (is_exact()) {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
@@ -612,9 +629,8 @@ class Investigation {
   /// The answer is right or, where the finding is a wrong decision, the decision is.
   bool has_ended(const Trial& t) const {
     if (t.outcome == Outcome::right) return true;
-    const Disagreement d = trials_.base().finding.disagreement;
-    return t.outcome == Outcome::other && (d == Disagreement::false_hit || d == Disagreement::false_miss) &&
-           t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
+    return t.outcome == Outcome::other && is_wrong_decision() && t.answer.status == Answer::Status::answered &&
+           t.answer.yes == t.finding.truth_yes;
   }
   std::vector<Case> later_starts() const {
     std::vector<Case> cases;
