@@ -77,6 +77,10 @@ Finding Trials::judged(const Case& c, const Answer& answer) const {
   return confirmed(c, answer, subject_.standard_for(c.query->name), detail_);
 }
 
+Finding Trials::in_full(const Trial& t) const {
+  return confirmed(t.question, t.answer, subject_.standard_for(query().name), Detail::full);
+}
+
 bool Trials::is_right(const Case& c, const Answer& answer) const {
   const Verdict v = judged(c, answer).verdict;
   return v == Verdict::agrees || v == Verdict::not_proved;

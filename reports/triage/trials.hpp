@@ -45,6 +45,8 @@ class Trials {
   std::vector<Trial> ask(std::span<const Case> cases, Rounding rounding = Rounding::its_own);
   /// Judges an answer by the subject's standard.
   Finding judged(const Case& c, const Answer& answer) const;
+  /// The finding of a trial, with its distances.
+  Finding in_full(const Trial& t) const;
   /// Nothing is proved against the answer.
   bool is_right(const Case& c, const Answer& answer) const;
 
