@@ -326,6 +326,44 @@ TEST(Cause, ASubjectIsAskedInEveryRoundingAndItsExceptionsAreSeen) {
   EXPECT_EQ(workers.raised(s, 0), 0);
 }
 
+/// The plugin sets upward rounding when it is loaded, and answers yes where it rounds upward.
+TEST(Cause, APluginIsAskedInOtherRoundingsThanItsOwn) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"explain", "--plugin", plugin_file("sets_modes"), "--subject", "misbehaves", "--patience",
+                            "0.02", "--json", "--out", folder.path().string(),
+                            source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"});
+  ASSERT_EQ(ran.exit_code, 1) << ran.err;
+  const json report = json::parse(ran.out).at(0);
+  EXPECT_EQ(report["finding"]["disagreement"], "false hit");
+  EXPECT_EQ(report["cause"]["kind"], "rounding") << ran.out;
+  EXPECT_NE(report["cause"]["evidence"].dump().find("The finding is there in 2"), std::string::npos) << ran.out;
+}
+
+/// Breaks where the square of a length leaves the range of double.
+Answer breaks_far_out(Values q) {
+  if (std::isinf(q[0] * q[0])) return Answer::without(Answer::Status::broke, "exception: no unit vector");
+  return right("sphere_sphere_overlap", q);
+}
+
+TEST(Cause, OverflowThatBreaksTheSubject) {
+  const Subject s = planted("sphere_sphere_overlap", breaks_far_out);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0x1p600, 0, 0, 0x1p599, 0x1p601, 0, 0, 0x1p598}));
+  EXPECT_EQ(c.kind, CauseKind::overflow) << text_of(c);
+}
+
+/// Wrong at any scale at which the square of a length does not vanish: no underflow, although 2^-600 helps.
+Answer breaks_always(Values q) {
+  if (q[0] * q[0] != 0) return Answer::without(Answer::Status::broke, "exception: not implemented");
+  return right("sphere_sphere_overlap", q);
+}
+
+TEST(Cause, AnAnswerThatIsRightWhereEverythingVanishesExplainsNothing) {
+  const Subject s = planted("sphere_sphere_overlap", breaks_always);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {1, 2, 0.5, 1, 3, 0.25, 0, 1}));
+  EXPECT_NE(c.kind, CauseKind::underflow) << text_of(c);
+  EXPECT_NE(c.kind, CauseKind::absolute_tolerance) << text_of(c);
+}
+
 TEST(Scales, AreExactOrNothing) {
   const Case c = case_of("sphere_sphere_overlap", {0, 0, 0, 1, 3, 0, 0, 0x1p-140}, Scalar::float32);
   const ScaleGroup& lengths = scale_groups()[0];

@@ -100,13 +100,15 @@ void add_vectors(const Case& c, std::vector<Quantity>& all) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const Role role = q.inputs[i].role;
-    if (role == Role::size || role == Role::time) all.push_back({q.inputs[i].name, std::abs(c.values[i])});
+    if (role == Role::size) all.push_back({q.inputs[i].name, std::abs(c.values[i])});
+    if (role == Role::time) all.push_back({q.inputs[i].name, std::abs(c.values[i]), "time"});
     if (!begins_vector(q, i)) continue;
     if (role == Role::position) places.push_back(i);
-    if (role == Role::velocity || role == Role::direction)
-      all.push_back({"the length of " + vector_name(q, i), length(vector_at(c, i))});
+    const std::string of = "the length of " + vector_name(q, i);
+    if (role == Role::velocity) all.push_back({of, length(vector_at(c, i)), "speed"});
+    if (role == Role::direction) all.push_back({of, length(vector_at(c, i)), "length of a direction"});
     if (role == Role::rotation)
-      all.push_back({"the length of " + vector_name(q, i), std::hypot(length(vector_at(c, i)), c.values[i + 3])});
+      all.push_back({of, std::hypot(length(vector_at(c, i)), c.values[i + 3]), "length of a quaternion"});
   }
   for (std::size_t k = 0; k < places.size(); ++k) {
     for (std::size_t i = 0; i < k; ++i) {
@@ -125,11 +127,12 @@ std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
   if (with_gap) all.push_back({"the gap or overlap", gap_of(c)});
   all.push_back({"the largest position or size", largest_number(c)});
   add_vectors(c, all);
-  for (const auto& t : parts_of(*c.query).triangles) all.push_back({"the area of the triangle", area(c, t)});
+  for (const auto& t : parts_of(*c.query).triangles)
+    all.push_back({"the area of the triangle", area(c, t), "length^2"});
   const auto& velocities = parts_of(*c.query).velocities;
   if (!velocities.empty()) {
     const double time = contact_time(c);
-    all.push_back({"the time of the contact", time});
+    all.push_back({"the time of the contact", time, "time"});
     all.push_back({"the distance moved until the contact", time * length(vector_at(c, velocities[0]))});
   }
   return all;
