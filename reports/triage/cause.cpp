@@ -285,7 +285,7 @@ class Investigation {
     saw("The flips of these cases were compared with sizes, distances, gaps, areas and times.",
         "No such quantity has the same value at every flip.");
     return Named{
-        CauseKind::absolute_tolerance, fmt::format("unknown {}", s.group->unit),
+        CauseKind::absolute_tolerance, "",
         fmt::format("The answer depends on the scale of the {}: the subject compares something with a constant.",
                     s.group->name)};
   }
