@@ -200,11 +200,11 @@ TEST(Cause, UnderflowOfAProduct) {
 
 /// The discriminant of balls that are far away cancels in float.
 Answer cancels(Values q) {
+  Answer a = right("sphere_sphere_overlap", q);  // first: it restores the flags of exceptions
   volatile float xx = float(q[0]) * float(q[0]), yy = float(q[4]) * float(q[4]), xy = float(q[0]) * float(q[4]);
   volatile float r = float(q[3]) + float(q[7]);
   volatile float square = xx + yy;
   square = square - 2 * xy;
-  Answer a = right("sphere_sphere_overlap", q);
   if (q[1] == q[5] && q[2] == q[6]) a.yes = square <= r * r;
   return a;
 }
@@ -229,14 +229,14 @@ TEST(Cause, LogicOfAWrongSign) {
   EXPECT_EQ(c.kind, CauseKind::logic) << text_of(c);
 }
 
-/// Samples the motion at eight times until it must have passed.
+/// Samples the motion at six times until it must have passed.
 Answer samples(Values q) {
   Answer a;
   a.yes = false;
   a.values[0] = INFINITY;
   const double end = 2 * std::hypot(q[0] - q[7], q[1] - q[8], q[2] - q[9]) / std::hypot(q[4], q[5], q[6]);
-  for (int i = 0; i <= 8 && !a.yes; ++i) {
-    const double t = end * i / 8;
+  for (int i = 0; i <= 5 && !a.yes; ++i) {
+    const double t = end * i / 5;
     const double at[] = {q[0] + q[4] * t, q[1] + q[5] * t, q[2] + q[6] * t, q[3], q[7], q[8], q[9], q[10]};
     a.yes = gap(at) <= 0;
   }
@@ -251,16 +251,17 @@ TEST(Cause, TooFewStepsAlongAMotion) {
   EXPECT_EQ(c.key, "steps along the motion");
 }
 
-/// Wrong by a hash of the last bits of the inputs: no hypothesis is true.
+/// Wrong where the ratio of two numbers lies in a narrow band: the tests see neither a region nor an instability.
 Answer fickle(Values q) {
   Answer a = right("sphere_sphere_overlap", q);
-  if (q[3] == 0.7) a.yes = !a.yes;
+  const double ratio = q[0] / q[4];
+  if (0.30299 < ratio && ratio < 0.30301) a.yes = !a.yes;
   return a;
 }
 
 TEST(Cause, StaysUnexplainedWhereNoTestPasses) {
   const Subject s = planted("sphere_sphere_overlap", fickle);
-  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 1.7, 0.3, 0.7, 4.4, 1.1, 0.2, 0.6}));
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 1.7, 0.3, 0.7, 0.33003, 1.1, 0.2, 0.6}));
   EXPECT_EQ(c.kind, CauseKind::unexplained) << text_of(c);
   EXPECT_FALSE(c.evidence.empty());
   EXPECT_NE(text_of(c).find("Cause: unexplained"), std::string::npos);

@@ -68,14 +68,16 @@ TEST_P(EveryCommand, EndsWhenItIsToldTo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, EveryCommand,
-    testing::Values(Command{"run", {"run", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
-                    Command{"relations", {"relations", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
-                    Command{"extremes", {"extremes", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
-                    Command{"import", {"import", "nyu-ccd", source_folder() + "/corpus/nyu-ccd/sample.csv"}},
-                    Command{"replay", {"replay", source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"}},
-                    Command{"minimise",
-                            {"minimise", source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json", "--out",
-                             "OUT"}}),
+    testing::Values(
+        Command{"run", {"run", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
+        Command{"relations", {"relations", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
+        Command{"extremes", {"extremes", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
+        Command{"import", {"import", "nyu-ccd", source_folder() + "/corpus/nyu-ccd/sample.csv"}},
+        Command{"replay", {"replay", source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"}},
+        Command{"minimise",
+                {"minimise", source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json", "--out", "OUT"}},
+        Command{"explain",
+                {"explain", source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json", "--out", "OUT"}}),
     [](const auto& of) { return std::string(of.param.name); });
 
 TEST(Nightly, EndsWhenItIsToldTo) {

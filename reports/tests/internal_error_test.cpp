@@ -97,7 +97,7 @@ TEST(InternalErrors, ReplayAgain) {
 
 TEST(InternalErrors, AreToldInTheManuals) {
   for (const char* command :
-       {"run", "nightly", "relations", "extremes", "sweep", "replay", "minimise", "promote", "import"}) {
+       {"run", "nightly", "relations", "extremes", "sweep", "replay", "minimise", "explain", "promote", "import"}) {
     EXPECT_NE(nearmiss({"help", command}).out.find("An internal error: the judge contradicts itself."),
               std::string::npos)
         << command;

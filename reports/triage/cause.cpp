@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "corpus/fit.hpp"
 #include "corpus/generator.hpp"
@@ -35,6 +36,8 @@ constexpr std::size_t neighbours = 64;    ///< cases an ulp away
 
 /// "Nearly all": 9 of 10.
 bool nearly_all(std::size_t part, std::size_t all) { return all > 0 && 10 * part >= 9 * all; }
+/// "Most": 3 of 4.
+bool most(std::size_t part, std::size_t all) { return all > 0 && 4 * part >= 3 * all; }
 /// "Some, and not nearly all": 1 to 9 of 10.
 bool is_mixed(std::size_t part, std::size_t all) { return 10 * part >= all && 10 * part <= 9 * all && part > 0; }
 
@@ -63,13 +66,13 @@ class Investigation {
       saw("The subject was asked again.", "The finding is gone.");
       return std::nullopt;
     }
-    variants_ = variants(trials_, most_variants, seed_);
     ask_in_all_roundings();
     for (const ScaleGroup& group : scale_groups()) scans_.push_back(scan(trials_, group));
     static constexpr Test tests[] = {&Investigation::range_of_numbers, &Investigation::convention,
-                                     &Investigation::unsupported,      &Investigation::tolerance,
-                                     &Investigation::certified,        &Investigation::rounding,
-                                     &Investigation::steps_of_motion,  &Investigation::logic};
+                                     &Investigation::unsupported,      &Investigation::constant_error,
+                                     &Investigation::tolerance,        &Investigation::certified,
+                                     &Investigation::rounding,         &Investigation::times_of_steps,
+                                     &Investigation::starts_of_motion, &Investigation::logic};
     for (const Test test : tests) {
       if (trials_.is_over()) {
         saw("The search has a limit of questions and of time.", "The limit was reached before every test was made.");
@@ -82,6 +85,15 @@ class Investigation {
 
   void saw(std::string test, std::string result) { evidence_.push_back({std::move(test), std::move(result)}); }
   const Case& question() const { return trials_.base().question; }
+
+  /// Other cases with the finding, found once.
+  const std::vector<Trial>& similar() {
+    if (!variants_) variants_ = variants(trials_, most_variants, seed_);
+    return *variants_;
+  }
+  Finding in_full(const Trial& t) const {
+    return confirmed(t.question, t.answer, trials_.subject().standard_for(trials_.query().name), Detail::full);
+  }
 
   // Roundings
 
@@ -102,8 +114,7 @@ class Investigation {
   /// How far the worst number of the answer moves between the roundings, as a share of its error.
   double moved_by_rounding() const {
     const Trial& base = trials_.base();
-    const Finding full =
-        confirmed(base.question, base.answer, trials_.subject().standard_for(trials_.query().name), Detail::full);
+    const Finding full = in_full(base);
     const MemberFinding* worst = full.headline_member();
     if (worst == nullptr || worst->worst < 0 || !(worst->forward_absolute > 0)) return 0;
     double furthest = 0;
@@ -121,6 +132,7 @@ class Investigation {
     for (const ScaleScan& s : scans_) {
       if (s.explained_by(raised_overflow)) return out_of_range(s, CauseKind::overflow);
       if (s.explained_by(raised_underflow)) return out_of_range(s, CauseKind::underflow);
+      if (auto named = broken_out_of_range(s)) return named;
     }
     return std::nullopt;
   }
@@ -131,6 +143,31 @@ class Investigation {
                     s.flip->right, name_of(kind), s.flip->wrong));
     return Named{kind, std::string(s.group->name),
                  fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind))};
+  }
+
+  /// A subject that broke leaves no flags. The range is exceeded if the fourth power of the largest number exceeds it
+  /// wherever the subject breaks, and the answer is right at scales where it does not.
+  std::optional<Named> broken_out_of_range(const ScaleScan& s) {
+    if (trials_.base().finding.verdict != Verdict::broke || !s.flip) return std::nullopt;
+    constexpr int powers = 4;
+    const int highest = (trials_.subject().scalar == Scalar::float32 ? 128 : 1024) / powers;
+    const int at_flip = largest_exponent(question()) + s.flip->wrong;
+    if (at_flip < highest && at_flip > -highest) return std::nullopt;
+    saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
+        fmt::format(
+            "With 2^{} the answer is right. The subject breaks from 1 to 2^{}, where the largest number is about "
+            "2^{}: its fourth power leaves the range of the scalar.",
+            s.flip->right, s.flip->wrong, at_flip));
+    return Named{at_flip > 0 ? CauseKind::overflow : CauseKind::underflow, std::string(s.group->name),
+                 "The subject breaks where products of its inputs leave the range of the scalar, and only there."};
+  }
+  static int largest_exponent(const Case& c) {
+    double largest = 0;
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      const Role role = c.query->inputs[i].role;
+      if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
+    }
+    return largest > 0 ? std::ilogb(largest) : 0;
   }
 
   // Conventions
@@ -162,19 +199,25 @@ class Investigation {
              (against_it == 0 || nearly_all(for_it, for_it + against_it));
     }
   };
+  /// The answer would be wrong under the reading if the reading made a difference.
+  static bool contradicts(const Reading& reading, const Trial& t) {
+    if (t.outcome == Outcome::right) return true;
+    return reading.decides && t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
+  }
+  /// A reading of the decision alone says nothing about the cases in which it makes no difference.
+  static void count_finding(const Reading& reading, std::optional<bool> fits, Support& s) {
+    s.with_finding += fits || !reading.decides;
+    s.explained += fits.value_or(false);
+  }
   Support support_of(const Reading& reading) {
     Support s;
-    const auto fits = [&](const Trial& t) { return reading.right(t.question, t.answer, is_right_).value_or(false); };
-    for (const Trial& t : variants_) ++s.with_finding, s.explained += fits(t);
+    for (const Trial& t : similar()) count_finding(reading, reading.right(t.question, t.answer, is_right_), s);
     for (const Trial& t : sample()) {
-      if (t.outcome == Outcome::right) {
-        s.against_it += !reading.right(t.question, t.answer, is_right_).value_or(true);
-      } else if (t.outcome != Outcome::none) {
-        const bool explains = fits(t);
-        s.for_it += explains;
-        s.with_finding += t.outcome == Outcome::same;
-        s.explained += t.outcome == Outcome::same && explains;
-      }
+      if (t.outcome == Outcome::none) continue;
+      const std::optional<bool> fits = reading.right(t.question, t.answer, is_right_);
+      s.against_it += contradicts(reading, t) && !fits.value_or(true);
+      s.for_it += t.outcome != Outcome::right && fits.value_or(false);
+      if (t.outcome == Outcome::same) count_finding(reading, fits, s);
     }
     return s;
   }
@@ -231,17 +274,67 @@ class Investigation {
     saw(fmt::format("Generated cases with and without {} were asked.", region.name),
         fmt::format("Wrong are {} with it, and {} without it.", of_text(in_all - in_right, in_all),
                     of_text(out_all - out_right, out_all)));
-    const bool holds =
-        in_all >= least && out_all >= least && nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all);
-    if (!holds) return std::nullopt;
+    if (in_all < least || out_all < least) return std::nullopt;
+    if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
+      return Named{CauseKind::unsupported, region.name,
+                   fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
+    const bool only_here = out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
+    if (!only_here) return std::nullopt;
     return Named{CauseKind::unsupported, region.name,
-                 fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
+                 fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
   }
 
   // Absolute tolerances
 
+  /// An error that is the same length, or time, at every scale.
+  std::optional<Named> constant_error() {
+    const Finding base = in_full(trials_.base());
+    const MemberFinding* member = base.headline_member();
+    if (member == nullptr || member->worst < 0 || trials_.base().answer.status != Answer::Status::answered)
+      return std::nullopt;
+    const Role role = trials_.query().outputs[std::size_t(member->worst)].role;
+    if (role == Role::time) {
+      if (auto named = constant_over(scans_[0], "length", true)) return named;
+      return constant_over(scans_[1], "time", false);
+    }
+    if (role == Role::position || role == Role::depth) return constant_over(scans_[0], "length", false);
+    return std::nullopt;
+  }
+  /// The speed, for errors of a time that are lengths.
+  double speed_of(const Case& c) const {
+    const auto& velocities = parts_of(trials_.query()).velocities;
+    if (velocities.empty()) return 0;
+    const double* v = &c.values[velocities[0]];
+    return std::hypot(v[0], v[1], v[2]);
+  }
+  std::optional<Named> constant_over(const ScaleScan& s, std::string_view unit, bool times_speed) {
+    constexpr int least_octaves = 4;
+    constexpr double most_change = 1.5;
+    double low = INFINITY, high = 0;
+    int first = 0, last = 0;
+    for (const ScaleScan::At& a : s.trials) {
+      if (a.trial.outcome != Outcome::same || std::abs(a.k) > least_octaves) continue;
+      const Finding full = in_full(a.trial);
+      const MemberFinding* member = full.headline_member();
+      if (member == nullptr) continue;
+      const double error = member->forward_absolute * (times_speed ? speed_of(a.trial.question) : 1);
+      low = std::min(low, error), high = std::max(high, error);
+      first = std::min(first, a.k), last = std::max(last, a.k);
+    }
+    if (last - first < least_octaves || !(low > 0) || high > most_change * low) return std::nullopt;
+    const double middle = std::sqrt(low * high);
+    saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
+        fmt::format("From 2^{} to 2^{} the error{} stays between {:.3g} and {:.3g}.", first, last,
+                    times_speed ? " of the time, times the speed," : "", low, high));
+    return Named{
+        CauseKind::absolute_tolerance, fmt::format("1e{} {}", std::lround(std::log10(middle)), unit),
+        fmt::format("The answer is off by about {:.2g} (a {}) at every scale: an absolute tolerance or margin.", middle,
+                    unit)};
+  }
+
   struct Flipped {
     Case at_wrong, at_right;  ///< the case at both sides of its flip
+    bool is_sharp;
   };
 
   std::optional<Named> tolerance() {
@@ -255,18 +348,21 @@ class Investigation {
           "The answer is right at no scale.");
     return std::nullopt;
   }
-  /// No overflow and no underflow at either side of the flip.
+  /// No overflow and no underflow from the one side of the flip to the other.
   bool is_clean(const ScaleScan& s) const {
-    return std::none_of(s.trials.begin(), s.trials.end(), [&](const ScaleScan::At& a) {
-      return (a.k == s.flip->wrong || a.k == s.flip->right) && (a.trial.raised & (raised_overflow | raised_underflow));
+    const auto [low, high] = std::minmax(s.flip->wrong, s.flip->right);
+    return std::none_of(s.trials.begin(), s.trials.end(), [low = low, high = high](const ScaleScan::At& a) {
+      return a.k >= low && a.k <= high && (a.trial.raised & (raised_overflow | raised_underflow)) != 0;
     });
   }
   std::vector<Flipped> flips_of(const ScaleScan& s) {
     std::vector<Flipped> all;
     const auto at = [&](const Case& c, int k) { return k == 0 ? c : *scaled(c, *s.group, k); };
-    const auto add = [&](const Case& c, const Flip& f) { all.push_back({at(c, f.wrong), at(c, f.right)}); };
+    const auto add = [&](const Case& c, const Flip& f) {
+      all.push_back({at(c, f.wrong), at(c, f.right), f.is_sharp()});
+    };
     add(question(), *s.flip);
-    for (const Trial& t : variants_) {
+    for (const Trial& t : similar()) {
       if (trials_.is_over()) break;
       if (const auto flip = flip_near(trials_, t.question, *s.group, *s.flip)) add(t.question, *flip);
     }
@@ -278,10 +374,10 @@ class Investigation {
     saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
         fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}, without overflow or underflow. "
                     "Of {} other cases with the finding, {} have such a flip.",
-                    s.flip->wrong, s.flip->right, variants_.size(), flips.size() - 1));
+                    s.flip->wrong, s.flip->right, similar().size(), flips.size() - 1));
     if (best) return named_tolerance(s, *best, flips.size());
     constexpr std::size_t least = 3;
-    if (flips.size() < least) return std::nullopt;
+    if (flips.size() < least || !most(flips.size() - 1, similar().size())) return std::nullopt;
     saw("The flips of these cases were compared with sizes, distances, gaps, areas and times.",
         "No such quantity has the same value at every flip.");
     return Named{
@@ -296,12 +392,11 @@ class Investigation {
     double low = 0, high = INFINITY;
     double spread = 1;
   };
-  std::optional<Constant> constant_quantity(const std::vector<Flipped>& flips) const {
-    constexpr double least_spread = 4, error_of_estimates = 1.05;
-    const Disagreement d = trials_.base().finding.disagreement;
-    const bool with_gap = d == Disagreement::false_hit || d == Disagreement::false_miss;
+  std::optional<Constant> constant_quantity(const std::vector<Flipped>& flips) {
+    const bool with_gap = decides(trials_.query().kind);
     std::vector<Constant> all;
     for (const Flipped& f : flips) {
+      if (!f.is_sharp) continue;
       const auto a = quantities_of(f.at_wrong, with_gap), b = quantities_of(f.at_right, with_gap);
       all.resize(a.size());
       for (std::size_t i = 0; i < a.size(); ++i) {
@@ -310,23 +405,33 @@ class Investigation {
         all[i].high = std::min(all[i].high, std::max(a[i].value, b[i].value));
       }
     }
-    return widest(all, flips, with_gap, least_spread, error_of_estimates);
+    const auto sharp = std::count_if(flips.begin(), flips.end(), [](const Flipped& f) { return f.is_sharp; });
+    return widest(std::move(all), std::size_t(sharp), with_gap);
   }
-  /// Of the quantities that are equal at every flip, the one that differs most between the cases at one scale.
-  std::optional<Constant> widest(std::vector<Constant> all, const std::vector<Flipped>& flips, bool with_gap,
-                                 double least_spread, double error) const {
-    std::vector<double> low(all.size(), INFINITY), high(all.size(), 0);
-    for (const Trial& t : variants_) {
+  /// Of the quantities that are equal at every flip, the one that differs most between the cases at one scale. A
+  /// quantity that differs in a few of the cases alone may be equal by chance.
+  std::optional<Constant> widest(std::vector<Constant> all, std::size_t flips, bool with_gap) {
+    constexpr std::size_t least_flips = 5, least_different = 4;
+    constexpr double error_of_estimates = 1.02;
+    if (flips < least_flips) return std::nullopt;
+    const auto own = quantities_of(question(), with_gap);
+    std::vector<std::size_t> different(all.size(), 0);
+    std::vector<double> furthest(all.size(), 1);
+    for (const Trial& t : similar()) {
       const auto q = quantities_of(t.question, with_gap);
-      for (std::size_t i = 0; i < q.size(); ++i)
-        low[i] = std::min(low[i], q[i].value), high[i] = std::max(high[i], q[i].value);
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        const double factor = std::max(q[i].value / own[i].value, own[i].value / q[i].value);
+        different[i] += factor > std::numbers::sqrt2;
+        furthest[i] = std::max(furthest[i], factor);
+      }
     }
     std::optional<Constant> best;
-    constexpr std::size_t least_flips = 3;
-    for (std::size_t i = 0; i < all.size() && flips.size() >= least_flips; ++i) {
-      all[i].spread = high[i] / low[i];
-      const bool is_constant = all[i].low > 0 && all[i].low <= all[i].high * error && std::isfinite(all[i].spread);
-      if (is_constant && all[i].spread >= least_spread && (!best || all[i].spread > best->spread)) best = all[i];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].spread = furthest[i];
+      const bool is_constant = all[i].low > 0 && all[i].low <= all[i].high * error_of_estimates;
+      const bool is_finite = std::isfinite(all[i].spread) && std::isfinite(all[i].high);
+      if (is_constant && is_finite && different[i] >= least_different && (!best || furthest[i] > best->spread))
+        best = all[i];
     }
     return best;
   }
@@ -445,8 +550,44 @@ class Investigation {
 
   // A limit of steps
 
+  /// The start moves a little, so that the exact times differ, and the given times are few.
+  std::optional<Named> times_of_steps() {
+    if (trials_.query().kind != Kind::impact || !trials_.base().answer.yes) return std::nullopt;
+    const std::vector<Trial> moved = trials_.ask(with_moved_starts());
+    std::vector<double> times;
+    for (const Trial& t : moved) {
+      if (t.answer.status == Answer::Status::answered && t.answer.yes && t.answer.values[0] > 0)
+        times.push_back(t.answer.values[0]);
+    }
+    const std::size_t all = times.size();
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    saw("The start was moved by different small distances.",
+        fmt::format("{} different times of contact were given in {} answers.", times.size(), all));
+    constexpr std::size_t least = 16, shared = 4;
+    if (all < least || shared * times.size() > all) return std::nullopt;
+    return Named{CauseKind::iteration_limit, "steps along the motion",
+                 "The time is one of a few: the subject looks at few steps along the motion."};
+  }
+  std::vector<Case> with_moved_starts() const {
+    std::vector<Case> cases;
+    const auto& start = parts_of(trials_.query()).start;
+    if (!start) return cases;
+    for (std::size_t n = 1; n <= neighbours; ++n) {
+      Case c = question();
+      constexpr int furthest = -6;  // as a power of two of the largest length
+      const double by = std::ldexp(double(n) / neighbours, largest_exponent(c) + furthest);
+      for (std::size_t k = 0; k < 3; ++k) {
+        double& x = c.values[start->place + k];
+        x = c.scalar == Scalar::float32 ? double(float(x + by)) : x + by;
+      }
+      cases.push_back(std::move(c));
+    }
+    return cases;
+  }
+
   /// The same motion begins later and later: the contact stays, and less and less of the way to it is left.
-  std::optional<Named> steps_of_motion() {
+  std::optional<Named> starts_of_motion() {
     const std::vector<Case> cases = later_starts();
     if (cases.empty() || (!roundings_.empty() && !same_in_all_roundings())) return std::nullopt;
     const std::vector<Trial> later = trials_.ask(cases);
@@ -531,7 +672,8 @@ class Investigation {
   std::uint64_t seed_;
   IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
   std::vector<Evidence> evidence_;
-  std::vector<Trial> variants_, sample_, roundings_;
+  std::optional<std::vector<Trial>> variants_;
+  std::vector<Trial> sample_, roundings_;
   std::vector<ScaleScan> scans_;
   std::size_t near_same_ = 0, near_right_ = 0, near_all_ = 0;
 };

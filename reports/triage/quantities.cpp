@@ -123,6 +123,7 @@ void add_vectors(const Case& c, std::vector<Quantity>& all) {
 std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
   std::vector<Quantity> all;
   if (with_gap) all.push_back({"the gap or overlap", gap_of(c)});
+  all.push_back({"the largest position or size", largest_number(c)});
   add_vectors(c, all);
   for (const auto& t : parts_of(*c.query).triangles) all.push_back({"the area of the triangle", area(c, t)});
   const auto& velocities = parts_of(*c.query).velocities;

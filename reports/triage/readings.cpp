@@ -98,10 +98,24 @@ Fits moved_place(const Case& c, const Answer& a, double distance, const IsRight&
   return is_right(c, other);
 }
 
+/// The given place is the center at the given time, and the other numbers are right. The place is compared as the
+/// measure compares: relative to the largest number.
 Fits center_for_place(const Case& c, const Answer& a, const IsRight& is_right) {
   const auto& start = parts_of(*c.query).start;
-  if (!start || !start->radius) return std::nullopt;
-  return moved_place(c, a, -c.values[*start->radius], is_right);
+  const auto& velocities = parts_of(*c.query).velocities;
+  const Layout::Part* place = given_part(c, a, Role::position);
+  const Layout::Part* time = given_part(c, a, Role::time);
+  if (!start || !start->radius || velocities.empty() || place == nullptr || time == nullptr) return std::nullopt;
+  Answer rest = a;
+  double off = 0, largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double center = c.values[start->place + k] + a.values[time->begin] * c.values[velocities[0] + k];
+    off = std::max(off, std::abs(a.values[place->begin + k] - center));
+    largest = std::max(largest, std::abs(c.values[start->place + k]));
+    rest.given &= ~(std::uint64_t{1} << (place->begin + k));
+  }
+  if (c.values[*start->radius] == 0) return std::nullopt;
+  return off <= measure().error * largest && is_right(c, rest);
 }
 
 /// The overlap, as a positive number; 0 where the answer has none.
@@ -264,39 +278,45 @@ Fits counted_from_one(const Case& c, const Answer& a, const IsRight& is_right) {
 }
 
 constexpr Reading table[] = {
-    {"normal reversed", "its normal points the other way", CauseKind::convention, reversed_normal},
-    {"normal not of unit length", "its normal is divided by its length", CauseKind::convention, normalised_normal},
-    {"distance in place of time", "its time is the distance until the contact", CauseKind::convention,
+    {"normal reversed", "its normal points the other way", CauseKind::convention, false, reversed_normal},
+    {"normal not of unit length", "its normal is divided by its length", CauseKind::convention, false,
+     normalised_normal},
+    {"distance in place of time", "its time is the distance until the contact", CauseKind::convention, false,
      distance_for_time},
-    {"time over speed", "its time is divided by the speed once more", CauseKind::convention, time_over_speed},
-    {"depth of the other sign", "its depth is negative for an overlap", CauseKind::convention, negative_depth},
-    {"center in place of the contact", "its place is the center at the contact", CauseKind::convention,
+    {"time over speed", "its time is divided by the speed once more", CauseKind::convention, false, time_over_speed},
+    {"depth of the other sign", "its depth is negative for an overlap", CauseKind::convention, false, negative_depth},
+    {"center in place of the contact", "its place is the center at the contact", CauseKind::convention, false,
      center_for_place},
-    {"contact on the other body", "its place lies on the surface of the other body", CauseKind::convention,
+    {"contact on the other body", "its place lies on the surface of the other body", CauseKind::convention, false,
      place_on_the_other},
-    {"contact half way", "its place lies half way between the two surfaces", CauseKind::convention, place_half_way},
-    {"nearest point of the start", "its place is the point nearest to the start", CauseKind::convention,
+    {"contact half way", "its place lies half way between the two surfaces", CauseKind::convention, false,
+     place_half_way},
+    {"nearest point of the start", "its place is the point nearest to the start", CauseKind::convention, false,
      place_of_the_start},
-    {"strict instead of closed", "a touch is a miss", CauseKind::convention, strict},
-    {"start in contact is a miss", "a start in contact is a miss", CauseKind::convention, start_inside_is_a_miss},
-    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention,
+    {"strict instead of closed", "a touch is a miss", CauseKind::convention, true, strict},
+    {"start in contact is a miss", "a start in contact is a miss", CauseKind::convention, true, start_inside_is_a_miss},
+    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, true,
      start_inside_is_a_hit},
-    {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, ends_at_time_one},
-    {"both sides", "the back counts as well as the front", CauseKind::convention, both_sides},
-    {"back for front", "the back takes the place of the front", CauseKind::convention, back_for_front},
-    {"half extents halved", "the given half extents are full extents", CauseKind::convention, scaled_sizes<1, 2, true>},
-    {"half extents doubled", "each half extent is twice the given one", CauseKind::convention,
+    {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, ends_at_time_one},
+    {"both sides", "the back counts as well as the front", CauseKind::convention, true, both_sides},
+    {"back for front", "the back takes the place of the front", CauseKind::convention, false, back_for_front},
+    {"half extents halved", "the given half extents are full extents", CauseKind::convention, false,
+     scaled_sizes<1, 2, true>},
+    {"half extents doubled", "each half extent is twice the given one", CauseKind::convention, false,
      scaled_sizes<2, 1, true>},
-    {"radius halved", "the given radius is a diameter", CauseKind::convention, scaled_sizes<1, 2, false>},
-    {"radius doubled", "each radius is twice the given one", CauseKind::convention, scaled_sizes<2, 1, false>},
-    {"rotation inverted", "each rotation is the inverse of the given one", CauseKind::convention, inverse_rotation},
-    {"quaternion begins with w", "the four numbers of a quaternion are w, x, y, z", CauseKind::convention, w_first},
-    {"offset of the other sign", "the plane's offset has the other sign", CauseKind::convention, negative_offset},
-    {"velocity reversed", "the velocity has the other sign", CauseKind::convention, reversed_velocity},
-    {"index from 1", "its index counts from 1", CauseKind::convention, counted_from_one},
-    {"rotation ignored", "rotations are ignored", CauseKind::unsupported, no_rotation},
-    {"radius ignored", "radii are ignored", CauseKind::unsupported, scaled_sizes<0, 1, false>},
-    {"flag ignored", "the flag has the other value", CauseKind::unsupported, other_flag},
+    {"radius halved", "the given radius is a diameter", CauseKind::convention, false, scaled_sizes<1, 2, false>},
+    {"radius doubled", "each radius is twice the given one", CauseKind::convention, false, scaled_sizes<2, 1, false>},
+    {"rotation inverted", "each rotation is the inverse of the given one", CauseKind::convention, false,
+     inverse_rotation},
+    {"quaternion begins with w", "the four numbers of a quaternion are w, x, y, z", CauseKind::convention, false,
+     w_first},
+    {"offset of the other sign", "the plane's offset has the other sign", CauseKind::convention, false,
+     negative_offset},
+    {"velocity reversed", "the velocity has the other sign", CauseKind::convention, false, reversed_velocity},
+    {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
+    {"rotation ignored", "rotations are ignored", CauseKind::unsupported, false, no_rotation},
+    {"radius ignored", "radii are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, false>},
+    {"flag ignored", "the flag has the other value", CauseKind::unsupported, false, other_flag},
 };
 
 }  // namespace

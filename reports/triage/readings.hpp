@@ -17,6 +17,7 @@ struct Reading {
   std::string_view name;  ///< "normal reversed": the key of the cause
   std::string_view what;  ///< completes "the answer is right if "
   CauseKind kind = CauseKind::convention;
+  bool decides = false;  ///< it is about the decision alone
   /// Whether the answer is right under this reading; empty where the reading makes no difference to the case.
   std::optional<bool> (*right)(const Case& c, const Answer& a, const IsRight& is_right) = nullptr;
 };

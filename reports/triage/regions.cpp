@@ -24,6 +24,10 @@ std::string_view outside_of(Precondition p) {
   return "?";
 }
 
+bool are_equal(const Case& c, std::size_t a, std::size_t b) {
+  return std::equal(&c.values[a], &c.values[a] + 3, &c.values[b]);
+}
+
 bool is_turned(const Case& c) {
   const auto& all = parts_of(*c.query).quaternions;
   return std::any_of(all.begin(), all.end(),
@@ -41,6 +45,12 @@ std::vector<Region> regions_of(const Query& query) {
     if (f.role == Role::flag)
       regions.push_back({fmt::format("the flag {}", f.name), [i](const Case& c) { return c.values[i] != 0; }});
   }
+  for (const auto& t : parts_of(query).triangles)
+    regions.push_back({"a triangle with two equal corners", [t](const Case& c) {
+                         return are_equal(c, t[0], t[1]) || are_equal(c, t[1], t[2]) || are_equal(c, t[0], t[2]);
+                       }});
+  for (const auto& s : parts_of(query).segments)
+    regions.push_back({"a segment of one point", [s](const Case& c) { return are_equal(c, s[0], s[1]); }});
   for (const Precondition p : all_preconditions) {
     if (concerns(p, query))
       regions.push_back({std::string(outside_of(p)), [p](const Case& c) { return !meets(c, p); }});

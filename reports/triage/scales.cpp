@@ -39,35 +39,36 @@ std::vector<ScaleScan::At> ask_at(Trials& trials, const Case& c, const ScaleGrou
   return at;
 }
 
-/// The first pair of neighbours in this direction of which the second is right and all before have the finding.
-std::optional<Flip> first_flip(std::span<const ScaleScan::At> sorted, int direction) {
+/// The trials in this direction, the nearest to scale 1 first.
+std::vector<const ScaleScan::At*> from_one(std::span<const ScaleScan::At> all, int direction) {
+  std::vector<const ScaleScan::At*> sorted;
+  for (const ScaleScan::At& a : all) {
+    if (a.k * direction > 0) sorted.push_back(&a);
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return std::abs(a->k) < std::abs(b->k); });
+  return sorted;
+}
+
+/// The last trial with the finding in an unbroken row from scale 1, and the first right one beyond.
+std::optional<Flip> first_flip(std::span<const ScaleScan::At> all, int direction) {
   int last = 0;
-  const auto next = [&](int after) {
-    const ScaleScan::At* found = nullptr;
-    for (const ScaleScan::At& a : sorted) {
-      const bool beyond = direction > 0 ? a.k > after : a.k < after;
-      if (beyond && (found == nullptr || std::abs(a.k) < std::abs(found->k))) found = &a;
-    }
-    return found;
-  };
-  for (const ScaleScan::At* a = next(0); a != nullptr; a = next(a->k)) {
+  bool unbroken = true;
+  for (const ScaleScan::At* a : from_one(all, direction)) {
     if (a->trial.outcome == Outcome::right) return Flip{last, a->k};
-    if (a->trial.outcome != Outcome::same) return std::nullopt;
-    last = a->k;
+    unbroken = unbroken && a->trial.outcome == Outcome::same;
+    if (unbroken) last = a->k;
   }
   return std::nullopt;
 }
 
-/// Bisects until the exponents are neighbours. Empty where an answer between is neither.
-std::optional<Flip> bisected(Trials& trials, const Case& c, const ScaleGroup& group, Flip f,
-                             std::vector<ScaleScan::At>& into) {
-  while (std::abs(f.wrong - f.right) > 1) {
+/// Bisects the row of trials until the exponents are neighbours, or an answer between is neither.
+Flip bisected(Trials& trials, const Case& c, const ScaleGroup& group, Flip f, std::vector<ScaleScan::At>& into) {
+  while (!f.is_sharp()) {
     const int middle = (f.wrong + f.right) / 2;
     std::vector<ScaleScan::At> asked = ask_at(trials, c, group, std::span(&middle, 1));
-    if (asked.empty()) return std::nullopt;
-    const Outcome outcome = asked.front().trial.outcome;
+    const Outcome outcome = asked.empty() ? Outcome::none : asked.front().trial.outcome;
+    if (outcome != Outcome::same && outcome != Outcome::right) return f;
     into.push_back(std::move(asked.front()));
-    if (outcome != Outcome::same && outcome != Outcome::right) return std::nullopt;
     (outcome == Outcome::same ? f.wrong : f.right) = middle;
   }
   return f;
@@ -83,6 +84,22 @@ std::optional<Flip> nearest_flip(Trials& trials, const Case& c, const ScaleGroup
     if (flip && (!nearest || std::abs(flip->right) < std::abs(nearest->right))) nearest = flip;
   }
   return nearest;
+}
+
+/// The exponents of a scan: steps from scale 1 that grow, and a denser row where the largest number is about 1.
+std::vector<int> exponents_of(const Case& c, const ScaleGroup& group) {
+  std::vector<int> ks{0};
+  for (const int step : steps) ks.insert(ks.end(), {step, -step});
+  double largest = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (group.order(c.query->inputs[i].role) != 0) largest = std::max(largest, std::abs(c.values[i]));
+  }
+  if (largest > 0) {
+    for (int d = -24; d <= 24; d += 4) ks.push_back(d - std::ilogb(largest));
+  }
+  std::sort(ks.begin(), ks.end());
+  ks.erase(std::unique(ks.begin(), ks.end()), ks.end());
+  return ks;
 }
 
 }  // namespace
@@ -103,24 +120,23 @@ std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k) {
 
 bool ScaleScan::explained_by(Raised exception) const {
   if (!flip) return false;
-  const bool upward = flip->right > flip->wrong;
+  const int direction = flip->right > 0 ? 1 : -1;
   bool always = true, never_beyond = false;
   for (const At& a : trials) {
-    const bool wrong_side = upward ? a.k <= flip->wrong : a.k >= flip->wrong;
-    if (wrong_side && a.trial.outcome == Outcome::same && (upward ? a.k >= 0 : a.k <= 0))
-      always = always && has_raised(a.trial, exception);
-    if (!wrong_side && a.trial.outcome == Outcome::right) never_beyond |= !has_raised(a.trial, exception);
+    const int k = a.k * direction;
+    const bool with_finding = a.trial.outcome == Outcome::same && k >= 0 && k <= flip->wrong * direction;
+    if (with_finding) always = always && has_raised(a.trial, exception);
+    if (a.trial.outcome == Outcome::right && k >= flip->right * direction)
+      never_beyond |= !has_raised(a.trial, exception);
   }
   return always && never_beyond;
 }
 
 ScaleScan scan(Trials& trials, const ScaleGroup& group) {
-  std::vector<int> ks{0};
-  for (const int step : steps) ks.insert(ks.end(), {step, -step});
   ScaleScan s;
   s.group = &group;
   const Case& c = trials.base().question;
-  s.trials = ask_at(trials, c, group, ks);
+  s.trials = ask_at(trials, c, group, exponents_of(c, group));
   if (s.trials.size() > 1) s.flip = nearest_flip(trials, c, group, s.trials);
   std::sort(s.trials.begin(), s.trials.end(), [](const auto& a, const auto& b) { return a.k < b.k; });
   return s;
@@ -135,8 +151,9 @@ std::optional<Flip> flip_near(Trials& trials, const Case& c, const ScaleGroup& g
   ks.erase(std::unique(ks.begin(), ks.end()), ks.end());
   std::erase_if(ks, [&](int k) { return k * direction < 0; });
   std::vector<ScaleScan::At> at = ask_at(trials, c, group, ks);
-  const auto flip = first_flip(at, direction);
-  return flip ? bisected(trials, c, group, *flip, at) : std::nullopt;
+  auto flip = first_flip(at, direction);
+  if (flip) flip = bisected(trials, c, group, *flip, at);
+  return flip;
 }
 
 }  // namespace nearmiss

@@ -22,14 +22,14 @@ std::span<const ScaleGroup> scale_groups();
 /// The case with each number multiplied by 2^(k * order); empty where that is not exact, or changes nothing.
 std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k);
 
-/// The scale at which a finding ends: at 2^wrong the finding is there, at 2^right the answer is right, and the two
-/// exponents are neighbours.
+/// Where a finding ends: from 2^0 to 2^wrong the finding is there, and at 2^right the answer is right. Between the two,
+/// answers may have other findings; without such answers, the exponents are neighbours.
 struct Flip {
   int wrong = 0, right = 0;
-  bool operator==(const Flip&) const = default;
+  bool is_sharp() const { return wrong - right == 1 || right - wrong == 1; }
 };
 
-/// The trials of one group, and the flip next to scale 1.
+/// The trials of one group, and the flip nearest to scale 1.
 struct ScaleScan {
   const ScaleGroup* group = nullptr;
   struct At {
@@ -39,15 +39,14 @@ struct ScaleScan {
   std::vector<At> trials;  ///< by k; k = 0 is among them
   std::optional<Flip> flip;
 
-  /// Whether every trial with the finding between scale 1 and the flip raised the exception, and some trial with a
-  /// right answer beyond the flip did not.
+  /// Every answer with the finding from scale 1 to the flip raised the exception, and a right answer beyond did not.
   bool explained_by(Raised exception) const;
 };
 
 /// Scans one group; answers have the raised exceptions where the subject can be asked so.
 ScaleScan scan(Trials& trials, const ScaleGroup& group);
-/// The flip of another case with the same finding, sought from a flip known of a similar case. Empty where there is
-/// none.
+/// The flip of another case with the same finding, sought from a flip known of a similar case; empty where there
+/// is none.
 std::optional<Flip> flip_near(Trials& trials, const Case& c, const ScaleGroup& group, const Flip& known);
 
 }  // namespace nearmiss

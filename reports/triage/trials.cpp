@@ -35,20 +35,39 @@ std::vector<Case> changed(const Case& c, std::size_t count, std::uint64_t seed, 
   return cases;
 }
 
-/// Cases in which one size or one vector is multiplied by a power of two.
-std::vector<Case> with_one_part_scaled(const Case& c) {
-  std::vector<Case> cases;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Field& f = c.query->inputs[i];
-    const bool is_vector = f.name.ends_with(".x") && f.role != Role::rotation && f.role != Role::size;
-    if (!is_vector && f.role != Role::size) continue;
-    for (const int k : {-4, -2, 2, 4}) {
-      Case other = c;
-      for (std::size_t n = i; n < i + (is_vector ? 3 : 1); ++n) other.values[n] = std::ldexp(c.values[n], k);
-      cases.push_back(std::move(other));
+/// The parts of a case that may be scaled: sizes, and vectors as wholes.
+std::vector<std::pair<std::size_t, std::size_t>> parts_to_scale(const Query& q) {
+  std::vector<std::pair<std::size_t, std::size_t>> parts;
+  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
+    const Field& f = q.inputs[i];
+    if (f.role == Role::size) parts.emplace_back(i, i + 1);
+    if (f.name.ends_with(".x") && f.role != Role::size && f.role != Role::rotation) parts.emplace_back(i, i + 3);
+  }
+  return parts;
+}
+
+/// Cases in which each part, at random, is as it is or multiplied by a power of two.
+std::vector<Case> with_parts_scaled(const Case& c, std::size_t count, std::uint64_t seed) {
+  constexpr int orders = 4;
+  Random random(seed);
+  std::vector<Case> cases(count, c);
+  for (Case& other : cases) {
+    for (const auto& [begin, end] : parts_to_scale(*c.query)) {
+      const double factor = random.one_in(2) ? random.power_of_two(-orders, orders) : 1.0;
+      for (std::size_t i = begin; i < end; ++i) other.values[i] = rounded_to(c.scalar, c.values[i] * factor);
     }
   }
   return cases;
+}
+
+/// Moves at most `most` other cases with the finding to the end of `found`.
+void take_same(std::vector<Trial>& from, const Case& c, std::size_t most, std::vector<Trial>& found) {
+  for (Trial& t : from) {
+    if (most == 0) return;
+    if (t.outcome != Outcome::same || t.question.values == c.values) continue;
+    found.push_back(std::move(t));
+    --most;
+  }
 }
 
 }  // namespace
@@ -131,16 +150,15 @@ std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int orde
 std::vector<Trial> variants(Trials& trials, std::size_t most, std::uint64_t seed) {
   const Case& c = trials.base().question;
   const int digits = c.scalar == Scalar::float32 ? 24 : 53;
-  constexpr std::size_t of_each_order = 8;
-  std::vector<Case> cases = with_one_part_scaled(c);
-  for (int order = 1; order < digits; order += c.scalar == Scalar::float32 ? 1 : 2) {
+  constexpr std::size_t of_each_order = 8, mixed = 96;
+  std::vector<Case> cases;
+  for (int order = 0; order < digits; order += c.scalar == Scalar::float32 ? 1 : 2) {
     const auto some = relative_neighbours(c, of_each_order, order, seed + std::uint64_t(order));
     cases.insert(cases.end(), some.begin(), some.end());
   }
-  std::vector<Trial> all = trials.ask(cases), found;
-  std::erase_if(all, [&](const Trial& t) { return t.outcome != Outcome::same || t.question.values == c.values; });
-  const std::size_t number = std::min(most, all.size());
-  for (std::size_t i = 0; i < number; ++i) found.push_back(std::move(all[i * all.size() / number]));
+  std::vector<Trial> found, scaled = trials.ask(with_parts_scaled(c, mixed, seed)), near = trials.ask(cases);
+  take_same(scaled, c, most / 2, found);
+  take_same(near, c, most - found.size(), found);
   return found;
 }
 
