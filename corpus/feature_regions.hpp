@@ -36,6 +36,7 @@ class FeatureRegions {
   /// True where every region of the set is in `other` too.
   bool within(FeatureRegions other) const { return (bits_ & ~other.bits_) == 0; }
   std::vector<std::string_view> names() const;
+  std::uint32_t bits() const { return bits_; }
   auto operator<=>(const FeatureRegions&) const = default;
 
  private:

@@ -4,7 +4,7 @@
 
 namespace nearmiss {
 
-bool Retention::keep(const std::string& kind, const std::string& variant, double above, First first) {
+bool Retention::keep(const std::string& kind, std::uint64_t variant, double above, First first) {
   Kept& kept = kept_[kind];
   const bool much_worse = above > 0 && above >= 2 * kept.worst;
   const bool is_full = kept.count >= first.of_a_kind;

@@ -107,8 +107,8 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
 }
 
 bool FindingRetention::keep(const Tally& of, const Finding& f, const Variant& variant) {
-  const std::string alike =
-      fmt::format("{:x} {} {}", variant.branches, variant.ordinary, fmt::join(variant.regions.names(), ","));
+  // Two variants with one number would share their first few.
+  const std::uint64_t alike = (variant.branches ^ std::uint64_t{variant.regions.bits()} << 1) * 2 + variant.ordinary;
   const auto keeps = [&](std::string_view fault, const std::optional<Backward>& bound) {
     const std::string kind = fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
     return retention_.keep(kind, alike, bound ? bound->above : 0, {first_few, most_of_a_kind});

@@ -7,24 +7,31 @@
 namespace nearmiss {
 
 void VariantCounts::count(const Tally& tally, const Examined& e, const Variant& variant, bool kept) {
-  FindingKind kind = kind_of_finding(*e.question.query, e.subject.name, e.finding);
-  if (e.finding.verdict == Verdict::broke) kind.clause = tally.breakage_of(e.finding);
-  std::map<Variant, Count>& variants = counts_[std::move(kind)];
-  const bool is_known = variants.contains(variant) || variants.size() < most_variants;
-  Count& c = variants[is_known ? variant : Variant{0, {}, variant.ordinary}];
+  const bool broke = e.finding.verdict == Verdict::broke;
+  Signature signature = signature_of(e.finding);
+  if (broke) signature.breakage = tally.breakage_of(e.finding);
+  const auto [at, is_new] = kinds_.try_emplace({e.question.query, &e.subject, std::move(signature)});
+  Kind& kind = at->second;
+  if (is_new) {
+    kind.words = kind_of_finding(*e.question.query, e.subject.name, e.finding);
+    if (broke) kind.words.clause = std::get<Signature>(at->first).breakage;
+  }
+  const bool is_known = kind.variants.contains(variant) || kind.variants.size() < most_variants;
+  Count& c = kind.variants[is_known ? variant : Variant{0, {}, variant.ordinary}];
   ++c.findings;
   c.kept += kept;
 }
 
 nlohmann::ordered_json VariantCounts::to_json() const {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const auto& [kind, variants] : counts_) {
-    for (const auto& [variant, count] : variants) {
-      all.push_back({{"query", kind.query},
-                     {"subject", kind.subject},
-                     {"fault", kind.fault},
-                     {"member", kind.member},
-                     {"clause", kind.clause},
+  for (const auto& [key, kind] : kinds_) {
+    const FindingKind& words = kind.words;
+    for (const auto& [variant, count] : kind.variants) {
+      all.push_back({{"query", words.query},
+                     {"subject", words.subject},
+                     {"fault", words.fault},
+                     {"member", words.member},
+                     {"clause", words.clause},
                      {"branches", fmt::format("{:016x}", variant.branches)},
                      {"regions", variant.regions.names()},
                      {"ordinary", variant.ordinary},

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <tuple>
 #include <vector>
 
 #include "reports/engine/campaign.hpp"
@@ -26,7 +27,13 @@ class VariantCounts {
   nlohmann::ordered_json to_json() const;
 
  private:
-  std::map<FindingKind, std::map<Variant, Count>> counts_;
+  /// A kind by what is cheap to compare.
+  using Key = std::tuple<const Query*, const Subject*, Signature>;
+  struct Kind {
+    FindingKind words;
+    std::map<Variant, Count> variants;
+  };
+  std::map<Key, Kind> kinds_;
 };
 
 /// The counts of one variant, as an index has them.

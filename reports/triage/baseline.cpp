@@ -33,7 +33,7 @@ bool is_explained(const TriagedSignature& s) { return s.examined && s.cause.kind
 bool is_same(const TriagedSignature& a, const TriagedSignature& b) {
   if (a.id == b.id) return true;
   if (a.kind != b.kind) return false;
-  if (shares_a_report(a, b)) return true;
+  if (shares_a_report(a, b) || differs_in_key_alone(a, b)) return true;
   const bool one_open = !is_explained(a) || !is_explained(b);
   return one_open && ((a.regions == b.regions && a.branches == b.branches) || !a.examined || !b.examined);
 }

@@ -83,7 +83,7 @@ std::string signature_text(const TriagedSignature& s) {
 std::string triage_text(const Triage& t, std::size_t rows) {
   std::string text = counts_text(t);
   const std::size_t shown = std::min(rows, t.signatures.size());
-  for (std::size_t i = 0; i < shown; ++i) text += "\n" + signature_text(t.signatures[i]);
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("\n{}", signature_text(t.signatures[i]));
   if (shown < t.signatures.size()) {
     text +=
         fmt::format("\nand {} less severe: --rows {} shows all\n", t.signatures.size() - shown, t.signatures.size());
