@@ -20,12 +20,6 @@ double middle(const Bounds& b) { return b.low / 2 + b.high / 2; }
 
 double to_scalar(double x, Scalar scalar) { return scalar == Scalar::float32 ? double(float(x)) : x; }
 
-/// The backward error that the standard, or for a contract without such a bound the measure, allows.
-double allowed_by(const Standard& standard, Scalar scalar) {
-  const double promised = standard.contract.backward;
-  return promised < collide::Contract::none ? promised : measure().error / unit_roundoff(scalar);
-}
-
 /// Finds the distances from a right answer at which the judge still takes a member for right.
 class Tolerances {
  public:
@@ -243,10 +237,15 @@ void narrow(RightAnswers& right, const Query& query, const Answer& given) {
 
 }  // namespace
 
+double allowed_backward_error(const Standard& standard, Scalar scalar) {
+  const double promised = standard.contract.backward;
+  return promised < collide::Contract::none ? promised : measure().error / unit_roundoff(scalar);
+}
+
 RightAnswers right_answers(const Case& question, const Answer& given, const Finding& finding, const Standard& standard,
                            const Truth& truth, const std::vector<std::size_t>& members) {
   RightAnswers right;
-  right.allowed = allowed_by(standard, question.scalar);
+  right.allowed = allowed_backward_error(standard, question.scalar);
   if (standard.contract.unit < collide::Contract::none) {
     right.unit_error = standard.contract.unit * unit_roundoff(question.scalar);
   }

@@ -39,6 +39,9 @@ struct RightAnswers {
   bool narrowed = false;
 };
 
+/// The backward error, in epsilon of the scalar, that the standard allows; where it bounds none, the measure.
+double allowed_backward_error(const Standard& standard, Scalar scalar);
+
 /// The right answers to a case, with tolerances for the numbers of the outputs in `members` (indices in the layout).
 /// A tolerance is the largest distance at which the judge takes a number for right, by the bound of the standard, on
 /// lines through the right value: along each axis, and towards `given`. Where `given` is proved to be wrong, it is not

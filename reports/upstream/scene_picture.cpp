@@ -196,18 +196,30 @@ class Canvas {
     }
   }
   void put(const Flat& p, char c) {
-    const double column = std::floor((p.u - origin_.u) / cell_), row = std::floor((origin_.v - p.v) / (2 * cell_));
-    if (column >= 0 && column < columns && row >= 0 && row < rows_) text_[std::size_t(row)][std::size_t(column)] = c;
+    if (char* at = at_point(p)) *at = c;
   }
+  void put_on_blank(const Flat& p, char c) {
+    char* at = at_point(p);
+    if (at != nullptr && *at == ' ') *at = c;
+  }
+  /// Without empty rows at the top.
   std::string text() const {
     std::string all;
     for (const std::string& line : text_) {
-      all += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+      const std::string shown = line.substr(0, line.find_last_not_of(' ') + 1);
+      if (!all.empty() || !shown.empty()) all += shown + "\n";
     }
     return all;
   }
 
  private:
+  /// nullptr outside of the picture.
+  char* at_point(const Flat& p) {
+    const double column = std::floor((p.u - origin_.u) / cell_), row = std::floor((origin_.v - p.v) / (2 * cell_));
+    const bool inside = column >= 0 && column < columns && row >= 0 && row < rows_;
+    return inside ? &text_[std::size_t(row)][std::size_t(column)] : nullptr;
+  }
+
   Flat origin_;  ///< the upper left corner
   double cell_ = 0;
   int rows_ = 1;
@@ -285,7 +297,7 @@ std::string scene_picture(const Report& r) {
     // The way beyond the picture is not drawn.
     const double speed = std::hypot(view.flat(*t.velocity).u, view.flat(*t.velocity).v);
     for (int i = 1; speed > 0 && i < 4 * Canvas::columns; ++i) {
-      canvas.put(view.flat(*t.start + *t.velocity * (i * canvas.cell() / speed)), '.');
+      canvas.put_on_blank(view.flat(*t.start + *t.velocity * (i * canvas.cell() / speed)), '.');
     }
     canvas.put(view.flat(*t.start), 'o');
   }

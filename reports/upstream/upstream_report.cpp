@@ -81,16 +81,21 @@ std::string truth(const Report& r) {
   return text + "\n";
 }
 
+/// By the same bound as the answer that is reported.
+std::string verdict_on(const Opinion& o, double allowed) {
+  const Finding& f = o.finding;
+  if (f.verdict == Verdict::broke || f.verdict == Verdict::cannot_answer) return std::string(name_of(f.verdict));
+  const bool differs = f.disagreement != Disagreement::none && (!f.backward || f.backward->above > allowed);
+  return differs ? std::string(name_of(f.disagreement)) : "right, within the same bound";
+}
+
 std::string referees(const Report& r) {
   if (r.referees.empty()) return "";
+  const double allowed = allowed_backward_error(r.standard, r.question.scalar);
   std::string text = "## Other libraries\n\n| library | answer | |\n|---|---|---|\n";
   for (const Opinion& o : r.referees) {
-    const bool differs = o.finding.disagreement != Disagreement::none;
-    const std::string verdict = o.finding.verdict == Verdict::agrees ? "right"
-                                : differs                            ? std::string(name_of(o.finding.disagreement))
-                                                                     : std::string(name_of(o.finding.verdict));
     text += fmt::format("| {} (`{}`) | {} | {} |\n", o.version, o.referee,
-                        answer_text(*r.question.query, o.answer, r.question.scalar), verdict);
+                        answer_text(*r.question.query, o.answer, r.question.scalar), verdict_on(o, allowed));
   }
   return text + "\n";
 }
