@@ -37,7 +37,8 @@ for program in (CHROMIUM, DRIVER):
 ARGUMENTS = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 ARGUMENTS.add_argument("--build", type=pathlib.Path, required=True)
 ARGUMENTS.add_argument("--images", type=pathlib.Path)
-OPTIONS, _ = ARGUMENTS.parse_known_args()
+ARGUMENTS.add_argument("tests", nargs="*", metavar="TEST", help="only these: Page.test_sorts")
+OPTIONS = ARGUMENTS.parse_args()
 PROGRAM = OPTIONS.build / "reports" / "nearmiss"
 
 
@@ -215,6 +216,8 @@ class Page(unittest.TestCase):
     def test_shows_regressions_first(self):
         changes = self.browser.run("return nearmiss.table.rows().map(r => nearmiss.data.value(r, 'change'))")
         self.assertEqual(changes, sorted(changes, key=["worse", "new", "known", "fixed"].index))
+        regressions = sum(c in ("new", "worse") for c in changes)  # the subject is the library's own
+        self.assertIn(f"{regressions} regressions", self.browser.find("#verdict").text)
 
     def test_sorts(self):
         values = lambda name: self.browser.run("return nearmiss.table.rows().map(r => nearmiss.data.value(r, arguments[0]))", name)
@@ -363,4 +366,4 @@ if __name__ == "__main__":
     if OPTIONS.images:
         write_images(OPTIONS.images)
         sys.exit(0)
-    unittest.main(argv=[sys.argv[0], "-v"])
+    unittest.main(argv=[sys.argv[0], "-v", *OPTIONS.tests])

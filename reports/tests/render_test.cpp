@@ -181,14 +181,18 @@ TEST_F(Render, ShowsARun) {
                 .exit_code,
             1);
   folder_.file("night/findings/closest_point_segment/foreign.json", "{}");
+  folder_.file("extremes.html", "maps");
   const Ran ran = nearmiss({"render", "--plugin", plugin, folder_.path().string()});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const json data = data_of_page(folder_ / "index.html");
   EXPECT_EQ(complaints(data, "page.schema.json"), "");
   EXPECT_EQ(data.at("trend").size(), 1u);
+  EXPECT_EQ(data.at("extremes"), json({"extremes.html"}));
   ASSERT_FALSE(data.at("rows").empty());
   EXPECT_EQ(data.at("reports").size(), data.at("rows").size());
   EXPECT_TRUE(data.at("skipped").empty()) << data.at("skipped");
+  for (const json& file : data.at("reports")[0].at("details").at("files"))
+    EXPECT_TRUE(fs::exists(folder_ / file.get<std::string>())) << file;
   const json worst = json::parse(data.at("reports")[0].at("worst").get<std::string>());
   EXPECT_EQ(complaints(worst.at("report"), "report.schema.json"), "");
   EXPECT_EQ(complaints(worst.at("scene"), "scene.schema.json"), "");
