@@ -169,27 +169,27 @@ class PageWords {
   Json words_ = Json::array();
 };
 
-constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",        "fault",
-                                        "member", "clause",  "change",  "severity_text", "headline"};
+constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",       "fault",
+                                        "member", "clause",  "change",  "severity_text"};
 constexpr const char* plain_columns[] = {"id",      "severity", "count", "findings", "ordinary_share", "above_epsilon",
                                          "relative"};
 
 /// Further rows have no headline of their own: 100,000 of them would be most of the page.
 constexpr std::size_t most_headlines = 20'000;
-constexpr std::size_t headline_column = std::size(word_columns) - 1;
 
 Json columns_of_rows() {
   Json columns = Json::array();
   for (const char* c : word_columns) columns.push_back(c);
-  for (const char* c : {"cause", "cause_text", "decision"}) columns.push_back(c);
+  for (const char* c : {"headline", "cause", "cause_text", "decision"}) columns.push_back(c);
   for (const char* c : plain_columns) columns.push_back(c);
   columns.push_back("ours");
   return columns;
 }
 
-Json row_of(const Json& s, bool ours, PageWords& words) {
+Json row_of(const Json& s, bool ours, bool with_headline, PageWords& words) {
   Json row = Json::array();
   for (const char* c : word_columns) row.push_back(words.index_of(member_of(s, c)));
+  row.push_back(with_headline ? words.index_of(member_of(s, "headline")) : Json(nullptr));
   row.push_back(words.index_of(member_of(member_of(s, "cause"), "kind")));
   row.push_back(words.index_of(member_of(member_of(s, "cause"), "text")));
   const Json& decision = member_of(s, "decision");
@@ -375,8 +375,7 @@ nlohmann::ordered_json PageData::to_json() const {
   PageWords words;
   Json rows = Json::array();
   for (const Json& s : signatures_) {
-    rows.push_back(row_of(s, ours_.at(text_of_member(s, "subject")), words));
-    if (rows.size() > most_headlines) rows.back()[headline_column] = nullptr;
+    rows.push_back(row_of(s, ours_.at(text_of_member(s, "subject")), rows.size() < most_headlines, words));
   }
   Json summary = summary_;
   if (member_of(summary, "run").is_object()) {  // the page needs none of the lists of an index
