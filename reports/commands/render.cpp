@@ -37,7 +37,8 @@ class RenderCommand : public Command {
          "all of them."},
         {{"0", "The page is written. A report that cannot be read is named in it."},
          {"2",
-          "The folder holds no findings, the page cannot be written, or this build lacks node-d3 or libjs-three."}},
+          "The folder holds no findings, the page cannot be written, this build lacks node-d3 or libjs-three, or the "
+          "command was interrupted; then the page is written with the reports that were read."}},
         {{"nearmiss render reports/runs/nightly", "Writes index.html there."},
          {"nearmiss render reports/runs --out page.html", "The newest run, with the trend of all."}}};
   }
@@ -54,20 +55,21 @@ class RenderCommand : public Command {
   int run(const CLI::App&) override {
     check_page_can_be_written();  // before the work
     catch_interrupts();
-    PageData data(folder_);
-    add_reports(data);
     const fs::path file = out_.empty() ? fs::path(folder_) / "index.html" : fs::path(out_);
+    PageData data(folder_, fs::absolute(file).parent_path());
+    add_reports(data);
     write_file(file, page_with(data.to_json()));
     fmt::print("{} in {} ({:.1f} MB)\n", plural_text(data.signatures(), "signature"), file.string(),
                double(fs::file_size(file)) / 1e6);
-    return 0;
+    if (interrupted()) say_on_stderr("nearmiss: interrupted: the page lacks reports\n");
+    return interrupted() ? 2 : 0;
   }
 
  private:
   void add_reports(PageData& data) {
     Workers workers([] { return !interrupted(); });
     Progress progress;
-    progress.set_activity("reading reports");
+    progress.set_activity("drawing");
     const Clock::time_point until =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds_));
     const auto has_time = [&] { return !interrupted() && Clock::now() < until; };

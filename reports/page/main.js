@@ -8,14 +8,15 @@
   document.title = `Nearmiss: ${data.raw.name}`;
   document.getElementById("run").textContent = [data.raw.name, run.started ? run.started.replace("T", " ").replace(/:\d\dZ$/, " UTC") : null,
     summary.environment ? `nearmiss ${summary.environment.nearmiss}` : null].filter(Boolean).join(" · ");
-  const changed = name => Array.from({length: data.count}, (_, r) => data.value(r, "change")).filter(c => c === name).length;
-  const change = name => totals[name] ?? changed(name);
-  const regressions = [[change("new"), "new"], [change("worse"), "worse"], [totals.reopened || 0, "reopened"]].filter(([n]) => n > 0);
-  const anyChange = regressions.length > 0 || change("known") > 0 || change("fixed") > 0;
-  const verdict = regressions.length ? `${regressions.map(([n, w]) => `${count(n)} ${w}`).join(", ")}` : anyChange ? "Nothing new" : plural(data.count, "signature");
-  document.getElementById("verdict").append(element("b", {class: regressions.length ? "bad" : null}, verdict),
-    anyChange ? ` of ${plural(data.count, "signature")}` : "");
-
+  const all = [...Array(data.count).keys()], changeOf = row => data.value(row, "change");
+  const change = name => totals[name] ?? all.filter(row => changeOf(row) === name).length;
+  const isRegression = row => data.value(row, "decision") === "reopened" || (data.value(row, "ours") === 1 && ["new", "worse"].includes(changeOf(row)));
+  const anyChange = all.some(row => changeOf(row) !== "");
+  const regressions = all.filter(isRegression).length;
+  const others = ["new", "worse"].map(name => [all.filter(row => !isRegression(row) && changeOf(row) === name).length, name]).filter(([n]) => n > 0);
+  document.getElementById("verdict").append(...(!anyChange ? [element("b", {}, plural(data.count, "signature"))] : [
+    element("b", {class: regressions ? "bad" : "good"}, regressions ? plural(regressions, "regression") : "No regression"),
+    others.length ? ` · ${others.map(([n, w]) => `${count(n)} ${w}`).join(", ")} in other libraries` : "", ` · ${plural(data.count, "signature")}`]));
   const total = (name, n) => (typeof n === "number" ? element("div", {}, element("dt", {}, name), element("dd", {}, count(n))) : null);
   document.getElementById("totals").append(...[total("answers", run.cases), total("findings", totals.findings), total("reports", totals.reports),
     total("known", anyChange ? change("known") : null), total("fixed", anyChange ? change("fixed") : null)].filter(Boolean));

@@ -9,6 +9,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "reports/engine/night_changes.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
 #include "reports/findings/hash.hpp"
@@ -168,59 +169,49 @@ class PageWords {
   Json words_ = Json::array();
 };
 
-constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",        "fault",
-                                        "member", "clause",  "change",  "severity_text", "headline"};
+constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",       "fault",
+                                        "member", "clause",  "change",  "severity_text"};
 constexpr const char* plain_columns[] = {"id",      "severity", "count", "findings", "ordinary_share", "above_epsilon",
                                          "relative"};
 
 /// Further rows have no headline of their own: 100,000 of them would be most of the page.
 constexpr std::size_t most_headlines = 20'000;
-constexpr std::size_t headline_column = std::size(word_columns) - 1;
 
 Json columns_of_rows() {
   Json columns = Json::array();
   for (const char* c : word_columns) columns.push_back(c);
-  for (const char* c : {"cause", "cause_text", "decision"}) columns.push_back(c);
+  for (const char* c : {"headline", "cause", "cause_text", "decision"}) columns.push_back(c);
   for (const char* c : plain_columns) columns.push_back(c);
+  columns.push_back("ours");
   return columns;
 }
 
-Json row_of(const Json& s, PageWords& words) {
+Json row_of(const Json& s, bool ours, bool with_headline, PageWords& words) {
   Json row = Json::array();
   for (const char* c : word_columns) row.push_back(words.index_of(member_of(s, c)));
+  row.push_back(with_headline ? words.index_of(member_of(s, "headline")) : Json(nullptr));
   row.push_back(words.index_of(member_of(member_of(s, "cause"), "kind")));
   row.push_back(words.index_of(member_of(member_of(s, "cause"), "text")));
   const Json& decision = member_of(s, "decision");
   row.push_back(member_of(decision, "reopened") == true ? words.index_of("reopened")
                                                         : words.index_of(member_of(decision, "kind")));
   for (const char* c : plain_columns) row.push_back(member_of(s, c));
+  row.push_back(ours ? 1 : 0);
   return row;
 }
 
-/// The rest of a signature, for those whose reports are in the page.
-Json details_of(const Json& s) {
-  constexpr std::size_t most_reports = 20;
-  Json d{{"cause", member_of(s, "cause")},
-         {"regions", member_of(s, "regions")},
-         {"decision", member_of(s, "decision")},
-         {"test", member_of(s, "test")},
-         {"files", Json::array()}};
-  const Json& files = member_of(s, "reports");
-  for (std::size_t i = 0; files.is_array() && i < std::min(files.size(), most_reports); ++i)
-    d["files"].push_back(files[i]);
-  return d;
-}
-
-/// The regressions of the night come first.
-int rank_of(const Json& s) {
+/// The regressions of the night come first: those of the subjects whose night it is, then those of others.
+int rank_of(const Json& s, bool ours) {
   if (member_of(member_of(s, "decision"), "reopened") == true) return 0;
   const std::string change = text_of_member(s, "change");
-  return change == "worse" ? 1 : change == "new" ? 2 : change == "fixed" ? 4 : 3;
+  const int other = ours ? 0 : 2;
+  return change == "worse" ? 1 + other : change == "new" ? 2 + other : change == "fixed" ? 6 : 5;
 }
 
 }  // namespace
 
-PageData::PageData(fs::path folder) : folder_(std::move(folder)), run_(folder_) {
+PageData::PageData(fs::path folder, fs::path page_folder)
+    : folder_(std::move(folder)), page_folder_(std::move(page_folder)), run_(folder_) {
   if (!fs::is_directory(folder_)) throw BadInput(fmt::format("{}: it is not a folder", folder_.string()));
   settle_run(folder_);
   settle_runs_below(folder_);
@@ -290,10 +281,17 @@ void PageData::read_trend() {
 }
 
 void PageData::sort_signatures() {
-  std::stable_sort(signatures_.begin(), signatures_.end(), [](const Json& a, const Json& b) {
-    return std::tuple(rank_of(a), -number_of_member(a, "severity")) <
-           std::tuple(rank_of(b), -number_of_member(b, "severity"));
-  });
+  for (const Json& s : signatures_) ours_.try_emplace(text_of_member(s, "subject"), false);
+  for (auto& [subject, ours] : ours_) ours = is_ours(subject);
+  std::vector<std::tuple<int, double, std::size_t>> order;
+  for (std::size_t i = 0; i < signatures_.size(); ++i) {
+    const bool ours = ours_.at(text_of_member(signatures_[i], "subject"));
+    order.emplace_back(rank_of(signatures_[i], ours), -number_of_member(signatures_[i], "severity"), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Json> sorted;
+  for (const auto& [rank, severity, i] : order) sorted.push_back(std::move(signatures_[i]));
+  signatures_ = std::move(sorted);
 }
 
 fs::path PageData::file_of(const std::string& path) const {
@@ -329,7 +327,6 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
     if (can_ask && has_time()) {
       set_measure(measure_of(report, file.string()));
       j["plots"] = error_plots(question, *subject, workers, has_time);
-      ++sampled_;
     }
     return j.dump(-1, ' ', false, Json::error_handler_t::replace);
   } catch (const ReportedError& e) {
@@ -340,11 +337,33 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
   return "null";
 }
 
+std::string PageData::link_to(const fs::path& file) const {
+  return fs::absolute(file)
+      .lexically_normal()
+      .lexically_relative(fs::absolute(page_folder_).lexically_normal())
+      .generic_string();
+}
+
+/// The rest of a signature, for those whose reports are in the page.
+Json PageData::details_of(const Json& s) const {
+  constexpr std::size_t most_reports = 20;
+  Json d{{"cause", member_of(s, "cause")},
+         {"regions", member_of(s, "regions")},
+         {"decision", member_of(s, "decision")},
+         {"test", member_of(s, "test")},
+         {"files", Json::array()}};
+  const Json& files = member_of(s, "reports");
+  for (std::size_t i = 0; files.is_array() && i < std::min(files.size(), most_reports); ++i) {
+    if (files[i].is_string()) d["files"].push_back(link_to(file_of(files[i].get<std::string>())));
+  }
+  return d;
+}
+
 Json PageData::extremes() const {
   Json pages = Json::array();
   for (const fs::path& folder : {folder_, run_}) {
     for (const char* name : {"extremes.html", "extremes/extremes.html"}) {
-      const std::string link = fs::relative(folder / name, folder_).generic_string();
+      const std::string link = link_to(folder / name);
       if (fs::exists(folder / name) && std::find(pages.begin(), pages.end(), link) == pages.end())
         pages.push_back(link);
     }
@@ -356,8 +375,7 @@ nlohmann::ordered_json PageData::to_json() const {
   PageWords words;
   Json rows = Json::array();
   for (const Json& s : signatures_) {
-    rows.push_back(row_of(s, words));
-    if (rows.size() > most_headlines) rows.back()[headline_column] = nullptr;
+    rows.push_back(row_of(s, ours_.at(text_of_member(s, "subject")), rows.size() < most_headlines, words));
   }
   Json summary = summary_;
   if (member_of(summary, "run").is_object()) {  // the page needs none of the lists of an index

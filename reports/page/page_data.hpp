@@ -1,9 +1,10 @@
 /// The data of the page of a triage or of a run: its signatures, the trend, and its reports with their pictures.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ namespace nearmiss {
 /// trend.
 class PageData {
  public:
-  /// Throws BadInput for a folder without a run or a triage, and for one whose files cannot be read.
-  explicit PageData(std::filesystem::path folder);
+  /// `page_folder` is that of the page, for its links. Throws BadInput for a folder without a run or a triage, and for
+  /// one whose files cannot be read.
+  PageData(std::filesystem::path folder, std::filesystem::path page_folder);
 
   std::size_t signatures() const { return signatures_.size(); }
 
@@ -42,13 +44,16 @@ class PageData {
   /// The report with its scene and its plots as text; "null" where it cannot be read.
   std::string report_text(const std::string& path, Workers& workers, const std::function<bool()>& has_time);
   std::filesystem::path file_of(const std::string& path) const;
+  /// A link of the page to a file.
+  std::string link_to(const std::filesystem::path& file) const;
+  Json details_of(const Json& signature) const;
   Json extremes() const;
 
-  std::filesystem::path folder_, run_;  ///< paths of reports are relative to `run_`
+  std::filesystem::path folder_, page_folder_, run_;  ///< paths of reports are relative to `run_`
   Json summary_, trend_ = Json::array(), skipped_ = Json::array();
   std::vector<Json> signatures_;  ///< in the form of triage.json
   std::vector<Json> reports_;     ///< of the first signatures: {"worst", "simplest"}; the second may be null: the same
-  std::uint64_t sampled_ = 0;     ///< reports with plots
+  std::map<std::string, bool> ours_;  ///< by subject: is_ours()
 };
 
 }  // namespace nearmiss

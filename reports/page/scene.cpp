@@ -127,7 +127,7 @@ class ScenePicture {
     for (const SceneShape& s : inputs_.shapes) j["shapes"].push_back(shape_to_json(s, unit_));
     j["motion"] = motion();
     j["contacts"] = Json::array();
-    for (const SceneContact& c : true_) add_contact(j["contacts"], c, "true");
+    for (const SceneContact& c : true_) add_contact(j["contacts"], c, &c == true_.data() ? "true" : "also true");
     add_contact(j["contacts"], claimed_, "claimed");
     return j;
   }

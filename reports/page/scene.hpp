@@ -19,7 +19,8 @@ namespace nearmiss {
 /// What is curved or flat is given by signed distances from the anchor for the same reason: the faces of a box as n . x
 /// <= d, a sphere by |center| - radius. A moving shape stands where it is at the time `motion.time`.
 ///
-/// Positions of the true contact are enclosures, given by their middle and half their width.
+/// Positions of the true contact are enclosures, given by their middle and half their width. Where several answers are
+/// right, the one nearest to the claimed one is "true", and the others are "also true".
 nlohmann::ordered_json scene_of(const Case& question, const nlohmann::json& report);
 
 }  // namespace nearmiss

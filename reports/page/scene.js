@@ -127,6 +127,7 @@ nearmiss.scene = (() => {
       s.shapes.filter(x => x.kind !== "direction").forEach(x => entry(this.colourOf(x), `${x.name}${x.moves ? ", moves" : ""}`, x.kind === "point" ? "dot" : "area"));
       s.shapes.filter(x => x.kind === "direction").forEach(x => entry("fixed", x.name, "stroke"));
       if (s.contacts.some(c => c.of === "true")) entry("truth", "exact", "ring");
+      if (s.contacts.some(c => c.of === "also true")) entry("truth", "other right answers", "ring small");
       if (s.contacts.some(c => c.of === "claimed")) entry("claim", `says ${this.texts.subject}`, "cross");
       this.spacing = element("span", {class: "spacing", hidden: true}, element("i", {class: "mesh"}), "lines one ulp of the largest coordinate apart");
       return element("p", {class: "legend"}, entries, this.spacing);
@@ -208,13 +209,14 @@ nearmiss.scene = (() => {
       this.add(d, name, {front: true});
     }
     contact(c) {
-      const at = times(c.at, this.zoom), d = new Drawing(), name = c.of === "true" ? "truth" : "claim";
+      const at = times(c.at, this.zoom), d = new Drawing(), name = c.of === "claimed" ? "claim" : "truth";
       if (!at.every(Number.isFinite)) return;
       if (c.half) {
         d.point(at);
         const h = times(c.half, this.zoom);
         if (Math.max(...h) > 0.02) this.enclosure(d, at, h);
       }
+      if (c.of === "also true") return this.add(d, name, {glyph: "ring", size: 9, opacity: 0.6});
       this.add(d, name, {glyph: c.of === "true" ? "ring" : "cross", size: c.of === "true" ? 17 : 13, front: true});
       if (c.normal) this.arrow(at, c.normal, name, c.of === "true" ? 0.62 : 0.5);
     }

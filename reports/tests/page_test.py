@@ -37,7 +37,8 @@ for program in (CHROMIUM, DRIVER):
 ARGUMENTS = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 ARGUMENTS.add_argument("--build", type=pathlib.Path, required=True)
 ARGUMENTS.add_argument("--images", type=pathlib.Path)
-OPTIONS, _ = ARGUMENTS.parse_known_args()
+ARGUMENTS.add_argument("tests", nargs="*", metavar="TEST", help="only these: Page.test_sorts")
+OPTIONS = ARGUMENTS.parse_args()
 PROGRAM = OPTIONS.build / "reports" / "nearmiss"
 
 
@@ -194,6 +195,27 @@ class Page(unittest.TestCase):
         self.assertNotEqual(picture(), before)
         self.assertEqual(self.browser.run("return document.querySelector('.time').textContent"), "time 0")
 
+    def test_stays_still_at_the_scale_of_an_ulp(self):
+        """Shapes of the size 1 whose surface is moved by a 64th of an ulp, drawn so that this is a view unit."""
+        shapes = {
+            "sphere": {"corners": [[0.6, 0.8, 0]], "radius": 1, "distances": [0]},
+            "capsule": {"corners": [[0.6, 0.8, -1], [0.6, 0.8, 1]], "radius": 1, "distances": [2 ** 0.5 - 1] * 2,
+                        "axis": {"foot": [0.6, 0.8, 0], "along": [0, 0, 1], "from": -1, "to": 1, "distance": 0}},
+            "box": {"corners": [[0.6, 0.8, 0]], "faces": [{"n": [s * x for x in n], "d": d} for n, ds in (
+                ([-0.6, -0.8, 0], (0, 2)), ([0.8, -0.6, 0], (1, 1)), ([0, 0, 1], (1, 1))) for s, d in zip((1, -1), ds)]},
+        }
+        for kind, shape in shapes.items():
+            for steps in (-1, 0, 1):
+                # The distances of the drawn points along the normal: all of them one plane, as the scale is so small.
+                heights = self.browser.run("""
+                  const [shape, steps] = arguments, step = 2 ** -58, n = [0.6, 0.8, 0];
+                  const points = nearmiss.shapes.draw(shape, n.map(x => x * steps * step), 1 / step).triangles;
+                  const heights = [];
+                  for (let i = 0; i < points.length; i += 3) heights.push(points[i] * n[0] + points[i + 1] * n[1]);
+                  return heights;""", {"kind": kind, "name": kind, "moves": True, **shape}, steps)
+                self.assertGreater(len(heights), 3)
+                self.assertLess(max(abs(h - steps) for h in heights), 1e-6, kind)
+
     def test_filters(self):
         filter_ = self.browser.find("#filter")
         filter_.send_keys("query:ray_aabox")
@@ -215,6 +237,8 @@ class Page(unittest.TestCase):
     def test_shows_regressions_first(self):
         changes = self.browser.run("return nearmiss.table.rows().map(r => nearmiss.data.value(r, 'change'))")
         self.assertEqual(changes, sorted(changes, key=["worse", "new", "known", "fixed"].index))
+        regressions = sum(c in ("new", "worse") for c in changes)  # the subject is the library's own
+        self.assertIn(f"{regressions} regressions", self.browser.find("#verdict").text)
 
     def test_sorts(self):
         values = lambda name: self.browser.run("return nearmiss.table.rows().map(r => nearmiss.data.value(r, arguments[0]))", name)
@@ -363,4 +387,4 @@ if __name__ == "__main__":
     if OPTIONS.images:
         write_images(OPTIONS.images)
         sys.exit(0)
-    unittest.main(argv=[sys.argv[0], "-v"])
+    unittest.main(argv=[sys.argv[0], "-v", *OPTIONS.tests])

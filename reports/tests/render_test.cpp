@@ -97,6 +97,20 @@ TEST(Scene, TellsAnUlp) {
   }
 }
 
+/// The middle of a square is as near to each of its sides: the true point is that of the side which the subject chose.
+TEST(Scene, PrefersTheRightAnswerThatIsNearest) {
+  const Case c = question_of("closest_point_rectangle_perimeter", {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 0, 0});
+  const std::size_t x = index_of(*c.query, "point.x"), y = index_of(*c.query, "point.y");
+  for (const double side : {-1.0, 1.0}) {
+    const json scene = scene_of(c, report_on(c, [&](Answer& a) { a.values[x] = 0, a.values[y] = side; }));
+    EXPECT_EQ(scene.at("anchor"), json({0, side, 0}));
+    const json& contacts = scene.at("contacts");
+    EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(), [](const json& k) { return k.at("of") == "true"; }), 1);
+    EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(), [](const json& k) { return k.at("of") == "also true"; }),
+              3);
+  }
+}
+
 /// The distance of a large ball is right where the square root of doubles has an error of 1e-8.
 TEST(Scene, HasNoCancellation) {
   const double r = 1e8 + 1;
@@ -181,14 +195,18 @@ TEST_F(Render, ShowsARun) {
                 .exit_code,
             1);
   folder_.file("night/findings/closest_point_segment/foreign.json", "{}");
+  folder_.file("extremes.html", "maps");
   const Ran ran = nearmiss({"render", "--plugin", plugin, folder_.path().string()});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const json data = data_of_page(folder_ / "index.html");
   EXPECT_EQ(complaints(data, "page.schema.json"), "");
   EXPECT_EQ(data.at("trend").size(), 1u);
+  EXPECT_EQ(data.at("extremes"), json({"extremes.html"}));
   ASSERT_FALSE(data.at("rows").empty());
   EXPECT_EQ(data.at("reports").size(), data.at("rows").size());
   EXPECT_TRUE(data.at("skipped").empty()) << data.at("skipped");
+  for (const json& file : data.at("reports")[0].at("details").at("files"))
+    EXPECT_TRUE(fs::exists(folder_ / file.get<std::string>())) << file;
   const json worst = json::parse(data.at("reports")[0].at("worst").get<std::string>());
   EXPECT_EQ(complaints(worst.at("report"), "report.schema.json"), "");
   EXPECT_EQ(complaints(worst.at("scene"), "scene.schema.json"), "");
