@@ -11,10 +11,10 @@
 #include "corpus/source_folder.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
-#include "reports/tests/program.hpp"
-#include "reports/tests/schema.hpp"
 #include "reports/page/error_plot.hpp"
 #include "reports/page/scene.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
 
 namespace nearmiss {
 namespace {
