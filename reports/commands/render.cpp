@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "corpus/codec.hpp"
+#include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/interrupt.hpp"
@@ -38,7 +39,10 @@ class RenderCommand : public Command {
         {{"0", "The page is written. A report that cannot be read is named in it."},
          {"2",
           "The folder holds no findings, the page cannot be written, this build lacks node-d3 or libjs-three, or the "
-          "command was interrupted; then the page is written with the reports that were read."}},
+          "command was interrupted; then the page is written with the reports that were read."},
+         {std::to_string(InternalError::exit_code),
+          "An internal error: the judge contradicts itself on a case of a plot. The page "
+          "is written and names its report."}},
         {{"nearmiss render reports/runs/nightly", "Writes index.html there."},
          {"nearmiss render reports/runs --out page.html", "The newest run, with the trend of all."}}};
   }
@@ -62,7 +66,9 @@ class RenderCommand : public Command {
     fmt::print("{} in {} ({:.1f} MB)\n", plural_text(data.signatures(), "signature"), file.string(),
                double(fs::file_size(file)) / 1e6);
     if (interrupted()) say_on_stderr("nearmiss: interrupted: the page lacks reports\n");
-    return interrupted() ? 2 : 0;
+    if (data.internal_errors() > 0)
+      say_on_stderr("nearmiss: the judge contradicts itself; the page names the reports\n");
+    return data.internal_errors() > 0 ? InternalError::exit_code : interrupted() ? 2 : 0;
   }
 
  private:

@@ -9,6 +9,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "oracles/confirmed.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
@@ -329,6 +330,9 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
       j["plots"] = error_plots(question, *subject, workers, has_time);
     }
     return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  } catch (const InternalError& e) {
+    ++internal_errors_;
+    skipped_.push_back({{"file", path}, {"why", fmt::format("internal error: {}", e.what())}});
   } catch (const ReportedError& e) {
     skipped_.push_back({{"file", path}, {"why", e.what()}});
   } catch (const Json::exception& e) {

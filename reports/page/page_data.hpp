@@ -23,6 +23,8 @@ class PageData {
   PageData(std::filesystem::path folder, std::filesystem::path page_folder);
 
   std::size_t signatures() const { return signatures_.size(); }
+  /// Reports at which the judge contradicted itself; they are named under "skipped".
+  std::size_t internal_errors() const { return internal_errors_; }
 
   /// Reads the worst and the simplest report of each signature, the most severe first, and adds their scenes, until the
   /// data of the page has `most_bytes`. The plots of errors ask the reports' subjects, as long as `has_time` says; a
@@ -53,6 +55,7 @@ class PageData {
   Json summary_, trend_ = Json::array(), skipped_ = Json::array();
   std::vector<Json> signatures_;  ///< in the form of triage.json
   std::vector<Json> reports_;     ///< of the first signatures: {"worst", "simplest"}; the second may be null: the same
+  std::size_t internal_errors_ = 0;
   std::map<std::string, bool> ours_;  ///< by subject: is_ours()
 };
 

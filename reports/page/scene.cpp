@@ -51,12 +51,15 @@ std::optional<std::array<double, 2>> bounds_in(const nlohmann::json& j) {
   return std::array{j[0].get<double>(), j[1].get<double>()};
 }
 
+/// A vector as [x, y, z] or, for the enclosure of an item of a list, as {"x", "y", "z"}.
 std::optional<SceneValue> vector_in(const nlohmann::json& values, const std::string& name) {
   const nlohmann::json* j = value_at(values, name);
-  if (j == nullptr || !j->is_array() || j->size() != 3) return std::nullopt;
+  if (j == nullptr || j->size() != 3) return std::nullopt;
   SceneValue v{name};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto b = bounds_in(j->at(i));
+    const char component[] = {"xyz"[i], '\0'};
+    const nlohmann::json* number = j->is_array() ? &j->at(i) : value_at(*j, component);
+    const auto b = number == nullptr ? std::nullopt : bounds_in(*number);
     if (!b) return std::nullopt;
     v.low[i] = (*b)[0], v.high[i] = (*b)[1];
   }

@@ -101,7 +101,7 @@ nearmiss.scene = (() => {
     // --- elements ---
     build() {
       const button = (name, key, text) => this.levels[name] === null ? null :
-        element("button", {type: "button", class: "level", "data-level": name, title: `${text} (${key})`, onclick: () => this.to3(name)}, text);
+        element("button", {type: "button", class: "level", "data-level": name, title: `${text} (${key})`, onclick: () => this.goTo(name)}, text);
       this.zoomer = element("input", {type: "range", min: 0, max: 1000, step: "any", "aria-label": "Zoom",
         oninput: () => this.set(this.least + this.zoomer.value / 1000 * (this.most - this.least))});
       this.timer = element("input", {type: "range", min: 0, max: 1000, step: "any", "aria-label": "Time along the motion",
@@ -116,7 +116,7 @@ nearmiss.scene = (() => {
       this.host.replaceChildren(this.frame, zoom, ...(time ? [time] : []), this.legend());
       this.canvas.onwheel = e => { e.preventDefault(); this.set(this.level - e.deltaY / 240); };
     }
-    to3(name) {
+    goTo(name) {
       if (this.levels[name] === null) return;
       this.controls.target.set(0, 0, 0);
       this.set(this.levels[name]);
@@ -290,5 +290,5 @@ nearmiss.scene = (() => {
     current = new Picture(host, scene, texts);
   }
   return {show, current: () => current, redraw: () => { if (current) current.draw(); },
-          level: name => { if (current) current.to3(name); }, end: () => { if (current) current.end(); current = null; }};
+          level: name => { if (current) current.goTo(name); }, end: () => { if (current) current.end(); current = null; }};
 })();

@@ -63,6 +63,16 @@ TEST(InternalErrors, EndARunWithBothWordsAndItsFindings) {
   }
 }
 
+/// The cases of the run's reports are judged alike; those of the plots are not.
+TEST(InternalErrors, AreNamedInAPage) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(contradicting({"run", "--cases", "300"}, folder).exit_code, InternalError::exit_code);
+  const Ran ran = run_program(contradicting_program(), {"render", (folder / "r").string()});
+  if (ran.err.find("this build writes no pages") != std::string::npos) GTEST_SKIP() << ran.err;
+  EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
+  EXPECT_NE(read_file(folder / "r" / "index.html").find("internal error: "), std::string::npos);
+}
+
 TEST(InternalErrors, EndRelationsAndExtremes) {
   const TemporaryFolder related, swept;
   const Ran relations = contradicting({"relations", "--cases", "5000"}, related);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -121,6 +122,16 @@ TEST(Scene, HasNoCancellation) {
   EXPECT_NEAR(std::hypot(scene.at("anchor")[0].get<double>(), scene.at("anchor")[1].get<double>()), gap, 1e-6 * gap);
   EXPECT_LT(std::abs(shape_named(scene, "sphere2").at("distances")[0].get<double>()) * unit, 1e-22);
   EXPECT_NEAR(shape_named(scene, "sphere1").at("distances")[0].get<double>() * unit, gap, 1e-6 * gap);
+}
+
+/// Of the corners of a box those behind the plane, as the answer lists them.
+TEST(Scene, HasEveryContact) {
+  const Case c = question_of("box_plane_penetration", {0, 0, 0, 1, 2, 3, 0, 0, 0, 1, 0, 0, 1, 0});
+  const json scene = scene_of(c, report_on(c));
+  std::map<std::string, std::set<json>> places;
+  for (const json& contact : scene.at("contacts")) places[contact.at("of")].insert(contact.at("at"));
+  EXPECT_EQ(places["true"].size(), 4u);
+  EXPECT_EQ(places["claimed"], places["true"]);
 }
 
 /// Numbers of which products and differences leave the range of double.
