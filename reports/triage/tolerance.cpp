@@ -134,9 +134,9 @@ class Tolerance {
                     "Of {} other cases with the finding, {} have such a flip.",
                     s.flip->wrong, s.flip->right, trials_.sets_rounding() ? ", without overflow or underflow" : "",
                     similar_.size(), flips.size() - 1));
-    if (best) return named_tolerance(*best, flips.size());
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
+    if (best) return named_tolerance(*best, flips.size());
     double low = INFINITY, high = 0;
     for (const Flipped& f : flips) {
       const double largest = largest_of(f.at_wrong, *s.group);
