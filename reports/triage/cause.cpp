@@ -274,8 +274,9 @@ class Investigation {
     if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
       return Named{CauseKind::unsupported, region.name,
                    fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
-    const bool only_here =
-        region.is_special && out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
+    constexpr std::size_t least_outside = of_each_side / 2;
+    const bool only_here = out_all >= least_outside && region.is_special && out_right == out_all &&
+                           in_all - in_right >= least && !nearly_all(in_right, in_all);
     if (!only_here) return std::nullopt;
     return Named{CauseKind::unsupported, region.name,
                  fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
