@@ -421,6 +421,25 @@ TEST(Explain, WritesAReportWithTheCause) {
   EXPECT_EQ(json::parse(again.out).at(0)["cause"], after["cause"]);
 }
 
+/// The mistakes of docs/example-library/skim.c: constants that squared lengths are compared with.
+TEST(Explain, FindsTheConstantsOfTheExampleLibrary) {
+  const TemporaryFolder folder;
+  const std::string plugin = plugin_file("skim_plugin");
+  for (const auto& [query, key] : {std::pair("sphere_sphere_overlap", "1e-4 length^2"),
+                                   std::pair("moving_point_sphere", "1e-6 length^2 speed^2")}) {
+    ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", query, "--cases", "3000", "--seed", "3", "--out",
+                        (folder / query).string()})
+                  .exit_code,
+              1);
+    const json index = json::parse(read_file(folder / query / "index.json"));
+    const std::string found = (folder / query / index["reports"][0]["file"].get<std::string>()).string();
+    const Ran ran = nearmiss({"explain", "--plugin", plugin, found, "--json", "--out", (folder / "why").string()});
+    const json cause = json::parse(ran.out).at(0)["cause"];
+    EXPECT_EQ(cause["kind"], "absolute tolerance") << cause;
+    EXPECT_EQ(cause["key"], key) << cause;
+  }
+}
+
 TEST(Explain, EndsWithZeroWhereNothingIsFound) {
   const TemporaryFolder folder;
   const Ran ran = nearmiss({"explain", "-s", "collide-fast-double", "--out", (folder / "r").string(),

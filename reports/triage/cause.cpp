@@ -119,7 +119,7 @@ class Investigation {
     for (const ScaleScan& s : scans_) {
       if (s.explained_by(raised_overflow)) return out_of_range(s, CauseKind::overflow);
       if (s.explained_by(raised_underflow)) return out_of_range(s, CauseKind::underflow);
-      if (auto named = broken_out_of_range(s)) return named;
+      if (auto named = out_of_range_without_flags(s)) return named;
     }
     return std::nullopt;
   }
@@ -132,10 +132,11 @@ class Investigation {
                  fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind))};
   }
 
-  /// A subject that broke leaves no flags. The range is exceeded if the fourth power of the largest number exceeds it
-  /// wherever the subject breaks, and the answer is right at scales where it does not.
-  std::optional<Named> broken_out_of_range(const ScaleScan& s) {
-    if (trials_.base().finding.verdict != Verdict::broke || !s.flip) return std::nullopt;
+  /// A subject that broke, or that answers behind pipes, leaves no flags. The range is exceeded if the fourth power of
+  /// the largest number exceeds it wherever the finding is there, and the answer is right nearer to scale 1.
+  std::optional<Named> out_of_range_without_flags(const ScaleScan& s) {
+    const bool has_flags = trials_.sets_rounding() && trials_.base().finding.verdict != Verdict::broke;
+    if (has_flags || !s.flip) return std::nullopt;
     constexpr int powers = 4;
     const int highest = (trials_.subject().scalar == Scalar::float32 ? 128 : 1024) / powers;
     const int at_flip = largest_exponent(question()) + s.flip->wrong;
@@ -144,11 +145,11 @@ class Investigation {
     if (!toward_one || (at_flip < highest && at_flip > -highest)) return std::nullopt;
     saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
         fmt::format(
-            "With 2^{} the answer is right. The subject breaks from 1 to 2^{}, where the largest number is about "
+            "With 2^{} the answer is right. The finding stays from 1 to 2^{}, where the largest number is about "
             "2^{}: its fourth power leaves the range of the scalar.",
             s.flip->right, s.flip->wrong, at_flip));
     return Named{at_flip > 0 ? CauseKind::overflow : CauseKind::underflow, std::string(s.group->name),
-                 "The subject breaks where products of its inputs leave the range of the scalar, and only there."};
+                 "The finding is there where products of the inputs leave the range of the scalar, and only there."};
   }
   /// Of the positions and sizes.
   static int largest_exponent(const Case& c) {
@@ -273,8 +274,9 @@ class Investigation {
     if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
       return Named{CauseKind::unsupported, region.name,
                    fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
-    const bool only_here =
-        region.is_special && out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
+    constexpr std::size_t least_outside = of_each_side / 2;
+    const bool only_here = out_all >= least_outside && region.is_special && out_right == out_all &&
+                           in_all - in_right >= least && !nearly_all(in_right, in_all);
     if (!only_here) return std::nullopt;
     return Named{CauseKind::unsupported, region.name,
                  fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};

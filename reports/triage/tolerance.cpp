@@ -130,12 +130,13 @@ class Tolerance {
     const std::vector<Flipped> flips = flips_of(s);
     const auto best = constant_quantity(flips);
     saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
-        fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}, without overflow or underflow. "
+        fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}{}. "
                     "Of {} other cases with the finding, {} have such a flip.",
-                    s.flip->wrong, s.flip->right, similar_.size(), flips.size() - 1));
-    if (best) return named_tolerance(*best, flips.size());
+                    s.flip->wrong, s.flip->right, trials_.sets_rounding() ? ", without overflow or underflow" : "",
+                    similar_.size(), flips.size() - 1));
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
+    if (best) return named_tolerance(*best, flips.size());
     double low = INFINITY, high = 0;
     for (const Flipped& f : flips) {
       const double largest = largest_of(f.at_wrong, *s.group);
