@@ -30,8 +30,10 @@ Asking asking_for(const Report& r, const Subject& subject) {
 /// Writes the conditions of the right answers, and the variables that they use.
 class Conditions {
  public:
-  Conditions(const Report& r, const RightAnswers& right, const std::vector<std::size_t>& members, bool in_c)
-      : query_(*r.question.query), right_(right), members_(members), in_c_(in_c) {}
+  /// `compared` are those of the declared members that the right answers may have.
+  Conditions(const Report& r, const RightAnswers& right, const std::vector<std::size_t>& declared,
+             const std::vector<std::size_t>& compared, bool in_c)
+      : query_(*r.question.query), right_(right), members_(declared), compared_(compared), in_c_(in_c) {}
 
   std::string declarations() const {
     std::string text;
@@ -138,7 +140,7 @@ class Conditions {
   }
   std::string unit_test() const {
     std::string text;
-    for (const std::size_t m : members_) {
+    for (const std::size_t m : compared_) {
       if (query_.layout.parts[m].role != Role::normal || right_.unit_error == 0) continue;
       text += fmt::format("if ({}!({}(length_of({}) - 1) <= {})) got_right = {};\n",
                           decides(query_.kind) ? "got_yes && " : "", absolute(), name(m), literal(right_.unit_error),
@@ -149,7 +151,7 @@ class Conditions {
 
   const Query& query_;
   const RightAnswers& right_;
-  const std::vector<std::size_t>& members_;
+  const std::vector<std::size_t>&members_, &compared_;
   bool in_c_;
 };
 
@@ -175,12 +177,13 @@ std::vector<std::size_t> compared_members(const Report& r, const Asking& asking)
 /// Writes the parts of the file.
 class Emitter {
  public:
-  Emitter(const Report& r, const Asking& asking, const RightAnswers& right, const std::vector<std::size_t>& members)
+  Emitter(const Report& r, const Asking& asking, const RightAnswers& right, const std::vector<std::size_t>& declared,
+          const std::vector<std::size_t>& compared)
       : r_(r),
         asking_(asking),
         right_(right),
         in_c_(asking.style == Asking::Style::c),
-        conditions_(r, right, members, in_c_) {}
+        conditions_(r, right, declared, compared, in_c_) {}
 
   std::string text() const {
     const std::string test = indented(body());
@@ -267,13 +270,13 @@ EmittedTest emit_test(const Report& r, const Subject& subject) {
   if (r.finding.verdict == Verdict::cannot_answer || r.finding.verdict == Verdict::not_asked)
     throw BadInput(fmt::format("{} has no answer to this case: {}", subject.name, r.finding.clause));
   const Asking asking = asking_for(r, subject);
-  const RightAnswers right =
-      right_answers(r.question, r.answer, r.finding, r.standard, r.truth, compared_members(r, asking));
+  const std::vector<std::size_t> declared = declared_members(r, asking), compared = compared_members(r, asking);
+  const RightAnswers right = right_answers(r.question, r.answer, r.finding, r.standard, r.truth, compared);
   if (accepts(right, *r.question.query, r.answer) == is_bad(r.finding)) {
     throw BadInput(
         fmt::format("{}: its answer is neither proved to be wrong nor one of the right answers", subject.name));
   }
-  return {Emitter(r, asking, right, declared_members(r, asking)).text(), asking.style == Asking::Style::c ? "c" : "cpp",
+  return {Emitter(r, asking, right, declared, compared).text(), asking.style == Asking::Style::c ? "c" : "cpp",
           asking.build};
 }
 
