@@ -109,7 +109,8 @@ struct Ode {
     if (!(dot(q.plane.normal, q.velocity) < 0)) return collide::Impact<double>::miss();  // ODE's planes have two sides
     const Geometry plane = geometry(q.plane);
     if (dGeomPlanePointDepth(plane.get(), q.point.x, q.point.y, q.point.z) > 0) return collide::Impact<double>::miss();
-    return cast(q.point, q.velocity, plane, time_to_pass(q.point, 0, q.velocity, q.plane));
+    // Twice as long: a point may pass the plane exactly at the end of the ray, which rounding then puts before it.
+    return cast(q.point, q.velocity, plane, 2 * time_to_pass(q.point, 0, q.velocity, q.plane));
   }
 
  private:

@@ -148,7 +148,7 @@ Asking plane_ray(const Scene& scene, const NamedShape& b) {
   if (!(adapters::dot(plane.normal, m.velocity) < 0)) {
     throw BadInput("ODE is not asked: its planes have two sides, and the point does not approach the front");
   }
-  const double horizon = adapters::time_to_pass(m.from, 0, m.velocity, plane);
+  const double horizon = 2 * adapters::time_to_pass(m.from, 0, m.velocity, plane);
   asking.statements =
       declared(b) +
       fmt::format("if (!(dGeomPlanePointDepth({}, {}) > 0)) {{  // a start behind the plane is a miss\n", b.name,
