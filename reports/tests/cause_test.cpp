@@ -326,6 +326,44 @@ TEST(Cause, ASubjectIsAskedInEveryRoundingAndItsExceptionsAreSeen) {
   EXPECT_EQ(workers.raised(s, 0), 0);
 }
 
+/// The plugin sets upward rounding when it is loaded, and answers yes where it rounds upward.
+TEST(Cause, APluginIsAskedInOtherRoundingsThanItsOwn) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"explain", "--plugin", plugin_file("sets_modes"), "--subject", "misbehaves", "--patience",
+                            "0.02", "--json", "--out", folder.path().string(),
+                            source_folder() + "/corpus/seeds/sphere_sphere_overlap/apart.json"});
+  ASSERT_EQ(ran.exit_code, 1) << ran.err;
+  const json report = json::parse(ran.out).at(0);
+  EXPECT_EQ(report["finding"]["disagreement"], "false hit");
+  EXPECT_EQ(report["cause"]["kind"], "rounding") << ran.out;
+  EXPECT_NE(report["cause"]["evidence"].dump().find("The finding is there in 2"), std::string::npos) << ran.out;
+}
+
+/// Breaks where the square of a length leaves the range of double.
+Answer breaks_far_out(Values q) {
+  if (std::isinf(q[0] * q[0])) return Answer::without(Answer::Status::broke, "exception: no unit vector");
+  return right("sphere_sphere_overlap", q);
+}
+
+TEST(Cause, OverflowThatBreaksTheSubject) {
+  const Subject s = planted("sphere_sphere_overlap", breaks_far_out);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0x1p600, 0, 0, 0x1p599, 0x1p601, 0, 0, 0x1p598}));
+  EXPECT_EQ(c.kind, CauseKind::overflow) << text_of(c);
+}
+
+/// Wrong at any scale at which the square of a length does not vanish: no underflow, although 2^-600 helps.
+Answer breaks_always(Values q) {
+  if (q[0] * q[0] != 0) return Answer::without(Answer::Status::broke, "exception: not implemented");
+  return right("sphere_sphere_overlap", q);
+}
+
+TEST(Cause, AnAnswerThatIsRightWhereEverythingVanishesExplainsNothing) {
+  const Subject s = planted("sphere_sphere_overlap", breaks_always);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {1, 2, 0.5, 1, 3, 0.25, 0, 1}));
+  EXPECT_NE(c.kind, CauseKind::underflow) << text_of(c);
+  EXPECT_NE(c.kind, CauseKind::absolute_tolerance) << text_of(c);
+}
+
 TEST(Scales, AreExactOrNothing) {
   const Case c = case_of("sphere_sphere_overlap", {0, 0, 0, 1, 3, 0, 0, 0x1p-140}, Scalar::float32);
   const ScaleGroup& lengths = scale_groups()[0];
@@ -381,6 +419,25 @@ TEST(Explain, WritesAReportWithTheCause) {
   EXPECT_FALSE(after["cause"]["evidence"].empty());
   const Ran again = nearmiss({"explain", "--plugin", plugin, files[0].string(), "--out", out, "--json"});
   EXPECT_EQ(json::parse(again.out).at(0)["cause"], after["cause"]);
+}
+
+/// The mistakes of docs/example-library/skim.c: constants that squared lengths are compared with.
+TEST(Explain, FindsTheConstantsOfTheExampleLibrary) {
+  const TemporaryFolder folder;
+  const std::string plugin = plugin_file("skim_plugin");
+  for (const auto& [query, key] : {std::pair("sphere_sphere_overlap", "1e-4 length^2"),
+                                   std::pair("moving_point_sphere", "1e-6 length^2 speed^2")}) {
+    ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", query, "--cases", "3000", "--seed", "3", "--out",
+                        (folder / query).string()})
+                  .exit_code,
+              1);
+    const json index = json::parse(read_file(folder / query / "index.json"));
+    const std::string found = (folder / query / index["reports"][0]["file"].get<std::string>()).string();
+    const Ran ran = nearmiss({"explain", "--plugin", plugin, found, "--json", "--out", (folder / "why").string()});
+    const json cause = json::parse(ran.out).at(0)["cause"];
+    EXPECT_EQ(cause["kind"], "absolute tolerance") << cause;
+    EXPECT_EQ(cause["key"], key) << cause;
+  }
 }
 
 TEST(Explain, EndsWithZeroWhereNothingIsFound) {

@@ -4,40 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "corpus/fit.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/relations/exact_sums.hpp"
-#include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/quantities.hpp"
 #include "reports/triage/readings.hpp"
 #include "reports/triage/regions.hpp"
 #include "reports/triage/scales.hpp"
+#include "reports/triage/tested.hpp"
+#include "reports/triage/tolerance.hpp"
 #include "reports/triage/trials.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-/// A cause whose test passed.
-struct Named {
-  CauseKind kind = CauseKind::unexplained;
-  std::string key, text;
-};
-
 constexpr std::size_t most_variants = 16;
 constexpr std::size_t sample_size = 256;  ///< generated cases on which a reading must hold too
 constexpr std::size_t of_each_side = 64;  ///< generated cases inside and outside of a region
 constexpr std::size_t neighbours = 64;    ///< cases an ulp away
 
-/// "Nearly all": 9 of 10.
-bool nearly_all(std::size_t part, std::size_t all) { return all > 0 && 10 * part >= 9 * all; }
-/// "Most": 3 of 4.
-bool most(std::size_t part, std::size_t all) { return all > 0 && 4 * part >= 3 * all; }
 /// "Some, and not nearly all": 1 to 9 of 10.
 bool is_mixed(std::size_t part, std::size_t all) { return 10 * part >= all && 10 * part <= 9 * all && part > 0; }
 
@@ -91,9 +81,6 @@ class Investigation {
     if (!variants_) variants_ = variants(trials_, most_variants, seed_);
     return *variants_;
   }
-  Finding in_full(const Trial& t) const {
-    return confirmed(t.question, t.answer, trials_.subject().standard_for(trials_.query().name), Detail::full);
-  }
 
   // Roundings
 
@@ -114,7 +101,7 @@ class Investigation {
   /// How far the worst number of the answer moves between the roundings, as a share of its error.
   double moved_by_rounding() const {
     const Trial& base = trials_.base();
-    const Finding full = in_full(base);
+    const Finding full = trials_.in_full(base);
     const MemberFinding* worst = full.headline_member();
     if (worst == nullptr || worst->worst < 0 || !(worst->forward_absolute > 0)) return 0;
     double furthest = 0;
@@ -132,7 +119,7 @@ class Investigation {
     for (const ScaleScan& s : scans_) {
       if (s.explained_by(raised_overflow)) return out_of_range(s, CauseKind::overflow);
       if (s.explained_by(raised_underflow)) return out_of_range(s, CauseKind::underflow);
-      if (auto named = broken_out_of_range(s)) return named;
+      if (auto named = out_of_range_without_flags(s)) return named;
     }
     return std::nullopt;
   }
@@ -145,22 +132,26 @@ class Investigation {
                  fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind))};
   }
 
-  /// A subject that broke leaves no flags. The range is exceeded if the fourth power of the largest number exceeds it
-  /// wherever the subject breaks, and the answer is right at scales where it does not.
-  std::optional<Named> broken_out_of_range(const ScaleScan& s) {
-    if (trials_.base().finding.verdict != Verdict::broke || !s.flip) return std::nullopt;
+  /// A subject that broke, or that answers behind pipes, leaves no flags. The range is exceeded if the fourth power of
+  /// the largest number exceeds it wherever the finding is there, and the answer is right nearer to scale 1.
+  std::optional<Named> out_of_range_without_flags(const ScaleScan& s) {
+    const bool has_flags = trials_.sets_rounding() && trials_.base().finding.verdict != Verdict::broke;
+    if (has_flags || !s.flip) return std::nullopt;
     constexpr int powers = 4;
     const int highest = (trials_.subject().scalar == Scalar::float32 ? 128 : 1024) / powers;
     const int at_flip = largest_exponent(question()) + s.flip->wrong;
-    if (at_flip < highest && at_flip > -highest) return std::nullopt;
+    const int base = largest_exponent(question());
+    const bool toward_one = at_flip < 0 ? base <= at_flip : base >= at_flip;
+    if (!toward_one || (at_flip < highest && at_flip > -highest)) return std::nullopt;
     saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
         fmt::format(
-            "With 2^{} the answer is right. The subject breaks from 1 to 2^{}, where the largest number is about "
+            "With 2^{} the answer is right. The finding stays from 1 to 2^{}, where the largest number is about "
             "2^{}: its fourth power leaves the range of the scalar.",
             s.flip->right, s.flip->wrong, at_flip));
     return Named{at_flip > 0 ? CauseKind::overflow : CauseKind::underflow, std::string(s.group->name),
-                 "The subject breaks where products of its inputs leave the range of the scalar, and only there."};
+                 "The finding is there where products of the inputs leave the range of the scalar, and only there."};
   }
+  /// Of the positions and sizes.
   static int largest_exponent(const Case& c) {
     double largest = 0;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
@@ -194,9 +185,9 @@ class Investigation {
 
     /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
     bool holds() const {
-      constexpr std::size_t least = 4;
-      return explained >= least && nearly_all(explained, with_finding) &&
-             (against_it == 0 || nearly_all(for_it, for_it + against_it));
+      constexpr std::size_t least = 4, least_generated = 2;
+      return explained >= least && nearly_all(explained, with_finding) && for_it >= least_generated &&
+             nearly_all(for_it, for_it + against_it);
     }
   };
   /// The answer would be wrong under the reading if the reading made a difference.
@@ -226,6 +217,7 @@ class Investigation {
     if (trials_.base().answer.status != Answer::Status::answered) return std::nullopt;
     std::vector<std::string> by_chance;
     for (const Reading& reading : readings()) {
+      if (reading.decides && !is_wrong_decision()) continue;
       if (!reading.right(question(), trials_.base().answer, is_right_).value_or(false)) continue;
       const Support s = support_of(reading);
       if (s.holds()) return named_reading(reading, s);
@@ -236,6 +228,10 @@ class Investigation {
     saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
         "None explains the answers." + which);
     return std::nullopt;
+  }
+  bool is_wrong_decision() const {
+    const Disagreement d = trials_.base().finding.disagreement;
+    return d == Disagreement::false_hit || d == Disagreement::false_miss;
   }
   Named named_reading(const Reading& reading, const Support& s) {
     saw(fmt::format("The answers were judged as if {}.", reading.what),
@@ -267,7 +263,7 @@ class Investigation {
     return trials_.ask(cases);
   }
   std::optional<Named> tested(const Region& region) {
-    constexpr std::size_t least = 8;
+    constexpr std::size_t least = 6;
     const std::vector<Trial> in = cases_of(region, true), out = cases_of(region, false);
     const std::size_t in_right = count(in, Outcome::right), out_right = count(out, Outcome::right);
     const std::size_t in_all = in.size() - count(in, Outcome::none), out_all = out.size() - count(out, Outcome::none);
@@ -278,7 +274,8 @@ class Investigation {
     if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
       return Named{CauseKind::unsupported, region.name,
                    fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
-    const bool only_here = out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
+    const bool only_here =
+        region.is_special && out_right == out_all && in_all - in_right >= least && !nearly_all(in_right, in_all);
     if (!only_here) return std::nullopt;
     return Named{CauseKind::unsupported, region.name,
                  fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
@@ -286,168 +283,11 @@ class Investigation {
 
   // Absolute tolerances
 
-  /// An error that is the same length, or time, at every scale.
-  std::optional<Named> constant_error() {
-    const Finding base = in_full(trials_.base());
-    const MemberFinding* member = base.headline_member();
-    if (member == nullptr || member->worst < 0 || trials_.base().answer.status != Answer::Status::answered)
-      return std::nullopt;
-    const Role role = trials_.query().outputs[std::size_t(member->worst)].role;
-    if (role == Role::time) {
-      if (auto named = constant_over(scans_[0], "length", true)) return named;
-      return constant_over(scans_[1], "time", false);
-    }
-    if (role == Role::position || role == Role::depth) return constant_over(scans_[0], "length", false);
-    return std::nullopt;
-  }
-  /// The speed, for errors of a time that are lengths.
-  double speed_of(const Case& c) const {
-    const auto& velocities = parts_of(trials_.query()).velocities;
-    if (velocities.empty()) return 0;
-    const double* v = &c.values[velocities[0]];
-    return std::hypot(v[0], v[1], v[2]);
-  }
-  std::optional<Named> constant_over(const ScaleScan& s, std::string_view unit, bool times_speed) {
-    constexpr int least_octaves = 4;
-    constexpr double most_change = 1.5;
-    double low = INFINITY, high = 0;
-    int first = 0, last = 0;
-    for (const ScaleScan::At& a : s.trials) {
-      if (a.trial.outcome != Outcome::same || std::abs(a.k) > least_octaves) continue;
-      const Finding full = in_full(a.trial);
-      const MemberFinding* member = full.headline_member();
-      if (member == nullptr) continue;
-      const double error = member->forward_absolute * (times_speed ? speed_of(a.trial.question) : 1);
-      low = std::min(low, error), high = std::max(high, error);
-      first = std::min(first, a.k), last = std::max(last, a.k);
-    }
-    if (last - first < least_octaves || !(low > 0) || high > most_change * low) return std::nullopt;
-    const double middle = std::sqrt(low * high);
-    saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
-        fmt::format("From 2^{} to 2^{} the error{} stays between {:.3g} and {:.3g}.", first, last,
-                    times_speed ? " of the time, times the speed," : "", low, high));
-    return Named{
-        CauseKind::absolute_tolerance, fmt::format("1e{} {}", std::lround(std::log10(middle)), unit),
-        fmt::format("The answer is off by about {:.2g} (a {}) at every scale: an absolute tolerance or margin.", middle,
-                    unit)};
-  }
-
-  struct Flipped {
-    Case at_wrong, at_right;  ///< the case at both sides of its flip
-    bool is_sharp;
-  };
-
-  std::optional<Named> tolerance() {
-    for (const ScaleScan& s : scans_) {
-      if (!s.flip || !is_clean(s)) continue;
-      if (auto named = tolerance_in(s)) return named;
-    }
-    if (std::none_of(scans_.begin(), scans_.end(), [](const ScaleScan& s) { return s.flip.has_value(); }))
-      saw("Lengths, velocities, directions and quaternions were multiplied by powers of two, which changes no "
-          "rounding.",
-          "The answer is right at no scale.");
-    return std::nullopt;
-  }
-  /// No overflow and no underflow from the one side of the flip to the other.
-  bool is_clean(const ScaleScan& s) const {
-    const auto [low, high] = std::minmax(s.flip->wrong, s.flip->right);
-    return std::none_of(s.trials.begin(), s.trials.end(), [low = low, high = high](const ScaleScan::At& a) {
-      return a.k >= low && a.k <= high && (a.trial.raised & (raised_overflow | raised_underflow)) != 0;
-    });
-  }
-  std::vector<Flipped> flips_of(const ScaleScan& s) {
-    std::vector<Flipped> all;
-    const auto at = [&](const Case& c, int k) { return k == 0 ? c : *scaled(c, *s.group, k); };
-    const auto add = [&](const Case& c, const Flip& f) {
-      all.push_back({at(c, f.wrong), at(c, f.right), f.is_sharp()});
-    };
-    add(question(), *s.flip);
-    for (const Trial& t : similar()) {
-      if (trials_.is_over()) break;
-      if (const auto flip = flip_near(trials_, t.question, *s.group, *s.flip)) add(t.question, *flip);
-    }
-    return all;
-  }
-  std::optional<Named> tolerance_in(const ScaleScan& s) {
-    const std::vector<Flipped> flips = flips_of(s);
-    const auto best = constant_quantity(flips);
-    saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
-        fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}, without overflow or underflow. "
-                    "Of {} other cases with the finding, {} have such a flip.",
-                    s.flip->wrong, s.flip->right, similar().size(), flips.size() - 1));
-    if (best) return named_tolerance(s, *best, flips.size());
-    constexpr std::size_t least = 3;
-    if (flips.size() < least || !most(flips.size() - 1, similar().size())) return std::nullopt;
-    saw("The flips of these cases were compared with sizes, distances, gaps, areas and times.",
-        "No such quantity has the same value at every flip.");
-    return Named{
-        CauseKind::absolute_tolerance, "",
-        fmt::format("The answer depends on the scale of the {}: the subject compares something with a constant.",
-                    s.group->name)};
-  }
-
-  /// A quantity that has about the same value at every flip, and different values in the cases.
-  struct Constant {
-    std::string name;
-    double low = 0, high = INFINITY;
-    double spread = 1;
-  };
-  std::optional<Constant> constant_quantity(const std::vector<Flipped>& flips) {
-    const bool with_gap = decides(trials_.query().kind);
-    std::vector<Constant> all;
-    for (const Flipped& f : flips) {
-      if (!f.is_sharp) continue;
-      const auto a = quantities_of(f.at_wrong, with_gap), b = quantities_of(f.at_right, with_gap);
-      all.resize(a.size());
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        all[i].name = a[i].name;
-        all[i].low = std::max(all[i].low, std::min(a[i].value, b[i].value));
-        all[i].high = std::min(all[i].high, std::max(a[i].value, b[i].value));
-      }
-    }
-    const auto sharp = std::count_if(flips.begin(), flips.end(), [](const Flipped& f) { return f.is_sharp; });
-    return widest(std::move(all), std::size_t(sharp), with_gap);
-  }
-  /// Of the quantities that are equal at every flip, the one that differs most between the cases at one scale. A
-  /// quantity that differs in a few of the cases alone may be equal by chance.
-  std::optional<Constant> widest(std::vector<Constant> all, std::size_t flips, bool with_gap) {
-    constexpr std::size_t least_flips = 5, least_different = 4;
-    constexpr double error_of_estimates = 1.02;
-    if (flips < least_flips) return std::nullopt;
-    const auto own = quantities_of(question(), with_gap);
-    std::vector<std::size_t> different(all.size(), 0);
-    std::vector<double> furthest(all.size(), 1);
-    for (const Trial& t : similar()) {
-      const auto q = quantities_of(t.question, with_gap);
-      for (std::size_t i = 0; i < q.size(); ++i) {
-        const double factor = std::max(q[i].value / own[i].value, own[i].value / q[i].value);
-        different[i] += factor > std::numbers::sqrt2;
-        furthest[i] = std::max(furthest[i], factor);
-      }
-    }
-    std::optional<Constant> best;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i].spread = furthest[i];
-      const bool is_constant = all[i].low > 0 && all[i].low <= all[i].high * error_of_estimates;
-      const bool is_finite = std::isfinite(all[i].spread) && std::isfinite(all[i].high);
-      if (is_constant && is_finite && different[i] >= least_different && (!best || furthest[i] > best->spread))
-        best = all[i];
-    }
-    return best;
-  }
-  std::optional<Named> named_tolerance(const ScaleScan& s, const Constant& q, std::size_t cases) {
-    const double middle = std::sqrt(q.low * q.high);
-    const int decade = int(std::lround(std::log10(middle)));
-    const double round = std::pow(10.0, decade);
-    const bool is_round = q.low <= round * 1.05 && round <= q.high * 1.05;
-    const double value = is_round ? round : middle;
-    saw(fmt::format("The flips of {} cases were compared with sizes, distances, gaps, areas and times.", cases),
-        fmt::format("At each flip {} is between {:.3g} and {:.3g}, while it differs by a factor of {:.3g} between the "
-                    "cases.",
-                    q.name, q.low, q.high, q.spread));
-    return Named{CauseKind::absolute_tolerance, fmt::format("1e{} {}", decade, s.group->unit),
-                 fmt::format("The subject has an absolute tolerance of about {:.2g} (a {}) that {} is compared with.",
-                             value, s.group->unit, q.name)};
+  std::optional<Named> constant_error() { return taken(constant_error_of(trials_, scans_)); }
+  std::optional<Named> tolerance() { return taken(tolerance_of(trials_, scans_, similar())); }
+  std::optional<Named> taken(Tested tested) {
+    std::move(tested.evidence.begin(), tested.evidence.end(), std::back_inserter(evidence_));
+    return std::move(tested.named);
   }
 
   // Rounding
@@ -469,11 +309,12 @@ class Investigation {
   }
 
   std::optional<Named> rounding() {
-    const std::vector<Trial> near = trials_.ask(ulp_neighbours(question(), neighbours, 1, seed_));
+    constexpr int ulps = 8;
+    const std::vector<Trial> near = trials_.ask(ulp_neighbours(question(), neighbours, ulps, seed_));
     near_same_ = count(near, Outcome::same), near_right_ = count(near, Outcome::right);
     near_all_ = near.size() - count(near, Outcome::none);
     if (auto named = by_roundings()) return named;
-    saw(fmt::format("{} cases were asked whose numbers are at most one ulp away.", near_all_),
+    saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", near_all_),
         fmt::format("{} have the finding, and {} are right.", near_same_, near_right_));
     if (is_exact()) {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
@@ -612,9 +453,8 @@ class Investigation {
   /// The answer is right or, where the finding is a wrong decision, the decision is.
   bool has_ended(const Trial& t) const {
     if (t.outcome == Outcome::right) return true;
-    const Disagreement d = trials_.base().finding.disagreement;
-    return t.outcome == Outcome::other && (d == Disagreement::false_hit || d == Disagreement::false_miss) &&
-           t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
+    return t.outcome == Outcome::other && is_wrong_decision() && t.answer.status == Answer::Status::answered &&
+           t.answer.yes == t.finding.truth_yes;
   }
   std::vector<Case> later_starts() const {
     std::vector<Case> cases;
@@ -655,10 +495,10 @@ class Investigation {
     if (is_exact() && no_flip)
       return Named{CauseKind::logic, "",
                    "The subject's arithmetic is exact here, and its answer is wrong at every scale."};
-    constexpr int order = 10;
+    constexpr int order = 13;
     const std::vector<Trial> around = trials_.ask(relative_neighbours(question(), neighbours, order, seed_ + 2));
     const std::size_t same = count(around, Outcome::same), all = around.size() - count(around, Outcome::none);
-    saw("Cases were asked whose numbers differ by up to a thousandth.",
+    saw("Cases were asked whose numbers differ by up to a ten-thousandth.",
         fmt::format("{} have the finding.", of_text(same, all)));
     const bool stays = same_in_all_roundings() && no_flip && nearly_all(near_same_, near_all_) && nearly_all(same, all);
     if (!stays) return std::nullopt;

@@ -18,9 +18,14 @@ using Vector = std::array<double, 3>;
 Vector vector_at(const Case& c, std::size_t i) { return {c.values[i], c.values[i + 1], c.values[i + 2]}; }
 double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double area(const Case& c, const std::array<std::size_t, 3>& t) {
-  const Vector a = minus(vector_at(c, t[1]), vector_at(c, t[0])), b = minus(vector_at(c, t[2]), vector_at(c, t[0]));
-  return length({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}) / 2;
+  return length(cross(minus(vector_at(c, t[1]), vector_at(c, t[0])), minus(vector_at(c, t[2]), vector_at(c, t[0])))) /
+         2;
 }
 
 /// "sphere.center" of "sphere.center.x".
@@ -100,13 +105,15 @@ void add_vectors(const Case& c, std::vector<Quantity>& all) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const Role role = q.inputs[i].role;
-    if (role == Role::size || role == Role::time) all.push_back({q.inputs[i].name, std::abs(c.values[i])});
+    if (role == Role::size) all.push_back({q.inputs[i].name, std::abs(c.values[i])});
+    if (role == Role::time) all.push_back({q.inputs[i].name, std::abs(c.values[i]), "time"});
     if (!begins_vector(q, i)) continue;
     if (role == Role::position) places.push_back(i);
-    if (role == Role::velocity || role == Role::direction)
-      all.push_back({"the length of " + vector_name(q, i), length(vector_at(c, i))});
+    const std::string of = "the length of " + vector_name(q, i);
+    if (role == Role::velocity) all.push_back({of, length(vector_at(c, i)), "speed"});
+    if (role == Role::direction) all.push_back({of, length(vector_at(c, i)), "length of a direction"});
     if (role == Role::rotation)
-      all.push_back({"the length of " + vector_name(q, i), std::hypot(length(vector_at(c, i)), c.values[i + 3])});
+      all.push_back({of, std::hypot(length(vector_at(c, i)), c.values[i + 3]), "length of a quaternion"});
   }
   for (std::size_t k = 0; k < places.size(); ++k) {
     for (std::size_t i = 0; i < k; ++i) {
@@ -118,6 +125,43 @@ void add_vectors(const Case& c, std::vector<Quantity>& all) {
     all.push_back({fmt::format("the distance of {} from the origin", vector_name(q, i)), length(vector_at(c, i))});
 }
 
+/// The radius of the operand of a position; 0 where it has none.
+double radius_beside(const Case& c, std::size_t place) {
+  const auto& fields = c.query->inputs;
+  const std::string operand = fields[place].name.substr(0, fields[place].name.find('.'));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields[i].name == operand + ".radius") return c.values[i];
+  }
+  return 0;
+}
+
+/// What tests of spheres, rays and triangles compare in squares: d^2 - R^2 for two centers and the sum of their radii,
+/// the discriminant of a motion past a center, and the product of a velocity and the normal of a triangle.
+void add_forms(const Case& c, std::vector<Quantity>& all) {
+  const Query& q = *c.query;
+  const Parts& parts = parts_of(q);
+  const bool moves = parts.start.has_value() && !parts.velocities.empty();
+  for (std::size_t b = 3; b < q.inputs.size(); ++b) {
+    if (q.inputs[b].role != Role::position || !begins_vector(q, b) || !begins_vector(q, 0)) continue;
+    const double reach = radius_beside(c, 0) + radius_beside(c, b);
+    const Vector m = minus(vector_at(c, 0), vector_at(c, b));
+    const std::string centers = fmt::format("{} and {}", vector_name(q, 0), vector_name(q, b));
+    const double outside = dot(m, m) - reach * reach;
+    all.push_back({"d^2 - R^2 of " + centers, std::abs(outside), "length^2"});
+    if (!moves) continue;
+    const Vector v = vector_at(c, parts.velocities[0]);
+    all.push_back(
+        {"the discriminant of " + centers, std::abs(dot(m, v) * dot(m, v) - dot(v, v) * outside), "length^2 speed^2"});
+  }
+  for (const auto& t : parts.triangles) {
+    if (!moves) break;
+    const Vector n =
+        cross(minus(vector_at(c, t[1]), vector_at(c, t[0])), minus(vector_at(c, t[2]), vector_at(c, t[0])));
+    all.push_back({"the product of the velocity and the normal of the triangle",
+                   std::abs(dot(n, vector_at(c, parts.velocities[0]))), "length^2 speed"});
+  }
+}
+
 }  // namespace
 
 std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
@@ -125,11 +169,13 @@ std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
   if (with_gap) all.push_back({"the gap or overlap", gap_of(c)});
   all.push_back({"the largest position or size", largest_number(c)});
   add_vectors(c, all);
-  for (const auto& t : parts_of(*c.query).triangles) all.push_back({"the area of the triangle", area(c, t)});
+  add_forms(c, all);
+  for (const auto& t : parts_of(*c.query).triangles)
+    all.push_back({"the area of the triangle", area(c, t), "length^2"});
   const auto& velocities = parts_of(*c.query).velocities;
   if (!velocities.empty()) {
     const double time = contact_time(c);
-    all.push_back({"the time of the contact", time});
+    all.push_back({"the time of the contact", time, "time"});
     all.push_back({"the distance moved until the contact", time * length(vector_at(c, velocities[0]))});
   }
   return all;

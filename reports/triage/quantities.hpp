@@ -12,6 +12,7 @@ namespace nearmiss {
 struct Quantity {
   std::string name;  ///< "the distance from sphere.center to box.center"
   double value = 0;  ///< not negative; 0: no meaning in this case
+  std::string_view unit = "length";
 };
 
 /// Sizes, distances of positions, lengths of vectors, areas of triangles; the distance that the first operand must move

@@ -28,6 +28,22 @@ bool are_equal(const Case& c, std::size_t a, std::size_t b) {
   return std::equal(&c.values[a], &c.values[a] + 3, &c.values[b]);
 }
 
+/// Pairs of positions of different operands.
+std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Query& q) {
+  const auto operand = [&](std::size_t i) {
+    return std::string_view(q.inputs[i].name).substr(0, q.inputs[i].name.find('.'));
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t b = 0; b < q.inputs.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const bool are_places = q.inputs[a].role == Role::position && q.inputs[b].role == Role::position &&
+                              q.inputs[a].name.ends_with('x') && q.inputs[b].name.ends_with('x');
+      if (are_places && operand(a) != operand(b)) pairs.emplace_back(a, b);
+    }
+  }
+  return pairs;
+}
+
 bool is_turned(const Case& c) {
   const auto& all = parts_of(*c.query).quaternions;
   return std::any_of(all.begin(), all.end(),
@@ -43,8 +59,10 @@ std::vector<Region> regions_of(const Query& query) {
     if (f.role == Role::size)
       regions.push_back({fmt::format("{} of zero", f.name), [i](const Case& c) { return c.values[i] == 0; }});
     if (f.role == Role::flag)
-      regions.push_back({fmt::format("the flag {}", f.name), [i](const Case& c) { return c.values[i] != 0; }});
+      regions.push_back({fmt::format("the flag {}", f.name), [i](const Case& c) { return c.values[i] != 0; }, false});
   }
+  for (const auto& [a, b] : places_of_two_operands(query))
+    regions.push_back({"two equal points", [a = a, b = b](const Case& c) { return are_equal(c, a, b); }});
   for (const auto& t : parts_of(query).triangles)
     regions.push_back({"a triangle with two equal corners", [t](const Case& c) {
                          return are_equal(c, t[0], t[1]) || are_equal(c, t[1], t[2]) || are_equal(c, t[0], t[2]);
@@ -55,7 +73,7 @@ std::vector<Region> regions_of(const Query& query) {
     if (concerns(p, query))
       regions.push_back({std::string(outside_of(p)), [p](const Case& c) { return !meets(c, p); }});
   }
-  if (!parts_of(query).quaternions.empty()) regions.push_back({"a turned box", is_turned});
+  if (!parts_of(query).quaternions.empty()) regions.push_back({"a turned box", is_turned, false});
   return regions;
 }
 

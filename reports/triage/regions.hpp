@@ -12,6 +12,8 @@ namespace nearmiss {
 struct Region {
   std::string name;  ///< "a radius of zero"
   std::function<bool(const Case&)> has;
+  /// A limiting case, which an implementation may treat apart: not a turned box, and not a flag.
+  bool is_special = true;
 };
 
 /// The regions that the query's inputs have, from names and roles alone: zero sizes, equal corners, starts in contact,

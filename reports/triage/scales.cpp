@@ -90,10 +90,7 @@ std::optional<Flip> nearest_flip(Trials& trials, const Case& c, const ScaleGroup
 std::vector<int> exponents_of(const Case& c, const ScaleGroup& group) {
   std::vector<int> ks{0};
   for (const int step : steps) ks.insert(ks.end(), {step, -step});
-  double largest = 0;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (group.order(c.query->inputs[i].role) != 0) largest = std::max(largest, std::abs(c.values[i]));
-  }
+  const double largest = largest_of(c, group);
   if (largest > 0) {
     for (int d = -24; d <= 24; d += 4) ks.push_back(d - std::ilogb(largest));
   }
@@ -105,6 +102,14 @@ std::vector<int> exponents_of(const Case& c, const ScaleGroup& group) {
 }  // namespace
 
 std::span<const ScaleGroup> scale_groups() { return groups; }
+
+double largest_of(const Case& c, const ScaleGroup& group) {
+  double largest = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (group.order(c.query->inputs[i].role) != 0) largest = std::max(largest, std::abs(c.values[i]));
+  }
+  return largest;
+}
 
 std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k) {
   Case other = c;

@@ -19,6 +19,8 @@ struct ScaleGroup {
 };
 std::span<const ScaleGroup> scale_groups();
 
+/// The largest magnitude of the group's numbers.
+double largest_of(const Case& c, const ScaleGroup& group);
 /// The case with each number multiplied by 2^(k * order); empty where that is not exact, or changes nothing.
 std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k);
 

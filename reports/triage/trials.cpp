@@ -21,20 +21,6 @@ bool is_valid(const Case& c) {
          !c.query->broken(c.values);
 }
 
-/// `count` cases in which `change` replaces half of the numbers that may move.
-template <class Change>
-std::vector<Case> changed(const Case& c, std::size_t count, std::uint64_t seed, const Change& change) {
-  Random random(seed);
-  std::vector<Case> cases(count, c);
-  for (Case& other : cases) {
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      const bool moves = may_move(c.query->inputs[i].role) && c.values[i] != 0 && random.one_in(2);
-      if (moves) other.values[i] = change(c.values[i], random);
-    }
-  }
-  return cases;
-}
-
 /// The parts of a case that may be scaled: sizes, and vectors as wholes.
 std::vector<std::pair<std::size_t, std::size_t>> parts_to_scale(const Query& q) {
   std::vector<std::pair<std::size_t, std::size_t>> parts;
@@ -91,6 +77,10 @@ Finding Trials::judged(const Case& c, const Answer& answer) const {
   return confirmed(c, answer, subject_.standard_for(c.query->name), detail_);
 }
 
+Finding Trials::in_full(const Trial& t) const {
+  return confirmed(t.question, t.answer, subject_.standard_for(query().name), Detail::full);
+}
+
 bool Trials::is_right(const Case& c, const Answer& answer) const {
   const Verdict v = judged(c, answer).verdict;
   return v == Verdict::agrees || v == Verdict::not_proved;
@@ -137,14 +127,27 @@ std::size_t count(std::span<const Trial> trials, Outcome outcome) {
 }
 
 std::vector<Case> ulp_neighbours(const Case& c, std::size_t count, int ulps, std::uint64_t seed) {
-  return changed(c, count, seed,
-                 [&](double x, Random& random) { return moved_by_ulps(x, random.between(-ulps, ulps), c.scalar); });
+  Random random(seed);
+  std::vector<Case> cases(count, c);
+  for (Case& other : cases) {
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      if (may_move(c.query->inputs[i].role) && c.values[i] != 0)
+        other.values[i] = moved_by_ulps(c.values[i], random.between(-ulps, ulps), c.scalar);
+    }
+  }
+  return cases;
 }
 
 std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int order, std::uint64_t seed) {
-  return changed(c, count, seed, [&](double x, Random& random) {
-    return rounded_to(c.scalar, x * (1 + std::ldexp(random.uniform(-1, 1), -order)));
-  });
+  Random random(seed);
+  std::vector<Case> cases(count, c);
+  for (Case& other : cases) {
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      if (may_move(c.query->inputs[i].role) && random.one_in(2))
+        other.values[i] = rounded_to(c.scalar, c.values[i] * (1 + std::ldexp(random.uniform(-1, 1), -order)));
+    }
+  }
+  return cases;
 }
 
 std::vector<Trial> variants(Trials& trials, std::size_t most, std::uint64_t seed) {

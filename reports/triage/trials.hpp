@@ -45,6 +45,8 @@ class Trials {
   std::vector<Trial> ask(std::span<const Case> cases, Rounding rounding = Rounding::its_own);
   /// Judges an answer by the subject's standard.
   Finding judged(const Case& c, const Answer& answer) const;
+  /// The finding of a trial, with its distances.
+  Finding in_full(const Trial& t) const;
   /// Nothing is proved against the answer.
   bool is_right(const Case& c, const Answer& answer) const;
 
@@ -68,8 +70,8 @@ class Trials {
 
 std::size_t count(std::span<const Trial> trials, Outcome outcome);
 
-/// `count` cases in which each number that may move is, at random, as it is or up to `ulps` units in the last place
-/// away. Zeros stay.
+/// `count` cases in which each number that may move is up to `ulps` units in the last place away. Zeros stay. So many
+/// ulps make equal numbers different in nearly every case.
 std::vector<Case> ulp_neighbours(const Case& c, std::size_t count, int ulps, std::uint64_t seed);
 /// `count` cases in which each number is, at random, as it is or multiplied by a factor in 1 +- 2^-order.
 std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int order, std::uint64_t seed);
