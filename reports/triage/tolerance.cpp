@@ -147,7 +147,7 @@ class Tolerance {
             "No such quantity has the same value at every flip. The largest of the multiplied numbers is between "
             "{:.2g} and {:.2g} there.",
             low, high));
-    return Named{CauseKind::absolute_tolerance, fmt::format("unknown {}", s.group->unit),
+    return Named{CauseKind::absolute_tolerance, "",
                  fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
                              "{:.2g} and {:.2g}. The subject compares something with a constant.",
                              s.group->name, low, high)};

@@ -94,6 +94,24 @@ void choose(Group& group) {
   }
 }
 
+/// Causes that name no mechanism of arithmetic: what is wrong is told by the regions. The test of each looks at other
+/// cases too, where another mistake may show, so that they do not tell rows apart. 0: any other cause; otherwise the
+/// larger, the more it says.
+int told_by_regions(CauseKind kind) {
+  switch (kind) {
+    case CauseKind::unexplained: return 1;
+    case CauseKind::logic: return 2;
+    case CauseKind::unsupported: return 3;
+    default: return 0;
+  }
+}
+
+/// The cause as a part of the signature, and its key.
+std::string_view cause_in_signature(const TriagedSignature& s) {
+  return told_by_regions(s.cause.kind) > 0 ? name_of(CauseKind::logic) : name_of(s.cause.kind);
+}
+std::string key_in_signature(const TriagedSignature& s) { return told_by_regions(s.cause.kind) > 0 ? "" : s.cause.key; }
+
 /// One triage.
 class Work {
  public:
@@ -180,7 +198,10 @@ class Work {
       same =
           std::find_if(all.begin(), all.end(), [&](const TriagedSignature& o) { return differs_in_key_alone(o, s); });
     }
-    if (same != all.end()) return *same;
+    if (same != all.end()) {
+      if (told_by_regions(s.cause.kind) > told_by_regions(same->cause.kind)) same->cause = s.cause;
+      return *same;
+    }
     s.case_of_simplest = c.examined ? c.examined->simplest : c.filed->question;
     s.simplest = c.examined ? c.examined->file.string() : c.filed->file.string();
     all.push_back(std::move(s));
@@ -310,15 +331,16 @@ std::string id_of(const TriagedSignature& s) {
   for (const std::string* part : {&s.kind.query, &s.kind.subject, &s.kind.fault, &s.kind.member, &s.kind.clause}) {
     fnv.add(*part);
   }
-  if (s.examined) fnv.add(name_of(s.cause.kind));
-  fnv.add(s.cause.key);
+  if (s.examined) fnv.add(cause_in_signature(s));
+  fnv.add(key_in_signature(s));
   fnv.add(fmt::format("{:x} {}", s.branches, fmt::join(s.regions.names(), ",")));
   return fnv.id();
 }
 
 bool differs_in_key_alone(const TriagedSignature& a, const TriagedSignature& b) {
-  return a.kind == b.kind && a.examined && b.examined && a.cause.kind == b.cause.kind && a.branches == b.branches &&
-         a.regions == b.regions && (a.cause.key.empty() || b.cause.key.empty());
+  return a.kind == b.kind && a.examined && b.examined && cause_in_signature(a) == cause_in_signature(b) &&
+         a.branches == b.branches && a.regions == b.regions &&
+         (key_in_signature(a).empty() || key_in_signature(b).empty());
 }
 
 void rank(std::vector<TriagedSignature>& signatures) {
