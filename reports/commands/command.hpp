@@ -39,6 +39,7 @@ std::unique_ptr<Command> nightly_command();
 std::unique_ptr<Command> relations_command();
 std::unique_ptr<Command> render_command();
 std::unique_ptr<Command> replay_command();
+std::unique_ptr<Command> show_command();
 std::unique_ptr<Command> minimise_command();
 std::unique_ptr<Command> diff_command();
 std::unique_ptr<Command> explain_command();

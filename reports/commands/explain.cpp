@@ -90,6 +90,7 @@ class ExplainCommand : public Command {
                           fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
     r.replay = replay_command(subject, file.string());
     nlohmann::ordered_json j = report_to_json(r);
+    keep_ranges(t, r, j);
     j["cause"] = cause_to_json(cause);
     make_folder(file.parent_path());
     write_file(file, pretty_json(j));
@@ -99,6 +100,15 @@ class ExplainCommand : public Command {
     }
     const Replay page{r.question, t.file, r.truth, {r}, {}};
     fmt::print("{}{}\n{}", std::exchange(first_, false) ? "" : "\n", replay_text(page), cause_text(cause));
+  }
+
+  /// A minimised report of the same subject stays one.
+  static void keep_ranges(const Task& t, const Report& r, nlohmann::ordered_json& j) {
+    const nlohmann::json given = parse_json(t.text, t.file);
+    if (given.is_object() && given.contains("minimised") && given.contains("subject") &&
+        given["subject"].value("name", "") == r.subject) {
+      j["minimised"] = given["minimised"];
+    }
   }
 
   std::vector<std::string> files_;

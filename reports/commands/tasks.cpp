@@ -15,11 +15,12 @@ namespace nearmiss {
 Task read_task(const std::string& file, const Selection& selection, std::optional<double> measure,
                const std::string& verb) {
   settle_run_of(file);
-  const nlohmann::json j = parse_json(read_file(file), file);
+  const std::string text = read_file(file);  // once: a pipe cannot be read twice
+  const nlohmann::json j = parse_json(text, file);
   if (read_relation_case(j, file))
     throw BadInput(fmt::format("{}: it has several related cases, and one can be {}", file, verb));
   const auto subject = selection.subject.empty() ? subject_of_report(j, file) : std::nullopt;
-  return {file, case_of(j, file), measure ? Measure{*measure, true} : measure_of(j, file),
+  return {file, text, case_of(j, file), measure ? Measure{*measure, true} : measure_of(j, file),
           subject ? std::vector<const Subject*>{*subject} : selection.subjects()};
 }
 

@@ -13,6 +13,7 @@ namespace nearmiss {
 /// A file and the subjects that are to be asked its case.
 struct Task {
   std::string file;
+  std::string text;  ///< of the file
   Case question;
   Measure measure;
   std::vector<const Subject*> subjects;

@@ -73,11 +73,11 @@ std::string without_numbers(std::string_view text) {
   return plain;
 }
 
-/// At most `most_bytes` of a text, without its last word where that is cut.
+/// At most `most_bytes` of a text, without its last word where that is cut and not longer than the rest.
 std::string whole_words(const std::string& text) {
   if (text.size() <= most_bytes) return text;
   const std::size_t space = text.rfind(' ', most_bytes);
-  return text.substr(0, space == std::string::npos ? most_bytes : space);
+  return text.substr(0, space == std::string::npos || space < most_bytes / 2 ? most_bytes : space);
 }
 
 }  // namespace

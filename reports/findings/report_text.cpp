@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "reports/findings/text.hpp"
@@ -341,11 +342,13 @@ std::string moves_text(const Case& question, double k) {
   const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
   std::vector<std::string> groups;
   for (std::size_t i = 0; i < by.size(); ++i) {
-    if (!(by[i] > 0)) continue;
+    // A group of zeros moves by the least number, which says nothing.
+    if (!(by[i] > std::numeric_limits<double>::min())) continue;
     std::string text = fmt::format("every {} by up to {:.2g}", name_of(question.query->inputs[i].role), by[i]);
     if (std::find(groups.begin(), groups.end(), text) == groups.end()) groups.push_back(std::move(text));
   }
-  return fmt::format("{} ({})", list_text(groups), amount_text(k, question.scalar));
+  const std::string moved = groups.empty() ? "every number by up to the least one" : list_text(groups);
+  return fmt::format("{} ({})", moved, amount_text(k, question.scalar));
 }
 
 std::string explanation(const Report& r) { return Explanation(r).text(); }

@@ -175,6 +175,15 @@ TEST(Minimise, WritesAReportThatReplays) {
   EXPECT_NE(after["inputs"], before["inputs"]);
   EXPECT_EQ(after["minimised"]["same_finding"].size(), 9u);
   EXPECT_EQ(nearmiss({"replay", "--plugin", plugin, "-s", "skim", files[0].string()}).exit_code, 1);
+  const Ran shown = nearmiss({"show", "--plugin", plugin, files[0].string()});
+  EXPECT_EQ(shown.exit_code, 1) << shown.err;
+  const std::string matters = ran.out.substr(
+      ran.out.find("What matters"), ran.out.find("\n\n", ran.out.find("What matters")) - ran.out.find("What matters"));
+  EXPECT_NE(shown.out.find(matters), std::string::npos) << shown.out;
+  const Ran explained =
+      nearmiss({"explain", "--plugin", plugin, files[0].string(), "--out", (folder / "why").string(), "--json"});
+  EXPECT_EQ(explained.exit_code, 1) << explained.err;
+  EXPECT_EQ(json::parse(explained.out).at(0)["minimised"], after["minimised"]);
   const Ran again = nearmiss({"minimise", "--plugin", plugin, files[0].string(), "--out", out, "--json"});
   EXPECT_EQ(again.exit_code, 1) << again.err;
   EXPECT_EQ(json::parse(again.out).at(0)["inputs"], after["inputs"]);

@@ -448,7 +448,11 @@ TEST(ReplayText, HasTheVerdictFirstAndOfManyRightAnswersTheNearest) {
   ASSERT_NE(exact, std::string::npos) << text;
   EXPECT_LT(text.find("violates contract"), exact) << text;
   EXPECT_LT(text.find("The nearest exact answer is 2"), exact) << text;
-  EXPECT_NE(text.find("  or one of 3 more right answers, which --json lists\n", exact), std::string::npos) << text;
+  EXPECT_NE(
+      text.find("  or one of 3 more right answers; these are nearest to the wrong ones above, and --json lists all\n",
+                exact),
+      std::string::npos)
+      << text;
   const std::string first = text.substr(exact, text.find("  or\n", exact) - exact);
   const std::string alone = replay_text({question, "file", {true, truth.decided_by, {last}, 1}, {}, {}});
   const std::size_t begin = alone.find("  depth");

@@ -204,6 +204,25 @@ nlohmann::ordered_json minimised_to_json(const Minimised& m) {
   return j;
 }
 
+Minimised minimised_from_json(const nlohmann::json& minimised, const Report& report) {
+  Minimised m;
+  m.report = report;
+  m.questions = minimised.at("questions");
+  for (const auto end : {Minimised::End::questions, Minimised::End::time, Minimised::End::interrupted}) {
+    if (minimised.at("ended_by") == name_of(end)) m.end = end;
+  }
+  const std::vector<Field>& inputs = report.question.query->inputs;
+  for (const nlohmann::json& range : minimised.at("same_finding")) {
+    const auto field =
+        std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return range.at("number") == f.name; });
+    if (field == inputs.end()) continue;
+    m.ranges.push_back({std::size_t(field - inputs.begin()), range.at("low"), range.at("high"), range.at("to_lowest"),
+                        range.at("to_highest")});
+  }
+  m.all_ranges = m.ranges.size() == std::size_t(std::count_if(inputs.begin(), inputs.end(), has_range));
+  return m;
+}
+
 std::string ranges_text(const Minimised& m) {
   const Case& c = m.report.question;
   std::vector<std::vector<std::string>> rows{{"NUMBER", "VALUE", "SAME FINDING FROM", "TO"}};

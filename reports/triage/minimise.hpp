@@ -55,6 +55,9 @@ std::optional<Minimised> minimise(const Case& question, const Subject& subject, 
 std::string_view name_of(Minimised::End end);
 /// The report with the member "minimised" (reports/report.schema.json).
 nlohmann::ordered_json minimised_to_json(const Minimised& m);
+/// The inverse for the member "minimised" of a report. Throws nlohmann::json::exception; a number that the query does
+/// not have is left out.
+Minimised minimised_from_json(const nlohmann::json& minimised, const Report& report);
 /// Which numbers matter, as a table.
 std::string ranges_text(const Minimised& m);
 

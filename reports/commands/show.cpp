@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/codec.hpp"
+#include "corpus/errors.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/commands/tasks.hpp"
+#include "reports/engine/replay.hpp"
+#include "reports/triage/cause_json.hpp"
+#include "reports/triage/minimise.hpp"
+#include "reports/upstream/scene_picture.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+class ShowCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {"show",
+            "show a finding with a picture of its scene, and what is known of it",
+            {"FILE is a case, a stored case or a report, as JSON. The subject of the report is asked again, as by "
+             "'nearmiss replay'. Below the page of the case stand a picture of the scene in characters, and what the "
+             "report holds of earlier work: the cause and its evidence, found by 'nearmiss explain', and the numbers "
+             "that matter, found by 'nearmiss minimise'.",
+             "'nearmiss render' makes the page with pictures that can be turned."},
+            judging_exit_status(),
+            {{"nearmiss show reports/runs/*/findings/moving_sphere_box/fcl-false-miss-*.json", "Findings of a run."},
+             {"nearmiss show --subject fcl corpus/seeds/moving_sphere_box/hit-corner.json",
+              "One subject, a stored case."}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
+    selection_.declare_subjects(app);
+    add_measure(app, measure_);
+  }
+  int run(const CLI::App&) override {
+    std::vector<Task> tasks;
+    for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "shown"));
+    for (const Task& t : tasks) {
+      set_measure(t.measure);
+      show(t);
+    }
+    return bad_ ? 1 : 0;
+  }
+
+ private:
+  void show(const Task& t) {
+    const Replay r = replay(t.question, t.file, t.subjects, workers_);
+    fmt::print("{}{}", std::exchange(first_, false) ? "" : "\n", replay_text(r));
+    for (const Report& report : r.reports) bad_ = bad_ || is_bad(report.finding);
+    if (r.reports.empty()) return;
+    if (const std::string picture = scene_picture(r.reports.front()); !picture.empty())
+      fmt::print("\nScene\n{}", picture);
+    show_earlier_work(t, r.reports.front());
+  }
+  static void show_earlier_work(const Task& t, const Report& report) {
+    const nlohmann::json j = parse_json(t.text, t.file);
+    if (!j.is_object()) return;
+    try {
+      if (j.contains("cause")) fmt::print("\n{}", cause_text(cause_from_json(j["cause"])));
+      if (j.contains("minimised")) fmt::print("\n{}", ranges_text(minimised_from_json(j["minimised"], report)));
+    } catch (const nlohmann::json::exception& e) {
+      throw BadInput(fmt::format("{}: {}", t.file, e.what()));
+    }
+  }
+
+  std::vector<std::string> files_;
+  Selection selection_;
+  std::optional<double> measure_;
+  bool bad_ = false, first_ = true;
+  Workers workers_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> show_command() { return std::make_unique<ShowCommand>(); }
+
+}  // namespace nearmiss
