@@ -138,28 +138,32 @@ TEST(EmitTest, CollidePassesUnlessItsAnswerIsChanged) {
   }
 }
 
-/// A plugin's test is in C and is linked with the plugin's sources.
+/// A plugin's test is in C and is linked with the plugin's sources: it fails with a mistake, and passes without it,
+/// also where the plugin gives fewer members than the query has.
 TEST(EmitTest, PluginFailsAndPassesAsSaid) {
   const TemporaryFolder folder;
   const fs::path example = fs::path(source_folder()) / "docs/example-library";
-  const Ran run =
-      nearmiss({"run", "--plugin", plugin_file("skim_plugin"), "--subject", "skim", "--query", "sphere_sphere_overlap",
-                "--cases", "20000", "--seed", "1", "--out", (folder / "r").string()});
+  const Ran run = nearmiss({"run", "--plugin", plugin_file("skim_plugin"), "--subject", "skim", "--cases", "20000",
+                            "--seed", "1", "--out", (folder / "r").string()});
   ASSERT_EQ(run.exit_code, 1) << run.err;
-  const fs::path report = fs::directory_iterator(folder / "r/findings/sphere_sphere_overlap")->path();
-  const fs::path apart = in_corpus("seeds/sphere_sphere_overlap/apart.json");
   const std::string flags =
       fmt::format("-I{} -I{}", example.string(), (fs::path(source_folder()) / "impl/plugin").string());
-  for (const auto& [file, fault] : {std::pair(report, "false-hit"), std::pair(apart, "")}) {
-    const Ran emitted = nearmiss({"emit-test", "--plugin", plugin_file("skim_plugin"), "--for", "skim", file.string()});
+  for (const auto& [query, fault] :
+       {std::pair("sphere_sphere_overlap", "false-hit"), std::pair("moving_point_sphere", "false-miss"),
+        std::pair("closest_point_segment", "off-the-surface")}) {
+    const fs::path report = fs::directory_iterator(folder / "r/findings" / query)->path();
+    const Ran emitted =
+        nearmiss({"emit-test", "--plugin", plugin_file("skim_plugin"), "--for", "skim", report.string()});
     ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
     std::string text = emitted.out;
     const std::size_t source = text.find("plugin.c");
     ASSERT_NE(source, std::string::npos);
     text.replace(source, 8, (example / "plugin.c").string() + " " + (example / "skim.c").string());
-    const Ran ran = compiled_and_run(folder, "plugin", text, "c", flags);
-    EXPECT_EQ(ran.exit_code, *fault == '\0' ? 0 : 1) << ran.out << ran.err;
-    EXPECT_NE(ran.out.find(fault), std::string::npos) << ran.out;
+    const Ran wrong = compiled_and_run(folder, "plugin", text, "c", flags);
+    EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+    EXPECT_NE(wrong.out.find(fault), std::string::npos) << wrong.out;
+    const Ran mended = compiled_and_run(folder, "plugin", text, "c", flags + " -DSKIM_MENDED");
+    EXPECT_EQ(mended.exit_code, 0) << text << mended.out << mended.err;
   }
 }
 

@@ -44,6 +44,8 @@ Asking ask_plugin(const Case& question, const Subject&) {
   for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
     const Layout::Part& part = query.layout.parts[m];
     asking.members.push_back(query.member_name(m));
+    asking.statements +=
+        fmt::format("{} = (int)(answer.given >> {} & 1);\n", flag_of(query.member_name(m)), part.begin);
     for (std::size_t i = part.begin; i < part.end; ++i) {
       const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
       asking.statements += fmt::format("if (answer.given >> {} & 1) {}{} = answer.values[{}];\n", i,

@@ -55,11 +55,18 @@ std::string indented(std::string_view text) {
   return out;
 }
 
-std::string variable_of(std::string_view member) {
-  std::string name = "got_" + std::string(member);
+namespace {
+
+std::string identifier(std::string_view prefix, std::string_view member) {
+  std::string name = std::string(prefix) + std::string(member);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
 }
+
+}  // namespace
+
+std::string variable_of(std::string_view member) { return identifier("got_", member); }
+std::string flag_of(std::string_view member) { return identifier("gave_", member); }
 
 collide::Capsule<double> way_of_sphere(const Scene& scene) {
   struct {

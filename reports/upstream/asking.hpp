@@ -13,7 +13,7 @@
 namespace nearmiss {
 
 /// Source text. The statements set `got_yes` and, where the library tells them, the variables of the members, such as
-/// `got_depth` and `got_normal[3]`, which are declared before them.
+/// `got_depth` and `got_normal[3]`, which are declared before them. In C they also set the flags of the members.
 struct Asking {
   enum class Style { googletest, googletest_with_main, main, c };
 
@@ -46,6 +46,8 @@ std::string literals(const collide::Vec3<double>& v);
 std::string indented(std::string_view text);
 /// The name of the variable of an answer's member: "got_corners_2_point".
 std::string variable_of(std::string_view member);
+/// The variable that tells whether a plugin gave the member: "gave_corners_2_point".
+std::string flag_of(std::string_view member);
 
 /// What the sphere of a motion with a limit sweeps. Throws BadInput where its end is not finite.
 collide::Capsule<double> way_of_sphere(const Scene& scene);

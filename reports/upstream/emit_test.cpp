@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "corpus/errors.hpp"
 #include "reports/findings/report_text.hpp"
@@ -43,6 +44,7 @@ class Conditions {
       for (std::size_t i = 1; i < n; ++i) nans += ", NAN";
       text +=
           n == 1 ? fmt::format("double {} = NAN;\n", name(m)) : fmt::format("double {}[] = {{{}}};\n", name(m), nans);
+      if (in_c_) text += fmt::format("int {} = 0;\n", flag_of(query_.member_name(m)));
     }
     return text;
   }
@@ -109,7 +111,12 @@ class Conditions {
     std::vector<std::string> all;
     if (decides(query_.kind)) all.push_back(r.yes ? "got_yes" : "!got_yes");
     for (const MemberCondition& c : r.members) {
-      for (std::string& s : conditions(c)) all.push_back(std::move(s));
+      std::vector<std::string> own = conditions(c);
+      if (in_c_ && !own.empty()) {  // a plugin may leave the member out
+        all.push_back(fmt::format("(!{} || ({}))", flag_of(query_.member_name(c.member)), fmt::join(own, " && ")));
+      } else {
+        std::move(own.begin(), own.end(), std::back_inserter(all));
+      }
     }
     return all.empty() ? "1" : fmt::format("{}", fmt::join(all, " &&\n    "));
   }
@@ -142,9 +149,10 @@ class Conditions {
     std::string text;
     for (const std::size_t m : compared_) {
       if (query_.layout.parts[m].role != Role::normal || right_.unit_error == 0) continue;
-      text += fmt::format("if ({}!({}(length_of({}) - 1) <= {})) got_right = {};\n",
-                          decides(query_.kind) ? "got_yes && " : "", absolute(), name(m), literal(right_.unit_error),
-                          in_c_ ? "0" : "false");
+      const std::string given = in_c_ ? flag_of(query_.member_name(m)) + " && " : "";
+      text += fmt::format("if ({}{}!({}(length_of({}) - 1) <= {})) got_right = {};\n",
+                          decides(query_.kind) ? "got_yes && " : "", given, absolute(), name(m),
+                          literal(right_.unit_error), in_c_ ? "0" : "false");
     }
     return text;
   }
