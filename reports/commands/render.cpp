@@ -29,9 +29,10 @@ class RenderCommand : public Command {
          "the "
          "signatures, and for each of them the picture of its scene down to the last bit, the error as a function of "
          "each number, what plays no part, the cause with its evidence, the referees, and the command that replays it.",
-         "With triage.json in FOLDER, the page shows that triage. Without it the page shows the run in FOLDER, with "
-         "one "
-         "row for each query, subject and fault, or the newest run among its subfolders. Several runs in subfolders "
+         "With triage.json in FOLDER or in FOLDER/triage, the page shows that triage. Without it the page shows the "
+         "run in "
+         "FOLDER, with one row for each query, subject and fault, or the newest run among its subfolders. Several runs "
+         "in subfolders "
          "make a trend.",
          "For the plots the subject of each shown report is asked again with each number moved, the most severe "
          "first, for at most --seconds. Reports are added in the same order until the page has 18 MB; the table has "

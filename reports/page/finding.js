@@ -103,12 +103,13 @@ nearmiss.finding = (() => {
     if (isNarrow) return `−${about(own - low)} … +${about(high - own)}`;
     return `${lowest ? "lowest" : about(low)} … ${highest ? "highest" : about(high)}`;
   }
+  const isGone = r => (r.plots || []).some(nearmiss.plot.isGone);
   function ranges(r) {
     const minimised = new Map(((r.report.minimised || {}).same_finding || []).map(x => [x.number, x]));
     const plots = new Map((r.plots || []).map(p => [p.number, p]));
-    const inputs = leaves(r.report.inputs);
+    const inputs = leaves(r.report.inputs), gone = isGone(r);
     const rows = inputs.map(([name, v]) => {
-      const m = minimised.get(name), p = plots.get(name), same = p ? nearmiss.plot.sameFault(p) : null;
+      const m = minimised.get(name), p = plots.get(name), same = p && !gone ? nearmiss.plot.sameFault(p) : null;
       const free = m ? m.to_lowest && m.to_highest : same ? same.all : false;
       const range = m ? (free ? "any value" : rangeText({low: m.low, high: m.high, lowest: m.to_lowest, highest: m.to_highest}, v))
         : same ? (same.all ? "any asked value" : rangeText(same, v)) : "";
@@ -119,11 +120,11 @@ nearmiss.finding = (() => {
       element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "number"), element("th", {scope: "col"}, "value"), element("th", {scope: "col"}, "same finding in"))),
       element("tbody", {}, rows.map(x => element("tr", {class: x.free ? "free" : null}, element("th", {scope: "row"}, x.name), element("td", {}, exact(x.v, r.report.scalar)), element("td", {}, x.range))))),
       element("p", {class: "note"}, rows.some(x => x.free) ? "Grey numbers play no part: every asked value gives the same finding. " : "",
-        proved ? "Ranges are those of minimise, which asks values at distances that double." : plots.size ? "Ranges are those of the plots below." : "No ranges: the subject was not asked."));
+        gone && !proved ? "The subject answers this case without the finding now." : proved ? "Ranges are those of minimise, which asks values at distances that double." : plots.size ? "Ranges are those of the plots below." : "No ranges: the subject was not asked."));
   }
   function plots(r) {
     if (!r.plots || r.plots.length === 0) return section("Error along each number", element("p", {class: "note"}, "The subject was not asked: it is not in the build that wrote this page, or the time was over."));
-    const free = p => nearmiss.plot.sameFault(p).all;
+    const free = p => !isGone(r) && nearmiss.plot.sameFault(p).all;
     return section("Error along each number",
       element("p", {class: "note"}, "Bits of the proved backward error where one number is moved, as a share of the largest number of its kind. ",
         element("span", {class: "key grave"}, "×"), " wrong decision or breakage, ", element("span", {class: "key wrong"}, "●"), " another finding, ", element("span", {class: "key right"}, "○"), " none."),

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "corpus/codec.hpp"
@@ -30,6 +32,14 @@ Json read_object(const fs::path& file) {
   Json j = Json::parse(read_file(file), nullptr, false);
   if (!j.is_object()) throw BadInput(fmt::format("{}: it is not a JSON object", file.string()));
   return j;
+}
+
+/// The triage in the folder, or that of the run in it: triage writes to a folder of that name.
+std::optional<fs::path> triage_in(const fs::path& folder) {
+  for (const fs::path& file : {folder / "triage.json", folder / "triage" / "triage.json"}) {
+    if (fs::exists(file)) return file;
+  }
+  return std::nullopt;
 }
 
 bool is_run(const fs::path& folder) { return fs::exists(folder / "index.json"); }
@@ -217,8 +227,9 @@ PageData::PageData(fs::path folder, fs::path page_folder)
   settle_run(folder_);
   settle_runs_below(folder_);
   read_trend();
-  if (fs::exists(folder_ / "triage.json")) {
-    read_triage(folder_ / "triage.json");
+  const std::optional<fs::path> triage = triage_in(folder_);
+  if (triage) {
+    read_triage(*triage);
   } else if (is_run(folder_)) {
     read_run(folder_);
   } else if (!trend_.empty()) {
@@ -297,7 +308,18 @@ void PageData::sort_signatures() {
 
 fs::path PageData::file_of(const std::string& path) const {
   const fs::path below = run_ / path;
-  return fs::exists(below) ? below : fs::path(path);
+  if (fs::exists(below)) return below;
+  if (fs::exists(path)) return path;
+  // The folder was moved, or named from elsewhere: the end of the path stays.
+  const fs::path given(path);
+  for (auto part = given.begin(); part != given.end(); ++part) {
+    fs::path end;
+    for (auto rest = part; rest != given.end(); ++rest) end /= *rest;
+    for (const fs::path& base : {run_, run_.parent_path()}) {
+      if (std::distance(part, given.end()) > 1 && fs::exists(base / end)) return base / end;
+    }
+  }
+  return path;
 }
 
 void PageData::add_reports(std::size_t most_bytes, Workers& workers, const std::function<bool()>& has_time,

@@ -21,6 +21,11 @@ nearmiss.plot = (() => {
     return {low: s[low][1], high: s[high][1], all: asked.every(x => x[2] === fault), lowest: low === 0, highest: high === s.length - 1};
   }
 
+  /// Whether the subject still has the finding: it may have been mended since the report.
+  function isGone(plot) {
+    return plot.samples.some(s => s[0] === 0 && s[2] === "");
+  }
+
   function draw(plot, ownText, plainly) {
     const width = 330, height = 104, left = 28, right = 12, top = 8, bottom = 20;
     const least = Math.min(...plot.samples.filter(s => s[0] !== 0).map(s => Math.log2(Math.abs(s[0]) / plot.scale)));
@@ -55,5 +60,5 @@ nearmiss.plot = (() => {
     return element("figure", {class: plainly ? "free" : null},
       element("figcaption", {}, element("b", {}, plot.number), ` = ${ownText}`), root);
   }
-  return {draw, sameFault};
+  return {draw, isGone, sameFault};
 })();

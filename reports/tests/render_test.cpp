@@ -224,6 +224,26 @@ TEST_F(Render, ShowsARun) {
   EXPECT_EQ(worst.at("plots").size(), 9u);
 }
 
+TEST_F(Render, ShowsTheTriageOfARunThatWasMoved) {
+  const std::string plugin = plugin_file("skim_plugin"), run = (folder_ / "run").string();
+  ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "--subject", "skim", "--cases", "20000", "--seed", "1", "--out", run})
+                .exit_code,
+            1);
+  ASSERT_EQ(nearmiss({"triage", run, "--plugin", plugin}).exit_code, 1);
+  fs::rename(run, folder_ / "moved");
+  const Ran ran = nearmiss({"render", "--plugin", plugin, (folder_ / "moved").string()});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const json data = data_of_page(folder_ / "moved" / "index.html");
+  EXPECT_EQ(complaints(data, "page.schema.json"), "");
+  EXPECT_EQ(data.at("rows").size(), 3u);
+  EXPECT_TRUE(data.at("skipped").empty()) << data.at("skipped");
+  ASSERT_EQ(data.at("reports").size(), 3u);
+  for (const json& row : data.at("reports")) {
+    EXPECT_FALSE(row.at("details").at("cause").at("evidence").empty()) << row.at("details");
+    EXPECT_NE(row.at("simplest").get<std::string>(), row.at("worst").get<std::string>());
+  }
+}
+
 TEST_F(Render, NamesReportsThatItCannotRead) {
   folder_.file("bad.json", "{\"query\": ");
   folder_.file("triage.json", R"({"schema": 1, "environment": {}, "sources": [], "skipped": [], "totals": {},
