@@ -30,18 +30,19 @@ nearmiss.finding = (() => {
     const fault = data.value(row, "fault"), change = data.value(row, "change"), decision = data.value(row, "decision");
     const which_ = data.report(row, "simplest") === null ? null : element("div", {class: "switch", role: "group", "aria-label": "Report"},
       ["worst", "simplest"].map(w => element("button", {type: "button", "aria-pressed": String(w === which), onclick: () => choose(w)}, w)));
-    const facts = [
-      data.value(row, "severity_text") || null,
-      `found ${count(data.value(row, "findings") ?? data.value(row, "count"))} times, in ${plural(data.value(row, "count") || 0, "report")}`,
-      data.value(row, "ordinary_share") === null || data.value(row, "ordinary_share") === undefined ? null : `${percent(data.value(row, "ordinary_share"))} ordinary scenes`,
-      r ? `${r.report.subject.version}, ${r.report.scalar}` : data.value(row, "version") || null,
-    ].filter(Boolean);
+    const told = data.value(row, "severity_text"), reports = plural(data.value(row, "count") || 0, "report");
+    const share = data.value(row, "ordinary_share") ?? null;
+    const facts = told ? [readable(told), reports] : [
+      `found ${count(data.value(row, "findings") ?? data.value(row, "count"))} times, in ${reports}`,
+      share === null ? null : `${percent(share)} ordinary scenes`];
+    facts.push(
+      r ? `${r.report.subject.version}, ${r.report.scalar}` : data.value(row, "version") || null);
     return [
       element("p", {class: "tags"}, element("b", {class: "fault"}, fault), change ? element("span", {class: `change ${change}`}, change) : null,
         decision ? element("span", {class: "change"}, decision) : null, element("code", {}, data.value(row, "query")), which_),
       element("h2", {}, readable(data.value(row, "headline")) || `${data.value(row, "subject")}: ${fault} in ${data.value(row, "query")}`),
       r ? element("p", {class: "explanation"}, readable(r.report.explanation)) : null,
-      element("p", {class: "facts"}, facts.join(" · ")),
+      element("p", {class: "facts"}, facts.filter(Boolean).join(" · ")),
     ];
   }
 

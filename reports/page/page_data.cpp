@@ -247,7 +247,11 @@ void PageData::read_triage(const fs::path& file) {
     throw BadInput(fmt::format("{}: it is not a triage of schema 1", file.string()));
   for (const Json& s : list) {
     if (!s.is_object()) throw BadInput(fmt::format("{}: a signature is not an object", file.string()));
-    signatures_.push_back(s);
+    Json& added = signatures_.emplace_back(s);
+    if (std::string fault = text_of_member(s, "fault"); !fault.empty()) {  // a name for files: "false-miss"
+      std::replace(fault.begin(), fault.end(), '-', ' ');
+      added["fault"] = fault;
+    }
   }
   summary_ = {{"kind", "triage"},
               {"totals", member_of(j, "totals")},

@@ -86,10 +86,11 @@ ErrorSize error_size(const Case& question, const Finding& f) {
     size.relative = std::min(1.0, std::abs(f.unit_error) * epsilon);
     return size;
   }
-  const std::optional<double> forward = m != nullptr ? forward_share(question, f, *m) : std::nullopt;
+  // An unknown forward error is infinite: it is never the smaller one.
+  const double forward = m != nullptr ? forward_share(question, f, *m).value_or(HUGE_VAL) : HUGE_VAL;
   const double backward = bound ? bound->above * epsilon : 0;
-  const bool is_forward = forward && std::isfinite(*forward) && (!bound || bound->above == 0 || *forward < backward);
-  size.relative = is_forward ? *forward : backward;
+  const bool is_forward = std::isfinite(forward) && (!bound || bound->above == 0 || forward < backward);
+  size.relative = is_forward ? forward : backward;
   set_amount(size, question, m, is_forward);
   return size;
 }
