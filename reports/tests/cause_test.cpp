@@ -12,6 +12,7 @@
 #include "impl/subject/provenance.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
+#include "reports/triage/border.hpp"
 #include "reports/triage/cause.hpp"
 #include "reports/triage/readings.hpp"
 #include "reports/triage/regions.hpp"
@@ -362,6 +363,26 @@ TEST(Cause, AnAnswerThatIsRightWhereEverythingVanishesExplainsNothing) {
   const Cause c = cause(s, case_of("sphere_sphere_overlap", {1, 2, 0.5, 1, 3, 0.25, 0, 1}));
   EXPECT_NE(c.kind, CauseKind::underflow) << text_of(c);
   EXPECT_NE(c.kind, CauseKind::absolute_tolerance) << text_of(c);
+}
+
+TEST(Border, IsToldFromChance) {
+  const Query& query = *find_query("moving_sphere_box");
+  Case c = generate(query, Scalar::float64, 1, 0);
+  for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] = 1 + 0.25 * double(i);
+  std::vector<Trial> trials;
+  for (const Case& near : ulp_neighbours(c, 64, 8, 1)) trials.push_back({near, {}, {}, Outcome::right, 0});
+  const auto outcomes_by = [&](auto with_finding) {
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      trials[i].outcome = with_finding(i, trials[i].question.values) ? Outcome::same : Outcome::right;
+    return are_on_two_sides(c, trials);
+  };
+  EXPECT_TRUE(outcomes_by([&](std::size_t, const auto& x) { return x[0] - c.values[0] > x[4] - c.values[4]; }));
+  EXPECT_TRUE(outcomes_by([&](std::size_t, const auto& x) { return x[2] > c.values[2]; }));
+  std::uint64_t random = 1;
+  EXPECT_FALSE(outcomes_by([&](std::size_t, const auto&) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return random >> 63 != 0;
+  }));
 }
 
 TEST(Scales, AreExactOrNothing) {

@@ -12,6 +12,7 @@
 #include "corpus/relations/exact_sums.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/triage/border.hpp"
 #include "reports/triage/readings.hpp"
 #include "reports/triage/regions.hpp"
 #include "reports/triage/scales.hpp"
@@ -321,9 +322,13 @@ class Investigation {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
       return std::nullopt;
     }
-    if (is_mixed(near_right_, near_all_))
-      return Named{CauseKind::rounding, "",
-                   "The answer is unstable: it is right or wrong by the last bits of the inputs."};
+    if (is_mixed(near_right_, near_all_)) {
+      if (!are_on_two_sides(question(), near))
+        return Named{CauseKind::rounding, "",
+                     "The answer is unstable: it is right or wrong by the last bits of the inputs."};
+      saw("A plane was sought that separates these cases with the finding from those without.",
+          "There is one: the case lies on a border, and the answer is not right or wrong by chance.");
+    }
     return far_from_the_origin();
   }
   std::optional<Named> by_roundings() {
