@@ -326,7 +326,7 @@ fs::path PageData::file_of(const std::string& path) const {
   return path;
 }
 
-void PageData::add_reports(std::size_t most_bytes, Workers& workers, const std::function<bool()>& has_time,
+void PageData::add_reports(std::size_t byte_limit, Workers& workers, const std::function<bool()>& has_time,
                            const std::function<bool(std::size_t)>& tick) {
   std::size_t bytes = to_json().dump(-1, ' ', false, Json::error_handler_t::replace).size();
   for (const Json& s : signatures_) {
@@ -336,7 +336,7 @@ void PageData::add_reports(std::size_t most_bytes, Workers& workers, const std::
     if (!worst.empty()) both["worst"] = report_text(worst, workers, has_time);
     if (!simplest.empty() && simplest != worst) both["simplest"] = report_text(simplest, workers, has_time);
     bytes += both.dump(-1, ' ', false, Json::error_handler_t::replace).size();
-    if (bytes > most_bytes) return;
+    if (bytes > byte_limit) return;
     reports_.push_back(std::move(both));
   }
 }

@@ -27,10 +27,10 @@ class PageData {
   std::size_t internal_errors() const { return internal_errors_; }
 
   /// Reads the worst and the simplest report of each signature, the most severe first, and adds their scenes, until the
-  /// data of the page has `most_bytes`. The plots of errors ask the reports' subjects, as long as `has_time` says; a
+  /// data of the page has `byte_limit`. The plots of errors ask the reports' subjects, as long as `has_time` says; a
   /// subject that this build does not have is not asked. `tick` is called with the number of signatures that are done;
   /// false ends the reading. A report that cannot be read is named under "skipped".
-  void add_reports(std::size_t most_bytes, Workers& workers, const std::function<bool()>& has_time,
+  void add_reports(std::size_t byte_limit, Workers& workers, const std::function<bool()>& has_time,
                    const std::function<bool(std::size_t)>& tick);
 
   /// The data as reports/page.schema.json describes them.
