@@ -183,8 +183,8 @@ SceneVector nearest_in_box(const SceneVector& p, const SceneShape& box) {
 
 /// The line that carries a shape: its point nearest to the origin, the unit direction, and where the shape begins and
 /// ends on it; null: it does not end.
-Json carrier_to_json(const SceneVector& point, const SceneVector& along, std::optional<SceneReal> low,
-                     std::optional<SceneReal> high) {
+Json carrier_to_json(const SceneVector& point, const SceneVector& along, const std::optional<SceneReal>& low,
+                     const std::optional<SceneReal>& high) {
   const SceneVector u = unit(along);
   const SceneReal at = dot(point, u), step = length(along);
   const auto end = [&](const std::optional<SceneReal>& t) { return t ? Json(rounded(at + *t * step)) : Json(nullptr); };
@@ -290,9 +290,15 @@ Json shape_to_json(const SceneShape& shape, const SceneReal& by) {
   Json j{{"name", s.name}, {"kind", s.kind_name}, {"moves", s.moves}};
   for (const SceneVector& c : s.corners) j["corners"].push_back(vector_to_json(c));
   switch (s.kind) {
-    case Form::segment: j["sides"] = {carrier_to_json(s.corners[0], s.corners[1] - s.corners[0], 0, 1)}; break;
-    case Form::ray: j["sides"] = {carrier_to_json(s.corners[0], s.axis, SceneReal(0), std::nullopt)}; break;
-    case Form::line: j["sides"] = {carrier_to_json(s.corners[0], s.axis, std::nullopt, std::nullopt)}; break;
+    case Form::segment:
+      j["sides"] = Json::array({carrier_to_json(s.corners[0], s.corners[1] - s.corners[0], 0, 1)});
+      break;
+    case Form::ray:
+      j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, SceneReal(0), std::nullopt)});
+      break;
+    case Form::line:
+      j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, std::nullopt, std::nullopt)});
+      break;
     case Form::plane: j["plane"] = face_to_json(unit(s.axis), -s.offset / length(s.axis) / by); break;
     case Form::triangle:
     case Form::rectangle: add_pieces(j, s.corners); break;

@@ -117,11 +117,10 @@ class Bisector {
     expect(bad, b_.bad, Seen::present);
     expect(good, b_.good, Seen::absent);
     checked({"bisect", "start", bad, good});
-    for (std::string output; !stopped();) {
+    while (result_.commits.empty() && !stopped()) {
       const BisectionStep step = examine();
       const char* word = step.seen == Seen::present ? "bad" : step.seen == Seen::absent ? "good" : "skip";
-      output = tree_.git({"bisect", word}).output;
-      if (!(result_.commits = first_in(output)).empty()) break;
+      result_.commits = first_in(tree_.git({"bisect", word}).output);
     }
     tree_.git({"bisect", "reset"});
     return std::move(result_);
