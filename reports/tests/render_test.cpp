@@ -157,14 +157,15 @@ TEST(ErrorPlot, ShowsWhereASubjectIsWrong) {
   const Case c = question_of("sphere_sphere_overlap", {0, 0, 0, 4, 1, 0, 0, 0});
   const json plots = error_plots(c, s, workers, [] { return true; });
   ASSERT_EQ(plots.size(), 8u);
+  const json no_fault("");
   std::size_t misses = 0, invalid = 0, right = 0;
   for (const json& sample : plots[3].at("samples")) {
     const double radius = sample[1];
-    const json expected = radius < 0 ? json(nullptr) : radius > 3 ? json("false miss") : json("");
+    const json expected = radius < 0 ? json(nullptr) : radius > 3 ? json("false miss") : no_fault;
     EXPECT_EQ(sample[2], expected) << radius;
     misses += sample[2] == "false miss";
     invalid += sample[2].is_null();
-    right += sample[2] == "";
+    right += sample[2] == no_fault;
   }
   EXPECT_GT(misses, 5u);
   EXPECT_GT(invalid, 0u);
