@@ -51,15 +51,27 @@ const Subject* reported_subject(const nlohmann::json& j, const std::string& file
 
 }  // namespace
 
-void ChosenFinding::declare(CLI::App& app) {
+void ChosenFinding::declare(CLI::App& app, const std::string& what) {
+  app.add_option("FILE", file_, "A report or a case file")->required()->type_name("");
   declare_foreign_subjects(app);
   app.add_option("--for", for_,
                  "The library (fcl, libccd, bullet, ode, collide) or the subject to ask. Default: the report's subject")
       ->type_name("NAME");
   add_measure(app, measure_);
+  app.add_option("--out", out_, fmt::format("Write to this file. Default: print {}", what))->type_name("FILE");
 }
 
-ChosenFinding::Asked ChosenFinding::ask(const std::string& file) {
+void ChosenFinding::write(const std::string& text) const {
+  if (out_.empty()) {
+    fmt::print("{}", text);
+    return;
+  }
+  write_file(out_, text);
+  fmt::print("{}\n", out_);
+}
+
+ChosenFinding::Asked ChosenFinding::ask() const {
+  const std::string& file = file_;
   settle_run_of(file);
   const nlohmann::json j = parse_json(read_file(file), file);
   if (read_relation_case(j, file)) throw BadInput(fmt::format("{}: it has several related cases; one is needed", file));

@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// --for, --measure, and the options of foreign subjects.
+/// FILE, --for, --measure, --out, and the options of foreign subjects.
 class ChosenFinding {
  public:
   struct Asked {
@@ -17,12 +17,15 @@ class ChosenFinding {
     const Subject* subject;
   };
 
-  void declare(CLI::App& app);
+  /// `what` is written: "the test".
+  void declare(CLI::App& app, const std::string& what);
   /// Asks the chosen subject the case of the file. Throws BadInput where that cannot be done.
-  Asked ask(const std::string& file);
+  Asked ask() const;
+  /// Writes the text to the file of --out and prints its name, or prints the text.
+  void write(const std::string& text) const;
 
  private:
-  std::string for_;
+  std::string file_, for_, out_;
   std::optional<double> measure_;
 };
 

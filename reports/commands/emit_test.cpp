@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "oracles/requirements.hpp"
 #include "reports/commands/chosen_finding.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -36,25 +34,14 @@ class EmitTestCommand : public Command {
          {"nearmiss emit-test --for ode corpus/regressions/box_box_overlap/bullet-corner-with-margin.json",
           "The same case for another library."}}};
   }
-  void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "A report or a case file")->required()->type_name("");
-    chosen_.declare(app);
-    app.add_option("--out", out_, "Write to this file. Default: print the test")->type_name("FILE");
-  }
+  void declare(CLI::App& app) override { chosen_.declare(app, "the test"); }
   int run(const CLI::App&) override {
-    const ChosenFinding::Asked asked = chosen_.ask(file_);
-    const EmittedTest test = emit_test(asked.report, *asked.subject);
-    if (out_.empty()) {
-      fmt::print("{}", test.text);
-    } else {
-      write_file(out_, test.text);
-      fmt::print("{}\n", out_);
-    }
+    const ChosenFinding::Asked asked = chosen_.ask();
+    chosen_.write(emit_test(asked.report, *asked.subject).text);
     return 0;
   }
 
  private:
-  std::string file_, out_;
   ChosenFinding chosen_;
 };
 

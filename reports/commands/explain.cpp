@@ -18,8 +18,6 @@ namespace nearmiss {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 class ExplainCommand : public Command {
  public:
   Manual manual() const override {
@@ -53,12 +51,7 @@ class ExplainCommand : public Command {
     std::vector<Task> tasks;
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "explained"));
     catch_interrupts();
-    for (const Task& t : tasks) {
-      set_measure(t.measure);
-      for (const Subject* s : t.subjects) {
-        if (!interrupted()) explain_for(t, *s);
-      }
-    }
+    for_each_subject(tasks, [this](const Task& t, const Subject& s) { explain_for(t, s); });
     if (json_) fmt::print("{}", pretty_json(reports_));
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
     return found_ > 0 ? 1 : interrupted() ? 2 : 0;
@@ -86,8 +79,7 @@ class ExplainCommand : public Command {
     keep(t, subject, r, cause);
   }
   void keep(const Task& t, const Subject& subject, Report& r, const Cause& cause) {
-    const fs::path file = (out_.empty() ? runs_folder() / "explained" : fs::path(out_)) / r.question.query->name /
-                          fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
+    const std::filesystem::path file = file_for(r, out_, "explained");
     r.replay = replay_command(subject, file.string());
     nlohmann::ordered_json j = report_to_json(r);
     keep_ranges(t, r, j);
@@ -105,8 +97,8 @@ class ExplainCommand : public Command {
   /// A minimised report of the same subject stays one.
   static void keep_ranges(const Task& t, const Report& r, nlohmann::ordered_json& j) {
     const nlohmann::json given = parse_json(t.text, t.file);
-    if (given.is_object() && given.contains("minimised") && given.contains("subject") &&
-        given["subject"].value("name", "") == r.subject) {
+    const bool is_report = given.is_object() && given.contains("subject") && given["subject"].is_object();
+    if (is_report && given.contains("minimised") && given["subject"].value("name", "") == r.subject) {
       j["minimised"] = given["minimised"];
     }
   }

@@ -18,8 +18,6 @@ namespace nearmiss {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 class MinimiseCommand : public Command {
  public:
   Manual manual() const override {
@@ -57,12 +55,7 @@ class MinimiseCommand : public Command {
     std::vector<Task> tasks;
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "minimised"));
     catch_interrupts();
-    for (const Task& t : tasks) {
-      set_measure(t.measure);
-      for (const Subject* s : t.subjects) {
-        if (!interrupted()) minimise_for(t, *s);
-      }
-    }
+    for_each_subject(tasks, [this](const Task& t, const Subject& s) { minimise_for(t, s); });
     if (json_) fmt::print("{}", pretty_json(reports_));
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
     return found_ > 0 ? 1 : interrupted() ? 2 : 0;
@@ -87,8 +80,7 @@ class MinimiseCommand : public Command {
     Report& r = m.report;
     r.question.origin = "minimise";
     r.question.moves.clear();  // they made the case of the file
-    const fs::path file = (out_.empty() ? runs_folder() / "minimised" : fs::path(out_)) / r.question.query->name /
-                          fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
+    const std::filesystem::path file = file_for(r, out_, "minimised");
     r.replay = replay_command(subject, file.string());
     make_folder(file.parent_path());
     write_file(file, pretty_json(minimised_to_json(m)));

@@ -6,8 +6,10 @@
 
 #include "corpus/codec.hpp"
 #include "oracles/requirements.hpp"
+#include "reports/engine/interrupt.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
+#include "reports/engine/run.hpp"
 #include "reports/engine/run_folder.hpp"
 
 namespace nearmiss {
@@ -30,6 +32,21 @@ std::optional<Case> case_for(const Task& t, const Subject& subject) {
   if (offering.answer != nullptr && same && unmet_by(*same, offering.required).empty()) return same;
   if (t.subjects.size() == 1) throw BadInput(fmt::format("{}: {} cannot be asked this case", t.file, subject.name));
   return std::nullopt;
+}
+
+void for_each_subject(const std::vector<Task>& tasks, const std::function<void(const Task&, const Subject&)>& work) {
+  for (const Task& t : tasks) {
+    set_measure(t.measure);
+    for (const Subject* s : t.subjects) {
+      if (!interrupted()) work(t, *s);
+    }
+  }
+}
+
+std::filesystem::path file_for(const Report& r, const std::string& given_folder, const char* usual_folder) {
+  const std::filesystem::path folder =
+      given_folder.empty() ? runs_folder() / usual_folder : std::filesystem::path(given_folder);
+  return folder / r.question.query->name / fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
 }
 
 }  // namespace nearmiss

@@ -1,12 +1,15 @@
 /// The files of commands that work on findings one by one.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "impl/catalogue/case.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/findings/report.hpp"
 
 namespace nearmiss {
 
@@ -27,5 +30,12 @@ Task read_task(const std::string& file, const Selection& selection, std::optiona
 /// The task's case in the subject's scalar; empty where the subject cannot be asked it. Throws BadInput where that
 /// subject is the only one of the task.
 std::optional<Case> case_for(const Task& t, const Subject& subject);
+
+/// Calls `work` with each task and each of its subjects, judged by the measure of the task, until an interrupt.
+void for_each_subject(const std::vector<Task>& tasks, const std::function<void(const Task&, const Subject&)>& work);
+
+/// Where such a command keeps a report: FOLDER/QUERY/SUBJECT-FAULT-ID.json. Without a given folder, that of this name
+/// below the folder of runs.
+std::filesystem::path file_for(const Report& r, const std::string& given_folder, const char* usual_folder);
 
 }  // namespace nearmiss

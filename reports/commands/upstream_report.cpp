@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "corpus/codec.hpp"
 #include "reports/commands/chosen_finding.hpp"
 #include "reports/commands/command.hpp"
 
@@ -28,25 +27,14 @@ class UpstreamReportCommand : public Command {
         {{"nearmiss upstream-report small/moving_sphere_box/fcl-false-miss-*.json --out issue.md",
           "For FCL's tracker."}}};
   }
-  void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "A report or a case file")->required()->type_name("");
-    chosen_.declare(app);
-    app.add_option("--out", out_, "Write to this file. Default: print the report")->type_name("FILE");
-  }
+  void declare(CLI::App& app) override { chosen_.declare(app, "the report"); }
   int run(const CLI::App&) override {
-    const ChosenFinding::Asked asked = chosen_.ask(file_);
-    const std::string text = upstream_report(asked.report, *asked.subject);
-    if (out_.empty()) {
-      fmt::print("{}", text);
-    } else {
-      write_file(out_, text);
-      fmt::print("{}\n", out_);
-    }
+    const ChosenFinding::Asked asked = chosen_.ask();
+    chosen_.write(upstream_report(asked.report, *asked.subject));
     return 0;
   }
 
  private:
-  std::string file_, out_;
   ChosenFinding chosen_;
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "reports/findings/text.hpp"
@@ -341,9 +340,14 @@ std::string headline(const Report& r) {
 std::string moves_text(const Case& question, double k) {
   const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
   std::vector<std::string> groups;
+  const auto is_zero = [&](Role role) {  // such a group moves by the least number, which says nothing
+    for (std::size_t i = 0; i < by.size(); ++i) {
+      if (question.query->inputs[i].role == role && question.values[i] != 0) return false;
+    }
+    return true;
+  };
   for (std::size_t i = 0; i < by.size(); ++i) {
-    // A group of zeros moves by the least number, which says nothing.
-    if (!(by[i] > std::numeric_limits<double>::min())) continue;
+    if (!(by[i] > 0) || is_zero(question.query->inputs[i].role)) continue;
     std::string text = fmt::format("every {} by up to {:.2g}", name_of(question.query->inputs[i].role), by[i]);
     if (std::find(groups.begin(), groups.end(), text) == groups.end()) groups.push_back(std::move(text));
   }
