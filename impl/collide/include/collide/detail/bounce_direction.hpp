@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -15,6 +16,10 @@ template <class Tier, class T>
 inline Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
                                      const Vec3<T>& normal) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_bounce(sphere.center, velocity, time, location))
+        return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::bounce_direction<decltype(arithmetic)>(a...); }, sphere,
         velocity, time, location, normal);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/box_filters.hpp>
 #include <collide/detail/box_pair.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
@@ -43,6 +44,9 @@ namespace kernels {
 template <class Tier, class T>
 inline BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_info(box1, box2)) return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_info<decltype(arithmetic)>(a...); }, box1,
         box2);

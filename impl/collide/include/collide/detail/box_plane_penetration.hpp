@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/box_filters.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -72,6 +73,9 @@ inline CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_contacts(box, plane)) return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_plane_penetration<decltype(arithmetic)>(a...); },
         box, plane);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -14,6 +15,10 @@ namespace kernels {
 template <class Tier, class T>
 inline ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_foot(segment.v0, segment.v1, point))
+        return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::closest_point_segment<decltype(arithmetic)>(a...); },
         segment, point);

@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/frame.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/prepared.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -16,6 +17,10 @@ namespace kernels {
 template <class Tier, class T>
 inline ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point) {
   if constexpr (!Tier::template computes_in<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_foot(prepared.segment.v0, prepared.segment.v1, point))
+        return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto& s, const auto& p) {
           return kernels::closest_point_segment_unit<decltype(arithmetic)>(prepare_segment<decltype(arithmetic)>(s), p);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/closest_point_triangle_perimeter.hpp>
 #include <collide/detail/edges.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/prepared.hpp>
@@ -18,6 +19,12 @@ template <class Tier, class T>
 inline EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared,
                                                            const Vec3<T>& point) {
   if constexpr (!Tier::template computes_in<T>) {
+#if defined(COLLIDE_LANES)
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto [edge, foot] = detail::filtered_edge(prepared.triangle, point); foot)
+        return Tier::decided_by_filter(EdgePoint<T>{foot->point, edge});
+    }
+#endif
     return Tier::lift(
         [](auto arithmetic, const auto& t, const auto& p) {
           return kernels::closest_point_triangle_perimeter_edges<decltype(arithmetic)>(

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <collide/answers.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -16,6 +17,9 @@ namespace kernels {
 template <class Tier, class T>
 inline ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_closest_points(line1, line2)) return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::closest_points_lines<decltype(arithmetic)>(a...); },
         line1, line2);

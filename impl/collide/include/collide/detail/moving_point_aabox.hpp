@@ -1,8 +1,11 @@
 /// The kernel of moving_point_aabox (collide/moving_point_aabox.hpp).
 #pragma once
 
+#include <optional>
+
 #include <collide/answers.hpp>
 #include <collide/detail/enter_box.hpp>
+#include <collide/detail/entry_filter.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -10,6 +13,32 @@
 #include <collide/detail/strict_begin.hpp>
 
 namespace collide {
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// Filter: the certain answer, or nullopt. A quotient has an error of 1 u. A divisor of -0 becomes +0, because the sign
+/// of an infinite time tells on which side of a pair of faces the motion passes.
+template <class T>
+inline std::optional<Entry<T>> filtered_entry(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
+  using L = Lanes<T>;
+  const MotionInLanes<T> motion{lanes(point), lanes(velocity), lanes(aabox.min), lanes(aabox.max)};
+  const L divisor = motion.step + L::splat(T(0));
+  const CertainEntry<T> entry = certain_entry(motion, [&](const L& gap) { return gap / divisor; });
+  if (!entry.decided) return std::nullopt;
+  const L enters = L::mask(entry.enters), side = L::splat(T(1)) ^ (motion.step & L::splat(T(-0.0)));
+  Entry<T> answer;
+  answer.inside = entry.inside;
+  answer.location = to_vec3(select(L::mask(entry.inside), motion.at, entry.at & enters));
+  answer.time = select(enters, L::splat(entry.time), L::splat(std::numeric_limits<T>::infinity())).first();
+  answer.normal = to_vec3(((L::splat(T(0)) - side) & entry.axis) & enters);
+  return answer;
+}
+
+}  // namespace detail
+
+#endif
 
 namespace kernels {
 
@@ -30,6 +59,9 @@ inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity
     answer.time = select(L::mask(enters), entry.time, L::splat(std::numeric_limits<T>::infinity())).first();
     answer.normal = to_vec3(normal & L::mask(enters));
     return answer;
+  }
+  if constexpr (uses_filter<Tier, T>) {
+    if (const auto answer = detail::filtered_entry(point, velocity, aabox)) return Tier::decided_by_filter(*answer);
   }
 #endif
   if constexpr (Tier::template lifts<T>) {

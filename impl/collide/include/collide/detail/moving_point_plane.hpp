@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/contact.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -58,6 +59,8 @@ inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocit
                                    {detail::in_double(plane.normal), double(plane.offset)})) {
         return Tier::decided_by_filter(Impact<T>::miss());
       }
+      if (const auto answer = detail::filtered_contact(point, T(0), velocity, plane))
+        return Tier::decided_by_filter(*answer);
     }
     return fallback(point, velocity, plane);
   } else {

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include <collide/answers.hpp>
 #include <collide/detail/contact.hpp>
 #include <collide/detail/edges.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -167,12 +169,13 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   return impact_where(hit, time, location, normal);
 }
 
-/// Filter: true if the line of motion certainly passes an edge on its outer side.
+/// Filter: the certain answer, or nullopt.
 ///
 /// Each volume is a triple product, with an error of 16 u of the product of the vectors' |x| + |y| + |z| (u = 2^-53),
-/// without underflow.
+/// without underflow. If one is certainly positive, the line of motion passes an edge on its outer side. If all three
+/// are certainly negative, it passes through the triangle, from its front.
 template <class T>
-bool certainly_misses_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
+std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
   using L = Lanes<double>;
   const L from = wide_lanes(point), along = wide_lanes(velocity);
   const L a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from, c = wide_lanes(triangle.v2) - from;
@@ -180,7 +183,10 @@ bool certainly_misses_triangle(const Vec3<T>& point, const Vec3<T>& velocity, co
   const L sizes = sums_of_three(absolute(a), absolute(b), absolute(c), absolute(along));
   const L products = sizes * yzx(sizes), most = L::splat(0x1p900);  // excludes overflow
   const L bounds = L::splat(0x1p-48) * (products * sizes.template broadcast<3>()) + L::splat(0x1p-900);
-  return any_of_three((bounds < volumes) & (products <= most) & (bounds <= most));
+  const L in_range = (products <= most) & (bounds <= most);
+  if (any_of_three((bounds < volumes) & in_range)) return Impact<T>::miss();
+  if (all_three((bounds < L::splat(0.0) - volumes) & in_range)) return filtered_contact(point, velocity, triangle);
+  return std::nullopt;
 }
 
 #endif
@@ -202,8 +208,8 @@ inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velo
       return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::out_of_line(fallback));
     }
     if constexpr (uses_filter<Tier, T>) {
-      if (detail::certainly_misses_triangle(point, velocity, triangle))
-        return Tier::decided_by_filter(Impact<T>::miss());
+      if (const auto answer = detail::filtered_impact(point, velocity, triangle))
+        return Tier::decided_by_filter(*answer);
     }
 #endif
     return fallback(point, velocity, triangle);

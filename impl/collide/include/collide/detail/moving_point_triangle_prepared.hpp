@@ -34,6 +34,12 @@ template <class Tier, class T>
 inline Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
                                                 const PreparedTriangle<T>& prepared) {
   if constexpr (Tier::template lifts<T>) {
+#if defined(COLLIDE_LANES)
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_impact(point, velocity, prepared.triangle))
+        return Tier::decided_by_filter(*answer);
+    }
+#endif
     const auto kernel = [&](auto arithmetic, const auto& p, const auto& v, const auto& triangle) {
       using Arithmetic = decltype(arithmetic);
       if constexpr (Tier::template computes_in<T>)

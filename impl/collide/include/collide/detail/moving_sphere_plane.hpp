@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/contact.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -61,6 +62,8 @@ inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& vel
                                    {detail::in_double(plane.normal), double(plane.offset)})) {
         return Tier::decided_by_filter(Impact<T>::miss());
       }
+      if (const auto answer = detail::filtered_contact(sphere.center, sphere.radius, velocity, plane))
+        return Tier::decided_by_filter(*answer);
     }
     return fallback(sphere, velocity, plane);
   } else {

@@ -1,8 +1,11 @@
 /// The kernel of ray_aabox (collide/ray_aabox.hpp).
 #pragma once
 
+#include <optional>
+
 #include <collide/answers.hpp>
 #include <collide/detail/enter_box.hpp>
+#include <collide/detail/entry_filter.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/prepared.hpp>
 #include <collide/shapes.hpp>
@@ -38,6 +41,12 @@ Lanes<double> load_last_three(const Prepared&, const Vec3<double>& last) {
   return lanes(last);
 }
 
+template <class T>
+MotionInLanes<T> motion_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
+  return {load_three(prepared, prepared.ray.origin), load_three(prepared, prepared.ray.direction),
+          load_three(box, box.aabox.min), load_last_three(box, box.aabox.max)};
+}
+
 /// The ray is in the box from its last entry between a pair of faces to its first exit. For a pair parallel to the ray,
 /// entry and exit have infinite times: of the same sign if the ray starts beside the pair, of opposite signs if it
 /// starts between. The time to a face in which the ray lies is NaN and is ignored.
@@ -47,9 +56,8 @@ template <class T>
 inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
   using L = Lanes<T>;
   using P = Pair<T>;
-  const L origin = load_three(prepared, prepared.ray.origin), direction = load_three(prepared, prepared.ray.direction);
+  const auto [origin, direction, low, high] = motion_in_lanes(prepared, box);
   const L inverse = load_last_three(prepared, prepared.inverse);
-  const L low = load_three(box, box.aabox.min), high = load_last_three(box, box.aabox.max);
   const L to_low = (low - origin) * inverse, to_high = (high - origin) * inverse;
   // If one of two numbers is NaN, larger and smaller return the first. Exits are clamped to finite numbers, so an
   // infinite entry comes after every exit.
@@ -62,6 +70,17 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
   return {to_vec3(location), hit, (int(hit) & int(time.first() == T(0))) != 0};
 }
 
+/// Filter: the certain answer, or nullopt. An inverse has an error of 1 u, and its product with a gap one more.
+template <class T>
+inline std::optional<RayHit<T>> filtered_ray_aabox(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
+  const MotionInLanes<T> motion = motion_in_lanes(prepared, box);
+  const Lanes<T> inverse = load_last_three(prepared, prepared.inverse);
+  const CertainEntry<T> entry = certain_entry(motion, [&](const Lanes<T>& gap) { return gap * inverse; });
+  if (!entry.decided) return std::nullopt;
+  const Lanes<T> location = select(Lanes<T>::mask(entry.inside), motion.at, entry.at & Lanes<T>::mask(entry.enters));
+  return RayHit<T>{to_vec3(location), entry.inside || entry.enters, entry.inside};
+}
+
 }  // namespace detail
 
 #endif
@@ -72,6 +91,9 @@ template <class Tier, class T>
 inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
 #if defined(COLLIDE_LANES)
   if constexpr (in_lanes<Tier, T>) return detail::ray_aabox_in_lanes(ray, box);
+  if constexpr (uses_filter<Tier, T>) {
+    if (const auto answer = detail::filtered_ray_aabox(ray, box)) return Tier::decided_by_filter(*answer);
+  }
 #endif
   if constexpr (Tier::template lifts<T>) {
     const auto kernel = [&](auto arithmetic, const auto& r, const auto& b) {

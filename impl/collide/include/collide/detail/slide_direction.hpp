@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -14,6 +15,10 @@ namespace kernels {
 template <class Tier, class T>
 inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_slide(sphere.center, velocity, time, location))
+        return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::slide_direction<decltype(arithmetic)>(a...); }, sphere,
         velocity, time, location);

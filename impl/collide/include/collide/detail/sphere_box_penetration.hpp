@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/box_filters.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -77,6 +78,9 @@ inline Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<
       return detail::sphere_box_penetration_in_lanes(sphere, box, detail::out_of_line(fallback));
     }
 #endif
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_penetration(sphere, box)) return Tier::decided_by_filter(*answer);
+    }
     return fallback(sphere, box);
   } else {
     const Axes<T> axes = axes_of(box.orientation);

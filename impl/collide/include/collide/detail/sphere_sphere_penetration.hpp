@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/frame.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -15,6 +16,9 @@ namespace kernels {
 template <class Tier, class T>
 inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_penetration(sphere1, sphere2)) return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift([](auto arithmetic,
                          const auto&... a) { return kernels::sphere_sphere_penetration<decltype(arithmetic)>(a...); },
                       sphere1, sphere2);

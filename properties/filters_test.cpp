@@ -1,0 +1,124 @@
+/// The filters of Certified alone: what a filter decides is right, with every number within one unit in the last place,
+/// and filters decide most plain scenes. In the tier itself a filter that never decided would only be slow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "corpus/codec.hpp"
+#include "corpus/generator.hpp"
+#include "corpus/raw_numbers.hpp"
+#include "nearmiss/collide_functions.hpp"
+#include "oracles/confirmed.hpp"
+#include "properties/support.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// A tier that has the filters of Certified and nothing else: `decided` tells whether the filter gave the last answer.
+struct FiltersAlone : collide::Plain {
+  template <class T>
+  static constexpr bool lifts = collide::MachineNumber<T>;
+  template <class T>
+  static constexpr bool computes_in = false;
+  static inline bool decided = false;
+
+  template <class A>
+  static A decided_by_filter(const A& answer) {
+    decided = true;
+    return answer;
+  }
+  template <class Kernel, class... Arguments>
+  static auto lift(Kernel&&, const Arguments&... arguments) {
+    return decltype(std::declval<Kernel>()(collide::Plain{}, arguments...)){};
+  }
+};
+
+using FilterOf = Answer (*)(std::span<const double> inputs);
+template <template <class> class Inputs, class T>
+Answer answer_of_filter(std::span<const double> inputs) {
+  FiltersAlone::decided = false;
+  return erase(adapters::ask_collide<FiltersAlone>(inputs_from<Inputs<T>>(inputs.data())));
+}
+
+struct Filters {
+  const char* query;
+  FilterOf in_float, in_double;
+};
+#define NEARMISS_QUERY(name) \
+  Filters{#name, answer_of_filter<inputs::name, float>, answer_of_filter<inputs::name, double>},
+constexpr Filters filters[] = {
+#include "impl/catalogue/catalogue.def"
+};
+#undef NEARMISS_QUERY
+std::ostream& operator<<(std::ostream& out, const Filters& f) { return out << f.query; }
+
+class FilterOfCertified : public testing::TestWithParam<Filters> {
+ protected:
+  /// Whether the filter decided the case. What it decided must be right.
+  bool decides_rightly(const Case& c) {
+    const Answer answer = (c.scalar == Scalar::float32 ? GetParam().in_float : GetParam().in_double)(c.values);
+    if (!FiltersAlone::decided) return false;
+    const Finding f = confirmed(c, answer, promise, Detail::verdict);
+    EXPECT_FALSE(is_violation(f)) << name_of(f.disagreement) << ", " << f.clause << "\n" << case_to_json(c).dump(2);
+    return true;
+  }
+
+ private:
+  /// Half a unit before the last rounding, and half a unit by it.
+  static constexpr collide::Contract promise{.forward = 1, .exact_decisions = true, .unit = 4};
+};
+
+TEST_P(FilterOfCertified, IsRightWhereItDecides) {
+  const Query& query = *find_query(GetParam().query);
+  for (const Scalar scalar : scalars) {
+    for (std::uint64_t i = 0; i < 2000 && !HasFailure(); ++i) {
+      decides_rightly(generate(query, scalar, stream(21), i));
+      decides_rightly(raw_case(query, scalar, i));
+      decides_rightly(far_scaled_case(query, scalar, stream(21), i));
+    }
+  }
+}
+
+/// The queries whose filters give the numbers of a yes too, and so decide nearly all plain scenes.
+constexpr std::string_view with_numbers[] = {
+    "ray_aabox",
+    "moving_point_aabox",
+    "moving_point_plane",
+    "moving_point_triangle",
+    "moving_point_triangle_prepared",
+    "closest_point_segment",
+    "closest_point_segment_unit",
+    "closest_point_triangle_perimeter",
+    "closest_point_triangle_perimeter_edges",
+    "bounce_direction",
+    "slide_direction",
+    "moving_sphere_plane",
+    "sphere_sphere_penetration",
+    "sphere_plane_penetration",
+    "sphere_box_penetration",
+    "box_plane_penetration",
+    "box_box_info",
+    "point_in_triangle",
+};
+
+TEST_P(FilterOfCertified, DecidesMostPlainScenes) {
+  const Query& query = *find_query(GetParam().query);
+  if (std::find(std::begin(with_numbers), std::end(with_numbers), query.name) == std::end(with_numbers)) return;
+  for (const Scalar scalar : scalars) {
+    int plain = 0, decided = 0;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Case c = generate(query, scalar, stream(22), i);
+      if (!c.moves.empty()) continue;
+      ++plain;
+      decided += decides_rightly(c);
+    }
+    EXPECT_GE(4 * decided, 3 * plain) << decided << " of " << plain;
+  }
+}
+
+INSTANTIATE_FOR_EVERY_QUERY(Queries, FilterOfCertified, testing::ValuesIn(filters), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace nearmiss
