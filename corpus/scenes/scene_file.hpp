@@ -54,6 +54,7 @@ struct MixedQuery {
   /// The shapes that its operands are drawn from, as indices into Scene::shapes, in the order of the query's inputs.
   /// Empty where the cases are recorded.
   std::vector<std::size_t> operands;
+  std::vector<std::size_t> recorded;  ///< its recorded cases, as indices into Scene::recorded
 };
 
 /// What a scene requires of answers. An answer within all of these is good enough for it.
