@@ -42,21 +42,19 @@ Case empty_case(const std::string& query, const std::string& scalar, const std::
   return c;
 }
 
-/// Takes the values of a case, and checks them.
+/// Takes the values of a case, and checks them. The text of a float is rounded to the float that it was made from.
 Case with_values(Case c, std::vector<double> values, const std::string& where) {
   const std::vector<Field>& fields = c.query->inputs;
   if (values.size() != fields.size())
     throw BadInput(fmt::format("{}: values has {} numbers: it must have {}, the inputs of {}", where, values.size(),
                                fields.size(), c.query->name));
   for (std::size_t i = 0; i < values.size(); ++i) {
+    if (c.scalar == Scalar::float32) values[i] = double(float(values[i]));
     if (!std::isfinite(values[i]))
       throw BadInput(fmt::format("{}: values[{}], {}, is {}: it must be finite", where, i, fields[i].name, values[i]));
     const bool whole = fields[i].role == Role::flag || fields[i].role == Role::index;
     if (whole && values[i] != std::nearbyint(values[i]))
       throw BadInput(fmt::format("{}: values[{}], {}, is {}: it must be whole", where, i, fields[i].name, values[i]));
-    if (c.scalar == Scalar::float32 && double(float(values[i])) != values[i])
-      throw BadInput(
-          fmt::format("{}: values[{}], {}, is {}: it must be exactly a float", where, i, fields[i].name, values[i]));
   }
   c.values = std::move(values);
   if (const auto invalid = c.query->broken(c.values)) throw BadInput(fmt::format("{}: {}", where, invalid->text()));
