@@ -282,9 +282,9 @@ class ImportCommand : public Command {
     for (const std::string& f : files_) names.push_back(fs::path(f).filename().string());
     const scenes::Scene s = scenes::write_trace_scene(scene_, cases, fmt::format("{}", fmt::join(names, ", ")));
     fmt::print(
-        "{}: {} cases of {} queries; what the scene requires is chosen from their sizes: state what the program "
+        "{}: {} cases, asking {}; what the scene requires is chosen from their sizes: state what the program "
         "needs\n",
-        s.file.string(), count_text(s.recorded.size()), s.queries.size());
+        s.file.string(), count_text(s.recorded.size()), fmt::join(asked, ", "));
   }
 
   std::string format_, out_, scene_;

@@ -17,9 +17,9 @@ using scenes::Spread;
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::string spread_text(const Spread& s) {
-  if (s.least.value == s.most.value) return fmt::format("{:g}", s.least.value);
-  return fmt::format("{:g} to {:g}{}", s.least.value, s.most.value, s.logarithmic ? ", by order of magnitude" : "");
+std::string spread_text(const Spread& s, const std::string& unit) {
+  if (s.least.value == s.most.value) return fmt::format("{:g} {}", s.least.value, unit);
+  return fmt::format("{:g} to {:g} {}{}", s.least.value, s.most.value, unit, s.logarithmic ? ", logarithmic" : "");
 }
 
 void add_row(Rows& rows, const std::string& what, const Sourced& number, std::string_view unit) {
@@ -30,7 +30,7 @@ void add_row(Rows& rows, const std::string& what, const Spread& spread, const st
   if (spread.least.source.empty()) return;
   std::string source = spread.least.source;
   if (spread.most.source != source) source += "; " + spread.most.source;
-  rows.push_back({what, spread_text(spread) + " " + unit, source});
+  rows.push_back({what, spread_text(spread, unit), source});
 }
 
 std::string list_of_scenes() {
