@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "corpus/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -114,6 +116,7 @@ class RunCommand : public Command {
                          by_class_,
                          scene ? &*scene : nullptr};
     Run run(std::move(settings));
+    if (scene) run.note("scene", scene->name);
     fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
                measure_text(run.settings()));
     std::fflush(stdout);

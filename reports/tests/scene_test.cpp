@@ -40,7 +40,7 @@ TEST(Scene, IsListedShownAndChecked) {
   for (const std::string& name : scenes::scene_names()) EXPECT_NE(list.out.find(name), std::string::npos);
   const Ran show = nearmiss({"scene", "show", "rendezvous"});
   EXPECT_EQ(show.exit_code, 0) << show.err;
-  for (const char* part : {"keep-out (sphere)", "moving_sphere_capsule", "missed depth", "SSP 50011"})
+  for (const char* part : {"keep-out (sphere)", "moving_sphere_capsule", "missed depth", "NASA 2005"})
     EXPECT_NE(show.out.find(part), std::string::npos) << part;
   EXPECT_EQ(nearmiss({"scene", "check", shipped_scene("driving")}).exit_code, 0);
 }
@@ -75,6 +75,7 @@ TEST(Scene, NoTierOfCollideViolatesItsContractInAnyScene) {
     const scenes::Scene scene = scenes::load_scene(name);
     const json index = json::parse(read_file(folder / name / "index.json"));
     EXPECT_EQ(complaints(index, "run.schema.json"), "");
+    EXPECT_EQ(index.at("scene"), name);
     for (const Query* q : scene.all_queries()) EXPECT_NE(ran.out.find(q->name), std::string::npos) << name;
   }
 }
