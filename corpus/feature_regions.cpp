@@ -151,6 +151,7 @@ FeatureRegions feature_regions_named(const std::vector<std::string>& given) {
 }
 
 bool is_ordinary(const Case& question) {
+  if (question.origin.starts_with("scene ")) return true;
   if (question.origin.starts_with("generator")) return !has_extreme_mutator(question);
   constexpr double least = 0x1p-20, most = 0x1p20;
   return std::all_of(question.values.begin(), question.values.end(),

@@ -49,6 +49,7 @@ std::unique_ptr<Command> bisect_command();
 std::unique_ptr<Command> emit_test_command();
 std::unique_ptr<Command> upstream_report_command();
 std::unique_ptr<Command> import_command();
+std::unique_ptr<Command> scene_command();
 std::unique_ptr<Command> extremes_command();
 std::unique_ptr<Command> sweep_command();
 std::unique_ptr<Command> oss_fuzz_command();

@@ -6,6 +6,8 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/nyu_ccd.hpp"
+#include "corpus/scenes/recorded_cases.hpp"
+#include "corpus/scenes/trace_scene.hpp"
 #include "impl/catalogue/query_ids.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
@@ -199,15 +201,21 @@ class ImportCommand : public Command {
  public:
   Manual manual() const override {
     return {"import",
-            "read cases of a benchmark whose truth is known, and compare",
-            {"FORMAT is nyu-ccd: vertex-face queries of the NYU continuous-collision benchmark. A query has 8 "
+            "read cases of a benchmark whose truth is known, and compare; or make a scene of recorded cases",
+            {"With the FORMAT nyu-ccd, the files hold vertex-face queries of the NYU continuous-collision benchmark. A "
+             "query has 8 "
              "rows (the vertex and three face corners at time 0, then at time 1) of 7 integer columns (x, y, z as "
              "pairs of numerator and denominator, then the truth). Queries whose corners all move alike become "
              "cases of moving_point_triangle, with the triangle turned towards the point; the others are counted "
              "as skipped.",
              "Compares the exact oracle's decision (a hit at a time of at most 1) with the truth column, and so "
              "the answer of every subject that offers the query. A motion exactly parallel to the face has no hit "
-             "by the query's definition; where the truth column says otherwise, the case is listed separately."},
+             "by the query's definition; where the truth column says otherwise, the case is listed separately.",
+             "With the FORMAT jsonl or csv, the files hold inputs of queries that a program recorded "
+             "(corpus/scenes/nearmiss_record.h writes jsonl), and --scene is needed: nothing is asked, and the cases "
+             "become a scene (docs/scenes.md). A line of jsonl is {\"query\", \"scalar\", \"values\"}, a row of csv "
+             "query, scalar, values; the values are the inputs in the order of 'nearmiss list --members QUERY'.",
+             "--scene FILE.json writes the scene, and its cases beside it as FILE.jsonl; it also works with nyu-ccd."},
             {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
              {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
              {"2",
@@ -215,34 +223,71 @@ class ImportCommand : public Command {
               "interrupted."},
              internal_error_status()},
             {{"nearmiss import nyu-ccd erleben-spikes/*.csv", "Compare."},
-             {"nearmiss import nyu-ccd erleben-spikes/*.csv --out cases", "Also write each case as a JSON file."}}};
+             {"nearmiss import nyu-ccd erleben-spikes/*.csv --out cases", "Also write each case as a JSON file."},
+             {"nearmiss import jsonl trace.jsonl --scene mine.json", "Make a scene of a recorded trace."}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("FORMAT", format_, "The format of the files: nyu-ccd")
+    app.add_option("FORMAT", format_, "The format of the files: nyu-ccd, jsonl or csv")
         ->required()
         ->type_name("")
         ->check(CLI::Validator(
-            [](const std::string& t) { return t == "nyu-ccd" ? "" : "unknown format '" + t + "'; known is nyu-ccd"; },
+            [](const std::string& t) {
+              const bool known = t == "nyu-ccd" || t == "jsonl" || t == "csv";
+              return known ? "" : "unknown format '" + t + "'; known are nyu-ccd, jsonl, csv";
+            },
             ""));
-    app.add_option("FILE", files_, "A file of the benchmark")->required()->type_name("");
+    app.add_option("FILE", files_, "A file of the benchmark, or of recorded cases")->required()->type_name("");
+    app.add_option("--scene", scene_, "Write a scene of the cases into this file, which must end with .json")
+        ->type_name("FILE");
     add_output_folder(app, out_, "Write each case that fits as a JSON file into this folder");
     selection_.declare_subjects(app);
   }
   int run(const CLI::App&) override {
     catch_interrupts();
     if (!out_.empty()) make_folder(out_);
+    if (format_ != "nyu-ccd") return import_recorded();
     NyuCcd import(selection_.subjects(), out_);
+    std::vector<Case> cases;
     for (const std::string& f : files_) {
-      if (!interrupted()) import.take(read_nyu_ccd({f}));
+      if (interrupted()) break;
+      const GroundTruths read = read_nyu_ccd({f});
+      import.take(read);
+      if (scene_.empty()) continue;
+      for (const GroundTruth& g : read.fit) cases.push_back(g.question);
     }
     if (import.queries() == 0 && !interrupted()) throw BadInput("nothing to compare: no file holds a query");
     fmt::print("{}\n{}\n", import.text(), import.summary());
+    if (!scene_.empty() && !interrupted()) write_scene(cases);
     if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", import.summary()));
     return import.exit_code();
   }
 
  private:
-  std::string format_, out_;
+  int import_recorded() const {
+    if (scene_.empty())
+      throw BadInput(
+          fmt::format("import {}: --scene is missing: recorded cases have no truth to compare with, and can "
+                      "become a scene",
+                      format_));
+    if (!out_.empty()) throw BadInput(fmt::format("import {}: --out: it writes the cases of nyu-ccd alone", format_));
+    std::vector<Case> cases;
+    for (const std::string& f : files_) {
+      for (Case& c : format_ == "csv" ? scenes::read_csv(f) : scenes::read_json_lines(f)) cases.push_back(std::move(c));
+    }
+    write_scene(cases);
+    return 0;
+  }
+  void write_scene(const std::vector<Case>& cases) const {
+    std::vector<std::string> names;
+    for (const std::string& f : files_) names.push_back(fs::path(f).filename().string());
+    const scenes::Scene s = scenes::write_trace_scene(scene_, cases, fmt::format("{}", fmt::join(names, ", ")));
+    fmt::print(
+        "{}: {} cases, asking {}; what the scene requires is chosen from their sizes: state what the program "
+        "needs\n",
+        s.file.string(), count_text(s.recorded.size()), fmt::join(asked, ", "));
+  }
+
+  std::string format_, out_, scene_;
   std::vector<std::string> files_;
   Selection selection_;
 };

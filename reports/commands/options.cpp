@@ -158,6 +158,28 @@ void Selection::check_offered() const {
                              s.name, q.name, s.offering(q.name).how));
 }
 
+void SceneOption::declare(CLI::App& app) {
+  app.add_option("--scene", name,
+                 "Take the cases from this scene, a name that 'nearmiss scene list' shows or a file, in place of the "
+                 "generator")
+      ->type_name("SCENE");
+}
+
+std::optional<scenes::Scene> SceneOption::load() const {
+  return name.empty() ? std::nullopt : std::optional(scenes::load_scene(name));
+}
+
+void select_queries_of(const scenes::Scene& scene, Selection& selection) {
+  std::vector<std::string> asked;
+  for (const Query* q : scene.all_queries()) asked.emplace_back(q->name);
+  for (const std::string& q : selection.query) {
+    if (std::find(asked.begin(), asked.end(), q) == asked.end())
+      throw BadInput(
+          fmt::format("--query {}: the scene {} does not ask it; it asks {}", q, scene.name, fmt::join(asked, ", ")));
+  }
+  if (selection.query.empty()) selection.query = asked;
+}
+
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = parsed_count(text);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/scenes/scene_file.hpp"
 #include "impl/catalogue/query.hpp"
 #include "impl/subject/subject.hpp"
 
@@ -38,6 +39,18 @@ struct Selection {
   /// Throws BadInput unless one of the subjects offers one of the queries.
   void check_offered() const;
 };
+
+/// --scene: where cases are taken from, in place of the generator.
+struct SceneOption {
+  std::string name;
+
+  void declare(CLI::App& app);
+  /// Empty without the option. Throws BadInput for an unknown scene or an invalid file.
+  std::optional<scenes::Scene> load() const;
+};
+/// Selects the queries that the scene asks where none are selected. Throws BadInput for a selected query that the scene
+/// does not ask.
+void select_queries_of(const scenes::Scene& scene, Selection& selection);
 
 /// Accepts whole numbers from `low` to `high`: 100000, 100,000 or 1e5.
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);

@@ -65,6 +65,7 @@ class RelationsCommand : public Command {
           return find_relation(name) != nullptr ? "" : unknown_text("relation", name, relation_names());
         });
     amount_.declare(app, "Cases of each query and scalar", "The folder");
+    scene_.declare(app);
     app.add_flag("--bit-for-bit", bit_for_bit_,
                  "Every chosen subject claims to answer scaled cases alike bit for bit, as the tiers of collide do")
         ->disable_flag_override();
@@ -72,14 +73,16 @@ class RelationsCommand : public Command {
   int run(const CLI::App&) override {
     if (amount_.measure) set_measure({*amount_.measure, true});
     const std::uint64_t seed = seed_or_random(amount_.seed);
+    const std::optional<scenes::Scene> scene = scene_.load();
+    if (scene) select_queries_of(*scene, selection_);
     catch_interrupts();
     std::vector<const Relation*> wanted;
     for (const Relation& r : relations()) {
       if (chosen_.empty() || std::find(chosen_.begin(), chosen_.end(), r.name) != chosen_.end()) wanted.push_back(&r);
     }
     const std::filesystem::path folder = amount_.folder(seed);
-    RelationsRun run(
-        {typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed, bit_for_bit_});
+    RelationsRun run({typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed,
+                      bit_for_bit_, scene ? &*scene : nullptr});
     const FolderLock lock(folder);
     fmt::print("seed {}\n", seed);
     std::fflush(stdout);
@@ -107,6 +110,7 @@ class RelationsCommand : public Command {
   std::vector<std::string> chosen_;
   Amount amount_{1'000, {}, {}, {}, {}, {}};
   bool bit_for_bit_ = false;
+  SceneOption scene_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "corpus/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -60,6 +62,10 @@ class RunCommand : public Command {
          "reported like all others, but not as exact touches, and a table has the worst errors. The run folder "
          "receives the worst case of each climb as worst/QUERY/SUBJECT-KIND.json. A forward error has no bound where "
          "a query is badly conditioned.",
+         "With --scene the cases are taken from a scene (docs/scenes.md): a world with its sizes, distances, speeds "
+         "and "
+         "mix of queries. --cases is then the number of cases of the mix for each subject. No stored worst cases are "
+         "asked first.",
          "Every run first asks the stored worst cases (corpus/worst/) of the chosen queries and subjects, beyond the "
          "number of --cases. With --measure it does not."},
         judging_exit_status(),
@@ -69,13 +75,15 @@ class RunCommand : public Command {
          {"nearmiss run --measure 1e-6 --subject bullet --subject ode", "Libraries that promise nothing, compared."},
          {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."},
          {"nearmiss run --climb --update-worst --seconds 600 --subject collide-fast-float",
-          "Search for worse cases than the stored ones, and store them."}}};
+          "Search for worse cases than the stored ones, and store them."},
+         {"nearmiss run --scene game-world --cases 100000", "Cases of the world of an online game."}}};
   }
 
   void declare(CLI::App& app) override {
     selection_.declare_subjects(app);
     selection_.declare_queries(app);
     amount_.declare(app, "Cases for each query and subject", "The run folder");
+    scene_.declare(app);
     app.add_flag("--by-class", by_class_,
                  "Print also each subject's findings by the generator's mutators that made the cases")
         ->disable_flag_override();
@@ -88,10 +96,13 @@ class RunCommand : public Command {
         ->disable_flag_override()
         ->needs(climb)
         ->excludes("--measure");
+    climb->excludes("--scene");
   }
 
   int run(const CLI::App&) override {
     if (amount_.measure) set_measure({*amount_.measure, true});
+    const std::optional<scenes::Scene> scene = scene_.load();
+    if (scene) select_queries_of(*scene, selection_);
     selection_.check_offered();
     if (update_worst_) check_own();
     const std::uint64_t seed = seed_or_random(amount_.seed);
@@ -102,12 +113,14 @@ class RunCommand : public Command {
                          selection_.subjects(),
                          seed,
                          amount_.until(),
-                         by_class_};
+                         by_class_,
+                         scene ? &*scene : nullptr};
     Run run(std::move(settings));
+    if (scene) run.note("scene", scene->name);
     fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
                measure_text(run.settings()));
     std::fflush(stdout);
-    run.ask_worst_cases();
+    if (!scene) run.ask_worst_cases();
     const std::string climbs = climb_ ? climb(run) : "";
     if (!climb_) run.generate(amount_.number());
     run.finish();
@@ -121,7 +134,10 @@ class RunCommand : public Command {
  private:
   std::string amount_text() const {
     if (amount_.seconds) return fmt::format("{}for {} s", climb_ ? "climbing " : "", *amount_.seconds);
-    return count_text(*amount_.number()) + (climb_ ? " cases for each climb" : " cases for each query and subject");
+    const std::string_view of = climb_                ? " cases for each climb"
+                                : scene_.name.empty() ? " cases for each query and subject"
+                                                      : " cases of the scene for each subject";
+    return count_text(*amount_.number()) + std::string(of);
   }
   void check_own() const {
     for (const Subject* s : selection_.subjects()) {
@@ -141,6 +157,7 @@ class RunCommand : public Command {
 
   Selection selection_;
   Amount amount_{10'000, {}, {}, {}, {}, {}};
+  SceneOption scene_;
   bool by_class_ = false, climb_ = false, update_worst_ = false;
 };
 

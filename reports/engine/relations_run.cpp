@@ -75,8 +75,11 @@ bool RelationsRun::should_stop() const { return interrupted() || (until_ && Cloc
 
 void RelationsRun::run(std::optional<std::uint64_t> cases, std::optional<Clock::time_point> until) {
   until_ = until;
-  Schedule schedule(settings_.queries, settings_.subjects, cases, batch_size);
-  if (cases) total_ = *cases * schedule.streams().size();
+  Schedule schedule(settings_.queries, settings_.subjects, cases, batch_size, settings_.scene);
+  if (cases) {
+    total_ = 0;
+    for (const Stream& s : schedule.streams()) *total_ += *s.cases;
+  }
   for (Stream* stream = schedule.next(); stream != nullptr && !should_stop(); stream = schedule.next()) {
     const Clock::time_point begin = Clock::now();
     progress_.set_activity(fmt::format("relations of {}", stream->query->name));

@@ -27,7 +27,8 @@ struct RelationsSettings {
   std::vector<const Subject*> subjects;
   std::vector<const Relation*> relations;
   std::uint64_t seed = 1;
-  bool bit_for_bit = false;  ///< every subject claims equal bits, not only claims_same_bits()
+  bool bit_for_bit = false;              ///< every subject claims equal bits, not only claims_same_bits()
+  const scenes::Scene* scene = nullptr;  ///< where the cases are taken from; nullptr: the generator
 };
 
 /// The counts of one relation for one query and subject.

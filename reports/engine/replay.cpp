@@ -144,7 +144,8 @@ std::string findings_table(const Replay& replayed) {
 
 std::string origin_text(const Case& c) {
   std::string text = one_line(c.origin, 200);
-  if (c.origin.starts_with("generator")) text += fmt::format(", seed {}, index {}", c.seed, c.index);
+  if (c.origin.starts_with("generator") || c.origin.starts_with("scene "))
+    text += fmt::format(", seed {}, index {}", c.seed, c.index);
   if (!c.moves.empty()) text += fmt::format(", moves: {}", fmt::join(c.moves, ", "));
   return text;
 }

@@ -124,10 +124,11 @@ void Run::examine_by_all(const Case& question, Sink* listener) {
 }
 
 void Run::generate(std::optional<std::uint64_t> cases) {
-  Schedule schedule(settings_.queries, settings_.subjects, cases);
+  constexpr std::size_t first_batch = 32;
+  Schedule schedule(settings_.queries, settings_.subjects, cases, first_batch, settings_.scene);
   if (cases) {
     total_ = counts_.cases();
-    for (const Stream& s : schedule.streams()) *total_ += s.subjects.size() * *cases;
+    for (const Stream& s : schedule.streams()) *total_ += s.subjects.size() * *s.cases;
   }
   campaign_.generate(schedule, settings_.seed);
 }

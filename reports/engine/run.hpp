@@ -41,7 +41,8 @@ struct RunSettings {
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 0;
   std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop; empty: by number of cases
-  bool by_class = false;  ///< also count by mutator, for table_by_class() and the index
+  bool by_class = false;                 ///< also count by mutator, for table_by_class() and the index
+  const scenes::Scene* scene = nullptr;  ///< where generated cases are taken from; nullptr: the generator
 };
 
 class Run {
@@ -63,7 +64,7 @@ class Run {
   void examine_by_all(const Case& question, Sink* listener = nullptr);
   /// Examines generated cases: `cases` for each query and subject, or without a number until the time is over. Queries
   /// take turns, so that each gets the same time while it has cases left. Subjects with the same preconditions get the
-  /// same cases, which meet these preconditions.
+  /// same cases, which meet these preconditions. With a scene, `cases` of its mix for each subject.
   void generate(std::optional<std::uint64_t> cases);
   /// Asks the run's own subjects their stored worst cases (corpus/worst/). Asks nothing where a measure replaces the
   /// contracts, within which these cases are the worst. Throws BadInput for an invalid file.

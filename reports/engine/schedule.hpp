@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "corpus/scenes/scene_file.hpp"
 #include "impl/catalogue/case.hpp"
 #include "impl/subject/subject.hpp"
 
@@ -16,28 +17,32 @@ struct Stream {
   Scalar scalar;
   Preconditions required;
   std::vector<const Subject*> subjects;
-  std::uint64_t next = 0;  ///< the index of its next case
-  double seconds = 0;      ///< time that it has taken so far
-  std::size_t batch;       ///< cases in its next batch
+  std::uint64_t next = 0;                ///< the index of its next case
+  double seconds = 0;                    ///< time that it has taken so far
+  std::size_t batch;                     ///< cases in its next batch
+  std::optional<std::uint64_t> cases{};  ///< how many it has; empty: no end
+  const scenes::Scene* scene = nullptr;  ///< where its cases are taken from; nullptr: the generator
+  double share = 1;                      ///< its share of the time, relative to the others
+
+  bool is_over() const { return cases && next >= *cases; }
 };
 
 class Schedule {
  public:
   /// Makes a stream for every query, scalar and set of preconditions of a subject that offers the query. Each has
-  /// `cases` cases, or no end.
+  /// `cases` cases, or no end. With a scene, which must outlive the schedule, the queries are those of the scene's mix
+  /// among `queries`; they share the cases, or the time, by their weights.
   Schedule(const std::vector<const Query*>& queries, const std::vector<const Subject*>& subjects,
-           std::optional<std::uint64_t> cases, std::size_t first_batch = 32);
+           std::optional<std::uint64_t> cases, std::size_t first_batch = 32, const scenes::Scene* scene = nullptr);
 
-  /// The stream that has taken the least time, of those with cases left; nullptr where no stream has cases left.
+  /// The stream that has taken the least of its share of the time, of those with cases left; nullptr where no stream
+  /// has cases left.
   Stream* next();
   /// The size of the stream's next batch: at most `most`, and at most the cases left.
   std::size_t batch_of(const Stream& s, std::size_t most) const;
   const std::vector<Stream>& streams() const { return streams_; }
 
  private:
-  bool is_over(const Stream& s) const { return cases_ && s.next >= *cases_; }
-
-  std::optional<std::uint64_t> cases_;
   std::vector<Stream> streams_;
 };
 

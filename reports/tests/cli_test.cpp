@@ -775,7 +775,7 @@ TEST(Help, IsAManualForEveryCommand) {
   EXPECT_EQ(overview.exit_code, 0);
   EXPECT_EQ(nearmiss({"--help"}).out, overview.out);
   for (const char* command : {"list", "run", "nightly", "relations", "extremes", "sweep", "replay", "minimise",
-                              "explain", "promote", "import", "oss-fuzz", "completion"}) {
+                              "explain", "promote", "import", "scene", "oss-fuzz", "completion"}) {
     EXPECT_NE(overview.out.find(std::string("\n    ") + command + " "), std::string::npos);
     const Ran page = nearmiss({"help", command});
     EXPECT_EQ(page.exit_code, 0);

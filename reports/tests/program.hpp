@@ -30,6 +30,7 @@ std::string properties_program();
 std::string contradicting_program();
 std::string zoo_program();
 std::string plugin_file(const std::string& name);
+std::string record_example();
 std::string example_c();
 std::string example_py();
 std::string example_js();

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/scenes/scene_file.hpp"
+#include "reports/commands/command.hpp"
+#include "reports/commands/options.hpp"
+#include "reports/findings/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using scenes::Scene;
+using scenes::Sourced;
+using scenes::Spread;
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string spread_text(const Spread& s, const std::string& unit) {
+  if (s.least.value == s.most.value) return fmt::format("{:g} {}", s.least.value, unit);
+  return fmt::format("{:g} to {:g} {}{}", s.least.value, s.most.value, unit, s.logarithmic ? ", logarithmic" : "");
+}
+
+void add_row(Rows& rows, const std::string& what, const Sourced& number, std::string_view unit) {
+  rows.push_back({what, fmt::format("{:g}{}{}", number.value, unit.empty() ? "" : " ", unit), number.source});
+}
+
+void add_row(Rows& rows, const std::string& what, const Spread& spread, const std::string& unit) {
+  if (spread.least.source.empty()) return;
+  std::string source = spread.least.source;
+  if (spread.most.source != source) source += "; " + spread.most.source;
+  rows.push_back({what, spread_text(spread, unit), source});
+}
+
+std::string list_of_scenes() {
+  Rows rows{{"SCENE", "SCALAR", "UNIT", "QUERIES", "TITLE"}};
+  for (const std::string& name : scenes::scene_names()) {
+    const Scene s = scenes::load_scene(name);
+    rows.push_back({s.name, std::string(name_of(s.scalar)), s.unit, std::to_string(s.queries.size()), s.title});
+  }
+  return table_text(rows);
+}
+
+std::string world_text(const Scene& s) {
+  Rows rows{{"NUMBER", "VALUE", "SOURCE"}};
+  rows.push_back({"scalar", std::string(name_of(s.scalar)), s.scalar_source});
+  add_row(rows, "extent", s.extent, s.unit);
+  add_row(rows, "distance", s.distance, s.unit);
+  add_row(rows, "step", s.step, "s");
+  add_row(rows, "queries per step", s.queries_per_step, "");
+  add_row(rows, "near contact", s.near_contact, "");
+  for (const scenes::Shapes& shapes : s.shapes) {
+    add_row(rows, fmt::format("{} ({}), count", shapes.name, name_of(shapes.type)), shapes.count, "");
+    add_row(rows, shapes.name + ", size", shapes.size, s.unit);
+    add_row(rows, shapes.name + ", speed", shapes.speed, s.unit + "/s");
+  }
+  return table_text(rows);
+}
+
+std::string mix_text(const Scene& s) {
+  Rows rows{{"QUERY", "SHARE", "OF", "SOURCE"}};
+  for (const scenes::MixedQuery& m : s.queries) {
+    std::string of = fmt::format("{} recorded cases", m.recorded.size());
+    if (!m.operands.empty()) of = fmt::format("{}, {}", s.shapes[m.operands[0]].name, s.shapes[m.operands[1]].name);
+    rows.push_back(
+        {std::string(m.query->name), fmt::format("{:.1f} %", 100 * s.share_of(*m.query)), of, m.weight.source});
+  }
+  return table_text(rows);
+}
+
+std::string requires_text(const Scene& s) {
+  Rows rows{{"REQUIRED", "AT MOST", "SOURCE"}};
+  add_row(rows, "position error", s.required.position_error, s.unit);
+  add_row(rows, "missed depth", s.required.missed_depth, s.unit);
+  add_row(rows, "time error", s.required.time_error, "of the step");
+  add_row(rows, "missed rate", s.required.missed_rate, "");
+  add_row(rows, "phantom rate", s.required.phantom_rate, "");
+  add_row(rows, "time budget", s.required.time_budget, "s a step");
+  return table_text(rows);
+}
+
+class SceneCommand : public Command {
+ public:
+  Manual manual() const override {
+    return {
+        "scene",
+        "list, show and check scenes: worlds that cases are taken from",
+        {"A scene is a JSON file (docs/scenes.md): the extent of a world and its distance from the origin, the sizes "
+         "and speeds of its shapes, the mix of its queries, and what it requires of answers. Each number has its "
+         "source. 'run', 'relations' and other commands take their cases from a scene with --scene.",
+         "ACTION is list (the scenes of Nearmiss), show (every number of a scene, with its source) or check (reads "
+         "files; says nothing more than that they are valid, or states file, field, value and rule)."},
+        {{"0", "The scenes are valid."}, {"2", "A scene is unknown, or its file cannot be read or is invalid."}},
+        {{"nearmiss scene list", "The scenes of Nearmiss."},
+         {"nearmiss scene show robot-cell", "One of them."},
+         {"nearmiss scene check my-world.json", "Is this file a valid scene?"}}};
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("ACTION", action_, "What to do: list, show or check")
+        ->required()
+        ->type_name("")
+        ->check(CLI::Validator(
+            [](const std::string& t) {
+              return t == "list" || t == "show" || t == "check"
+                         ? ""
+                         : "unknown action '" + t + "'; known are list, show, check";
+            },
+            ""));
+    app.add_option("SCENE", names_, "The name of a scene, or a file")->type_name("");
+  }
+  int run(const CLI::App&) override {
+    if (action_ == "list") {
+      if (!names_.empty()) throw BadInput(fmt::format("scene list: takes no scene, and {} is given", names_.front()));
+      fmt::print("{}", list_of_scenes());
+      return 0;
+    }
+    if (names_.empty())
+      throw BadInput(fmt::format("scene {}: which scene? 'nearmiss scene list' shows the names", action_));
+    for (const std::string& name : names_) {
+      const Scene s = scenes::load_scene(name);
+      if (action_ == "show") {
+        fmt::print("{}: {}\n\n{}\n{}\n{}", s.name, s.title, world_text(s), mix_text(s), requires_text(s));
+      } else {
+        fmt::print("{}: valid: {} queries, {}\n", s.file.string(), s.queries.size(),
+                   s.is_recorded() ? fmt::format("{} recorded cases", count_text(s.recorded.size()))
+                                   : fmt::format("{} kinds of shapes", s.shapes.size()));
+      }
+    }
+    return 0;
+  }
+
+ private:
+  std::string action_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> scene_command() { return std::make_unique<SceneCommand>(); }
+
+}  // namespace nearmiss
