@@ -12,7 +12,8 @@ namespace nearmiss {
 
 namespace {
 
-constexpr unsigned rounds_of_batch = 9;
+constexpr unsigned rounds_of_batch = 25;
+constexpr double least_nanoseconds = 0.1;               ///< of a call: below the cost of any
 constexpr std::int64_t most_nanoseconds = 250'000'000;  ///< of processor time, after which no round begins
 
 /// Keeps the thread on its highest allowed processor for its lifetime.
@@ -48,15 +49,30 @@ T median_of(std::vector<T> values) {
   return *middle;
 }
 
+/// The mean without the samples that are far above the median: those of calls during which the thread lost the
+/// processor. A mean, because the counter of some machines advances by ten nanoseconds at once: the difference of two
+/// readings is then exact only on average.
+double mean_without_pauses(const std::vector<std::uint64_t>& samples) {
+  if (samples.empty()) return 0;
+  const double most = 2.0 * double(median_of(samples)), far = std::max(most, 1.0);
+  double sum = 0, count = 0;
+  for (const std::uint64_t s : samples) {
+    if (double(s) > far) continue;
+    sum += double(s);
+    ++count;
+  }
+  return sum / count;
+}
+
 [[gnu::noinline]] int empty_call(const int& x) { return x; }
 
 /// The ticks between begin() and end() around a call that does nothing.
-std::uint64_t ticks_of_empty_call() {
-  const std::vector<int> none(500);
+double ticks_of_empty_call() {
+  const std::vector<int> none(2000);
   TimedRounds rounds;
   rounds.most = 1;
   time_calls<int>(none, empty_call, rounds);
-  return median_of(rounds.ticks);
+  return mean_without_pauses(rounds.ticks);
 }
 
 /// Nanoseconds of a tick, from a wait of two milliseconds.
@@ -88,16 +104,15 @@ TimedRounds timed_rounds(const OfferedFunctions& offer, std::span<const double> 
   return rounds;
 }
 
-/// The median of the rounds for each case, in nanoseconds, without the cost of the clock; at least a tick.
+/// The time of each case's call in nanoseconds, without the cost of the clock; at least a tenth of a nanosecond.
 std::vector<double> nanoseconds_of(const TimedRounds& rounds, std::size_t cases) {
   static const double of_tick = nanoseconds_of_tick();
-  const std::uint64_t empty = ticks_of_empty_call();
+  const double empty = ticks_of_empty_call();
   std::vector<double> times;
   for (std::size_t i = 0; i < cases; ++i) {
     std::vector<std::uint64_t> ticks;
     for (std::size_t at = i; at < rounds.ticks.size(); at += cases) ticks.push_back(rounds.ticks[at]);
-    const std::uint64_t middle = median_of(std::move(ticks));
-    times.push_back(of_tick * double(middle > empty ? middle - empty : 1));
+    times.push_back(std::max(least_nanoseconds, of_tick * (mean_without_pauses(ticks) - empty)));
   }
   return times;
 }

@@ -76,7 +76,7 @@ class Worker {
   /// 0 for any other case. Valid as long as the received answers.
   std::uint8_t raised(std::size_t case_of_batch) const { return raised_.at(case_of_batch); }
 
-  /// Times the calls for these cases, at most `capacity` and max_values numbers: nanoseconds for each case, the median
+  /// Times the calls for these cases, at most `capacity` and max_values numbers: nanoseconds for each case, the mean
   /// of the batch's rounds. Empty where the host answers through pipes, where a call broke or the host was late, and
   /// where the callback stopped the waiting.
   struct Times {

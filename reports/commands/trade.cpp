@@ -28,7 +28,7 @@ class TradeCommand : public Command {
          "contacts and how deep they are, the distance of each number from the exact one, and the backward error. Then "
          "the calls are timed, in the process of each subject.",
          "Times are nanoseconds of single calls with typed inputs, without the decoding of cases. Each call is made in "
-         "nine rounds after a warm-up, in a fixed shuffled order, on one processor where the system allows it; the "
+         "25 rounds after a warm-up, in a fixed shuffled order, on one processor where the system allows it; the "
          "time "
          "of a case is the median of its rounds, and of --repeats repeats in which the subjects take turns. A plugin "
          "is "
@@ -36,17 +36,22 @@ class TradeCommand : public Command {
          "is not timed where the subject has no answer.",
          "The folder receives trade.json, trade.csv and, where the build found the Debian package node-d3, the page "
          "trade.html with the price curves. In the table, ERROR is the "
-         "largest proved error of the inputs: how far they have to move to make the worst answer right, as a share of "
-         "the largest number of the case. MEETS: the subject answered each case, and no answer is proved wrong by more "
-         "than is tolerable. Cases are float's; they fit the preconditions of all chosen subjects together."},
+         "largest proved error of the inputs: how far they have to move to make the worst answer right, in the unit of "
+         "the scene or as a share of the largest number. MEETS: the subject answered each case, and no answer is "
+         "proved wrong by more "
+         "than is tolerable. Generated cases are those of float. Cases fit the preconditions of all chosen subjects "
+         "together."},
         {{"0", "The figures were measured, whatever they are."},
          {"2", "Wrong arguments, nothing to measure, an output that cannot be written, or it was interrupted."},
          internal_error_status()},
-        {{"nearmiss trade --query moving_sphere_box", "All subjects that offer the query."},
+        {{"nearmiss trade driving", "The queries and the requirements of a scene."},
+         {"nearmiss trade --query moving_sphere_box", "All subjects that offer the query."},
          {"nearmiss trade -q sphere_box_overlap -s collide-fast-float -s fcl --cases 1e5 --out trade",
           "Two subjects, with enough cases to see one in 10^5."}}};
   }
   void declare(CLI::App& app) override {
+    app.add_option("SCENE", scene_, "A scene of 'nearmiss scene list', or its file. Default: generated cases")
+        ->type_name("");
     selection_.declare_subjects(app);
     selection_.declare_queries(app);
     add_whole_number(app, "-n,--cases", cases_, fmt::format("Cases of each query. Default: {}", default_trade_cases), 1,
@@ -56,18 +61,20 @@ class TradeCommand : public Command {
     add_whole_number(app, "--seed", seed_, "The seed of the cases. Default: 1", 0,
                      std::numeric_limits<std::uint64_t>::max());
     add_positive_number(app, "--tolerance", tolerance_,
-                        fmt::format("The largest tolerable backward error, as a share of the largest number of each "
-                                    "kind. Default: {:g}",
+                        fmt::format("Without a scene: the largest tolerable backward error, as a share of the largest "
+                                    "number of each kind. Default: {:g}",
                                     Measure::usual),
                         "E", 1);
     add_output_folder(app, out_, "The folder. Default: reports/runs/TIME-SEED of the source tree");
   }
   int run(const CLI::App&) override {
     selection_.check_offered();
+    const TradeSource source = chosen_source();
+    const std::vector<const Query*> queries = chosen_queries();
     const std::uint64_t seed = seed_.value_or(1);
-    catch_interrupts();
     const std::filesystem::path folder = out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_);
-    Trade trade({typed_command_line(), folder, source(), selection_.queries(), selection_.subjects(), seed,
+    catch_interrupts();
+    Trade trade({typed_command_line(), folder, source, queries, selection_.subjects(), seed,
                  cases_.value_or(default_trade_cases), unsigned(repeats_.value_or(default_repeats))});
     trade.measure();
     trade.write();
@@ -78,15 +85,31 @@ class TradeCommand : public Command {
   }
 
  private:
-  TradeSource source() const {
-    return generated_cases(
-        relative_tolerance(tolerance_.value_or(Measure::usual), tolerance_ ? "--tolerance" : "the usual measure"));
+  TradeSource chosen_source() {
+    if (scene_.empty()) {
+      return generated_cases(
+          relative_tolerance(tolerance_.value_or(Measure::usual), tolerance_ ? "--tolerance" : "the usual measure"));
+    }
+    if (tolerance_) throw BadInput("--tolerance: the scene states what it requires");
+    loaded_ = std::make_shared<const scenes::Scene>(scenes::load_scene(scene_));
+    return scene_cases(loaded_);
+  }
+  /// The chosen queries, or those of the scene.
+  std::vector<const Query*> chosen_queries() const {
+    if (!loaded_) return selection_.queries();
+    if (selection_.query.empty()) return loaded_->all_queries();
+    for (const Query* q : selection_.queries()) {
+      if (loaded_->find(*q) == nullptr)
+        throw BadInput(fmt::format("--query {}: the scene {} does not ask it", q->name, loaded_->name));
+    }
+    return selection_.queries();
   }
 
   Selection selection_;
   std::optional<std::uint64_t> cases_, repeats_, seed_;
   std::optional<double> tolerance_;
-  std::string out_;
+  std::string scene_, out_;
+  std::shared_ptr<const scenes::Scene> loaded_;
 };
 
 }  // namespace

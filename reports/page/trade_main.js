@@ -54,7 +54,7 @@
     const best = query.cheapest && subjectOf(query, query.cheapest);
     if (!best) return element("p", {class: "headline"}, "No subject meets every requirement.");
     return element("p", {class: "headline"}, "The cheapest that meets it: ", element("b", {}, best.subject), `, ${about(best.time.call.p50)} ns a call, `,
-      `${percent(best.beyond.high)} or less of such answers beyond the tolerance, with 95 % confidence.`);
+      `at most ${percent(best.beyond.high)} of its answers beyond the tolerance with 95 % confidence.`);
   }
   function choose(i) {
     const query = raw.queries[i], place = document.getElementById("query");

@@ -12,9 +12,9 @@ nearmiss.panels = (() => {
   }
 
   /// A logarithmic scale with a band below it for what is zero: nothing is proved.
-  function errorScale(values, limit, top, bottom, least) {
+  function errorScale(name, values, limit, top, bottom, least) {
     const positive = values.filter(v => v > 0).concat(limit > 0 ? [limit] : []);
-    const low = Math.min(least, ...positive) / 2, high = Math.max(low * 100, ...positive) * 2;
+    const low = Math.min(least, ...positive) / 2, high = Math.max(low * 100, ...positive) * (name === "error" ? 30 : 2);
     const scale = d3.scaleLog().domain([low, high]).range([bottom - band, top]);
     return Object.assign(v => (v > 0 ? scale(v) : bottom - band / 2), {ticks: d => d3.range(Math.ceil(Math.log10(low)), Math.log10(high) + 1e-9, d).map(e => 10 ** e)});
   }
@@ -49,19 +49,16 @@ nearmiss.panels = (() => {
     root.append("line").attr("class", "whisker").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2).style("stroke", colour(s.subject));
   }
 
-  /// Names beside their points, moved apart where they would overlap.
+  /// Names above their points, moved apart where they would cover a point or another name.
   function labels(root, points, top, bottom) {
-    const placed = [];
+    const placed = points.map(p => ({x: p.x - 5, y: p.y, w: 10}));
     for (const p of [...points].sort((a, b) => a.y - b.y || a.x - b.x)) {
-      const w = 6.1 * short(p.s.subject).length, isRight = p.x + 10 + w > width - right, lx = isRight ? p.x - 10 - w : p.x + 9;
-      let ly = p.y;
-      const clash = () => placed.find(o => Math.abs(o.y - ly) < 12 && o.x < lx + w && lx < o.x + o.w);
-      for (let step = 1; clash() && step < 60; ++step) {
-        const d = 12 * Math.ceil(step / 2) * (step % 2 ? -1 : 1);
-        if (p.y + d > top && p.y + d < bottom) ly = p.y + d;
-      }
+      const w = 6.1 * short(p.s.subject).length, isLeft = p.x + w > width - right, lx = isLeft ? p.x - w - 2 : p.x + 3, own = p.y - 10;
+      const clash = y => placed.some(o => Math.abs(o.y - y) < 11 && o.x < lx + w && lx < o.x + o.w);
+      const tries = d3.range(0, 40).map(step => own + 6 * Math.ceil(step / 2) * (step % 2 ? -1 : 1)).filter(y => y > top - 2 && y < bottom - 2);
+      const ly = tries.find(y => !clash(y) && Math.abs(y - p.y) > 7) ?? own;
       placed.push({x: lx, y: ly, w});
-      if (Math.abs(ly - p.y) > 6) root.append("line").attr("class", "leader").attr("x1", p.x).attr("y1", p.y).attr("x2", isRight ? lx + w : lx).attr("y2", ly);
+      if (Math.abs(ly - p.y) > 16) root.append("line").attr("class", "leader").attr("x1", p.x).attr("y1", p.y).attr("x2", isLeft ? lx + w : lx).attr("y2", ly);
       root.append("text").attr("class", "label").attr("x", lx).attr("y", ly + 3.8).text(short(p.s.subject));
     }
   }
@@ -69,7 +66,7 @@ nearmiss.panels = (() => {
   function errorPanel(query) {
     const height = 300, top = 24, bottom = height - 6, subjects = timed(query), x = timeScale(subjects);
     const error = s => (s.error ? s.error.max : 0), limit = raw.tolerance.error;
-    const y = errorScale(subjects.map(error), limit, top, bottom, limit / 1e3);
+    const y = errorScale("error", subjects.map(error), limit, top, bottom, limit / 1e3);
     const root = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img")
       .attr("aria-label", `Proved error against time of ${query.query}`);
     frame(root, x, y, top, bottom, `largest proved error, ${unit}`, false, power);
@@ -80,16 +77,16 @@ nearmiss.panels = (() => {
     root.append("path").attr("class", "front").attr("d", d3.line().x(s => x(costOf(s))).y(s => y(error(s))).curve(d3.curveStepAfter)(front));
     for (const s of subjects) whisker(root, s, x(costOf(s)), y(error(s)), x(s.time.call.p99), y(error(s)));
     const points = subjects.map(s => ({s, x: x(costOf(s)), y: y(error(s))}));
+    labels(root, points, top, bottom);
     for (const p of points) {
       mark(root, p.s, p.x, p.y, `${p.s.subject}: ${about(costOf(p.s))} ns, p99 ${about(p.s.time.call.p99)} ns; error up to ${about(error(p.s))} ${unit}`);
     }
-    labels(root, points, top, bottom);
     return root.node();
   }
 
   function ratePanel(query, member, name, limit, withTimes) {
     const height = withTimes ? 148 : 112, top = 24, bottom = height - (withTimes ? 36 : 6), subjects = timed(query).filter(s => s[member].of > 0);
-    const x = timeScale(timed(query)), y = errorScale(subjects.map(s => s[member].share), limit, top, bottom, 1e-4);
+    const x = timeScale(timed(query)), y = errorScale("rate", subjects.map(s => s[member].share), limit, top, bottom, 1e-4);
     const root = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img").attr("aria-label", `${name} against time of ${query.query}`);
     frame(root, x, y, top, bottom, name, withTimes, v => percent(v));
     if (limit > 0) root.append("line").attr("class", "tolerance").attr("x1", left).attr("x2", width - right).attr("y1", y(limit)).attr("y2", y(limit));

@@ -11,7 +11,6 @@
 #include <random>
 
 #include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"
@@ -75,16 +74,6 @@ TimedSubject timed_subject(const Subject& subject, std::span<const Case> cases, 
 }
 
 }  // namespace
-
-TradeSource generated_cases(TradeTolerance tolerance) {
-  TradeSource source;
-  source.draw = [](Case& into, const Query& query, std::uint64_t seed, std::uint64_t index, Preconditions required) {
-    generate_inside(into, query, Scalar::float32, seed, index, required);
-  };
-  source.share = [](const Query&) { return 1.0; };
-  source.tolerance = std::move(tolerance);
-  return source;
-}
 
 Trade::Trade(TradeSettings settings)
     : settings_(std::move(settings)),

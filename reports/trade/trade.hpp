@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -12,22 +11,10 @@
 #include "reports/engine/dispatcher.hpp"
 #include "reports/engine/internal_errors.hpp"
 #include "reports/engine/progress.hpp"
+#include "reports/trade/sources.hpp"
 #include "reports/trade/summary.hpp"
 
 namespace nearmiss {
-
-/// Where the cases of a trade come from, and what is tolerated.
-struct TradeSource {
-  std::string scene;  ///< its name; empty: generated cases
-  std::string title;
-  Scalar scalar = Scalar::float32;  ///< in which every number of a case is exact
-  /// The case with that index. It meets the preconditions where that is possible.
-  std::function<void(Case& into, const Query&, std::uint64_t seed, std::uint64_t index, Preconditions)> draw;
-  std::function<double(const Query&)> share;  ///< of the query among all queries of the scene
-  TradeTolerance tolerance;
-};
-/// The generator's cases, in float, so that every subject gets the same numbers.
-TradeSource generated_cases(TradeTolerance tolerance);
 
 struct TradeSettings {
   std::string command;  ///< as typed
