@@ -43,6 +43,7 @@ constexpr Room rooms[] = {
     {"reports/findings", 8},
     {"reports/engine", 9},
     {"reports/triage", 10},
+    {"reports/trade", 10},
     {"reports/upstream", 11},
     {"reports/page", 11},
     {"reports/commands", 12},

@@ -345,6 +345,42 @@ TEST(Worker, StopsWaitingWhenItIsTold) {
   EXPECT_EQ(answers[0].values[0], 1);
 }
 
+TEST(Worker, TimesTheCallOfEachCaseAndThenAnswersAsBefore) {
+  Worker worker(limits());
+  std::vector<double> inputs;
+  for (int i = 0; i < 50; ++i) inputs.insert(inputs.end(), {double(none), double(i)});
+  const auto times = worker.time(offering(), inputs, 2);
+  ASSERT_TRUE(times);
+  ASSERT_EQ(times->nanoseconds.size(), 50u);
+  for (const double t : times->nanoseconds) EXPECT_GT(t, 0);
+  EXPECT_GT(times->how.processor_nanoseconds, 0);
+  EXPECT_GE(times->how.rounds, 1u);
+  EXPECT_FALSE(times->how.typed);
+  const std::vector<Answer> answers = worker.ask(offering(), inputs, 2);
+  ASSERT_EQ(answers.size(), 50u);
+  for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_EQ(answers[i].values[0], double(i));
+}
+
+TEST(Worker, TimesNothingWhereACallBreaks) {
+  Worker worker(limits());
+  for (const Misdeed misdeed : {throws, aborts}) {
+    EXPECT_FALSE(worker.time(offering(), std::vector<double>{none, 1, double(misdeed), 2}, 2));
+    EXPECT_EQ(worker.ask(offering(), std::vector<double>{none, 3}, 2).front().values[0], 3);
+  }
+}
+
+/// Works for a tenth of a second of processor time where the input says so.
+Answer work_or_not(std::span<const double> inputs) { return inputs[0] > 0 ? work(inputs) : Answer{}; }
+
+TEST(Worker, TimesAtLeastTheWorkOfACall) {
+  Worker worker({.case_timeout = 30});
+  const Offering o{"work", Offer::answers, "", {}, work_or_not};
+  const auto times = worker.time(o, std::vector<double>{0, 1, 0}, 1);
+  ASSERT_TRUE(times);
+  EXPECT_GE(times->nanoseconds[1], 1e8);  // the clock of a call runs also while others have the processor
+  EXPECT_GE(times->how.processor_nanoseconds, 5e7 / 3);
+}
+
 /// Runs the host's side in a thread instead of a process, so that a sanitizer sees both: answers are taken while others
 /// are being written, each one complete.
 TEST(Wire, CarriesAnswersWholeWhileOthersAreWritten) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "impl/host/timing.hpp"
 #include "impl/subject/contained.hpp"
 #include "impl/subject/floating_point.hpp"
 
@@ -64,24 +65,32 @@ Answer answer_in(Rounding rounding, const AnswerFunction& answer, std::span<cons
   return a;
 }
 
+void answer_batch(const AnswerFunction& answer, const wire::SharedRequest& asked, wire::SharedAnswers& answered) {
+  const std::size_t count = asked.count, inputs = asked.inputs;
+  std::size_t used = 0;
+  for (std::size_t i = asked.first; i < count; ++i) {
+    const std::span<const double> values{asked.values.data() + i * inputs, inputs};
+    std::uint8_t raised = 0;
+    const Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
+                                                         : answer_in(asked.rounding, answer, values, raised);
+    answered.heads[i] = {a.status, a.yes, a.count, a.cause, raised, a.given};
+    std::copy_n(a.values.begin(), a.count, answered.numbers.begin() + std::ptrdiff_t(used));
+    if (a.status != Answer::Status::answered) answered.reasons[i] = a.why;
+    used += a.count;
+    answered.done.store(std::uint32_t(i + 1), std::memory_order_release);
+  }
+}
+
 }  // namespace
 
 void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
-           std::span<const AnswerFunction> offers) {
+           std::span<const OfferedFunctions> offers) {
   while (wait_for_wake_up(from_judge)) {
-    const AnswerFunction answer = offers.empty() ? asked.answer : offers[asked.offer];
-    const std::size_t count = asked.count, inputs = asked.inputs;
-    std::size_t used = 0;
-    for (std::size_t i = asked.first; i < count; ++i) {
-      const std::span<const double> values{asked.values.data() + i * inputs, inputs};
-      std::uint8_t raised = 0;
-      const Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
-                                                           : answer_in(asked.rounding, answer, values, raised);
-      answered.heads[i] = {a.status, a.yes, a.count, a.cause, raised, a.given};
-      std::copy_n(a.values.begin(), a.count, answered.numbers.begin() + std::ptrdiff_t(used));
-      if (a.status != Answer::Status::answered) answered.reasons[i] = a.why;
-      used += a.count;
-      answered.done.store(std::uint32_t(i + 1), std::memory_order_release);
+    const OfferedFunctions offer = offers.empty() ? OfferedFunctions{asked.answer} : offers[asked.offer];
+    if (asked.timed) {
+      time_batch(offer, asked, answered);
+    } else {
+      answer_batch(offer.answer, asked, answered);
     }
     if (!write_all(to_judge, "d")) return;
   }
@@ -133,9 +142,9 @@ int run_host(const Subject& subject) {
     std::fputs("this program is a part of nearmiss, which starts it where a subject is to be asked\n", stderr);
     return 2;
   }
-  std::vector<AnswerFunction> offers;
+  std::vector<OfferedFunctions> offers;
   for (const Offering& o : subject.offerings) {
-    if (o.offer != Offer::not_offered) offers.push_back(o.answer);
+    if (o.offer != Offer::not_offered) offers.push_back({o.answer, nullptr});
   }
   if (!write_all(wire::to_judge, hello_of(subject))) return 1;
   FloatingPointModes::standard().set();

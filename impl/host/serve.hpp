@@ -8,10 +8,20 @@
 
 namespace nearmiss {
 
+struct TimedRounds;
+/// Measures calls of the subject's typed function for the cases of a batch (impl/subject/timed_calls.hpp).
+using TimeFunction = void (*)(std::span<const double> values, std::size_t inputs, TimedRounds& rounds);
+
+/// The functions of an offer.
+struct OfferedFunctions {
+  AnswerFunction answer;
+  TimeFunction time = nullptr;
+};
+
 /// Answers batches in shared memory until the judge closes the pipe. `offers` are the offers of the hello; empty: the
 /// request holds the function itself.
 void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
-           std::span<const AnswerFunction> offers);
+           std::span<const OfferedFunctions> offers);
 
 /// The hello of a subject, one line of JSON.
 std::string hello_of(const Subject& subject);

@@ -35,8 +35,17 @@ struct SharedRequest {
   std::uint32_t inputs;
   std::uint32_t first, count;  ///< the host answers the cases [first, count)
   Rounding rounding;           ///< other than its_own: the answers also have the raised exceptions
+  bool timed;                  ///< the calls are timed: each answer has one number, the nanoseconds of the case's call
   AnswerFunction answer;       ///< replaces `offer` for a host that is a fork of this process
   std::array<double, max_values> values;
+};
+
+/// How the calls of a timed batch were measured. The judge's process checks the numbers.
+struct TimedBatch {
+  double processor_nanoseconds;  ///< of a call, of calls in sequence: the thread's processor time of the median round
+  std::uint32_t rounds;
+  bool typed;   ///< calls of typed functions; otherwise the decoding of the inputs is part of the time
+  bool pinned;  ///< the host stayed on one processor
 };
 
 /// The answers to a batch, written by the host while it works. Moving memory between cores is the largest cost of
@@ -55,6 +64,7 @@ struct SharedAnswers {
   std::array<Head, capacity> heads;
   std::array<double, capacity * Answer::capacity> numbers;  ///< from the case `first` on
   std::array<decltype(Answer::why), capacity> reasons;      ///< written only for cases without an answer
+  TimedBatch timed;                                         ///< of a timed batch, once all its cases are done
 };
 
 /// The header of a binary batch; count * inputs doubles follow. Every reply names its case, so that a surplus or

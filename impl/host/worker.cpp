@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <system_error>
 #include <thread>
@@ -72,6 +73,9 @@ std::string last_line_of(std::string text) {
 void make_printable(Answer& a) {
   if (a.status != Answer::Status::answered) a.explain(printable(a.reason()));
 }
+
+/// What a host may report as the time of a call, in nanoseconds.
+bool is_duration(double nanoseconds) { return nanoseconds >= 0 && std::isfinite(nanoseconds); }
 
 std::string seconds_text(double s) {
   char text[32];
@@ -297,6 +301,32 @@ std::string Worker::hello() {
 void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case,
                   Rounding rounding) {
   const FloatingPointScope standard;
+  put_request(offering, values, inputs_per_case);
+  asked_->rounding = rounding;
+  request(0, count_);
+}
+
+std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<const double> values,
+                                          std::size_t inputs_per_case) {
+  if (!is_shared()) return std::nullopt;
+  const FloatingPointScope standard;
+  put_request(offering, values, inputs_per_case);
+  outputs_ = 1;
+  asked_->timed = true;
+  request(0, count_);
+  const std::span<const Answer> answers = receive();
+  if (answers.size() < count_) return std::nullopt;
+  Times times{{}, answered_->timed};
+  for (const Answer& a : answers) {
+    if (a.status != Answer::Status::answered || a.count != 1 || !is_duration(a.values[0])) return std::nullopt;
+    times.nanoseconds.push_back(a.values[0]);
+  }
+  if (!is_duration(times.how.processor_nanoseconds)) return std::nullopt;
+  return times;
+}
+
+/// Writes a batch, to be answered in the host's own rounding, into the shared memory.
+void Worker::put_request(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
   count_ = values.size() / inputs_per_case;
   got_ = 0;
   outputs_ = offering.outputs;
@@ -307,12 +337,12 @@ void Worker::send(const Offering& offering, std::span<const double> values, std:
   answers_.resize(std::max(answers_.size(), count_));
   asked_->offer = offering.position;
   asked_->inputs = std::uint32_t(inputs_per_case);
-  asked_->rounding = rounding;
+  asked_->rounding = Rounding::its_own;
+  asked_->timed = false;
   raised_.assign(count_, 0);
   asked_->answer = program_ == nullptr ? offering.answer : AnswerFunction{};
   query_ = offering.query;
   std::copy(values.begin(), values.end(), asked_->values.begin());
-  request(0, count_);
 }
 
 /// Sends the cases [first, end) to the host; starts a host where none runs.

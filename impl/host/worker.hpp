@@ -76,6 +76,15 @@ class Worker {
   /// 0 for any other case. Valid as long as the received answers.
   std::uint8_t raised(std::size_t case_of_batch) const { return raised_.at(case_of_batch); }
 
+  /// Times the calls for these cases, at most `capacity` and max_values numbers: nanoseconds for each case, the mean
+  /// of the batch's rounds. Empty where the host answers through pipes, where a call broke or the host was late, and
+  /// where the callback stopped the waiting.
+  struct Times {
+    std::vector<double> nanoseconds;
+    wire::TimedBatch how;
+  };
+  std::optional<Times> time(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
+
   /// The processor time of the running host; 0 without one.
   double processor_seconds() const;
 
@@ -108,6 +117,7 @@ class Worker {
   void spawn_once();
   void wait_for_resources(int error);
   std::string first_line();
+  void put_request(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
   void request(std::size_t first, std::size_t end);
   Event await();
   std::optional<Event> read_shared_answers();

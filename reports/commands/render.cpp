@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "corpus/codec.hpp"
@@ -11,6 +12,7 @@
 #include "reports/findings/text.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/page_data.hpp"
+#include "reports/page/trade_page.hpp"
 
 namespace nearmiss {
 
@@ -34,6 +36,8 @@ class RenderCommand : public Command {
          "FOLDER, with one row for each query, subject and fault, or the newest run among its subfolders. Several runs "
          "in subfolders "
          "make a trend.",
+         "A file trade.json in FOLDER or in one of its subfolders gets a page of its own, trade.html beside it, with a "
+         "link from the page of the findings. A FOLDER with nothing else gets that page alone.",
          "For the plots the subject of each shown report is asked again with each number moved, the most severe "
          "first, for at most --seconds. Reports are added in the same order until the page has 18 MB; the table has "
          "all of them."},
@@ -58,8 +62,10 @@ class RenderCommand : public Command {
         ->check(number_from(0, 1e6));
   }
   int run(const CLI::App&) override {
-    check_page_can_be_written();  // before the work
     catch_interrupts();
+    const bool has_page = has_findings();
+    if (write_trades(has_page ? "" : out_) && !has_page) return 0;
+    check_page_can_be_written();  // before the work
     const fs::path file = out_.empty() ? fs::path(folder_) / "index.html" : fs::path(out_);
     PageData data(folder_, fs::absolute(file).parent_path());
     add_reports(data);
@@ -73,6 +79,24 @@ class RenderCommand : public Command {
   }
 
  private:
+  /// Writes the pages of the trades of the folder; `only` is the place of the first. False where it has none.
+  bool write_trades(const std::string& only) const {
+    const std::vector<fs::path> trades = trades_in(folder_);
+    for (const fs::path& file : trades) {
+      const fs::path page = only.empty() || file != trades.front() ? usual_trade_page(file) : fs::path(only);
+      write_trade_page(file, page);
+      fmt::print("1 trade in {} ({:.1f} MB)\n", page.string(), double(fs::file_size(page)) / 1e6);
+    }
+    return !trades.empty();
+  }
+  /// Whether the folder has a triage or a run, also among its subfolders.
+  bool has_findings() const {
+    const auto has = [](const fs::path& f) { return fs::exists(f / "index.json") || fs::exists(f / "triage.json"); };
+    if (has(folder_)) return true;
+    std::error_code none;
+    const auto entries = fs::directory_iterator(folder_, none);
+    return std::any_of(begin(entries), end(entries), [&](const auto& e) { return has(e.path()); });
+  }
   void add_reports(PageData& data) {
     Workers workers([] { return !interrupted(); });
     Progress progress;

@@ -73,6 +73,13 @@ std::uint8_t Workers::raised(const Subject& subject, std::size_t case_of_batch) 
   return at ? found->second.worker->raised(*at) : std::uint8_t{0};
 }
 
+std::optional<Worker::Times> Workers::time(const Subject& subject, std::span<const Case> cases) {
+  flat_.clear();
+  for (const Case& c : cases) flat_.insert(flat_.end(), c.values.begin(), c.values.end());
+  const Offering& offering = subject.offering(cases.front().query->name);
+  return of(subject).worker->time(offering, flat_, cases.front().values.size());
+}
+
 double Workers::processor_seconds(const Subject& subject) const {
   const auto found = workers_.find(&subject);
   return found == workers_.end() ? 0 : found->second.worker->processor_seconds();

@@ -28,6 +28,9 @@ class Workers {
   /// The output of the subject's host when this case of the last batch broke (Worker::output).
   std::string_view output(const Subject& subject, std::size_t case_of_batch) const;
 
+  /// Times the subject's calls for these cases, at most `capacity_for`, which meet its preconditions (Worker::time).
+  std::optional<Worker::Times> time(const Subject& subject, std::span<const Case> cases);
+
   /// The exceptions that this case of the last batch raised (Worker::raised).
   std::uint8_t raised(const Subject& subject, std::size_t case_of_batch) const;
   /// Whether the subject can be asked in a given rounding: not a program behind pipes.

@@ -24,6 +24,7 @@
   if (trend) document.getElementById("trend").append(trend);
   const notes = [];
   for (const link of data.raw.extremes) notes.push(element("a", {href: link}, "maps of extremes"));
+  for (const link of data.raw.trades) notes.push(element("a", {href: link}, "the price of accuracy"));
   if (data.raw.skipped.length) {
     notes.push(element("details", {}, element("summary", {}, `${plural(data.raw.skipped.length, "file")} skipped`),
       element("ul", {}, data.raw.skipped.map(s => element("li", {}, `${s.file}: ${s.why}`)))));

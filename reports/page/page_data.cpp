@@ -19,6 +19,7 @@
 #include "reports/findings/report.hpp"
 #include "reports/page/error_plot.hpp"
 #include "reports/page/scene.hpp"
+#include "reports/page/trade_page.hpp"
 
 namespace nearmiss {
 
@@ -401,6 +402,15 @@ Json PageData::extremes() const {
   return pages;
 }
 
+Json PageData::trades() const {
+  Json pages = Json::array();
+  for (const fs::path& file : trades_in(folder_)) {
+    const fs::path page = usual_trade_page(file);
+    if (fs::exists(page)) pages.push_back(link_to(page));
+  }
+  return pages;
+}
+
 nlohmann::ordered_json PageData::to_json() const {
   PageWords words;
   Json rows = Json::array();
@@ -418,6 +428,7 @@ nlohmann::ordered_json PageData::to_json() const {
           {"trend", trend_},
           {"skipped", skipped_},
           {"extremes", extremes()},
+          {"trades", trades()},
           {"words", words.words()},
           {"columns", columns_of_rows()},
           {"rows", rows},

@@ -50,6 +50,7 @@ class PageData {
   std::string link_to(const std::filesystem::path& file) const;
   Json details_of(const Json& signature) const;
   Json extremes() const;
+  Json trades() const;
 
   std::filesystem::path folder_, page_folder_, run_;  ///< paths of reports are relative to `run_`
   Json summary_, trend_ = Json::array(), skipped_ = Json::array();

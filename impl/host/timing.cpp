@@ -1,0 +1,143 @@
+#include "impl/host/timing.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "impl/subject/contained.hpp"
+#include "impl/subject/timed_calls.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr unsigned rounds_of_batch = 25;
+constexpr double least_nanoseconds = 0.1;               ///< of a call: below the cost of any
+constexpr std::int64_t most_nanoseconds = 250'000'000;  ///< of processor time, after which no round begins
+
+/// Keeps the thread on its highest allowed processor for its lifetime.
+class PinnedThread {
+ public:
+  PinnedThread() {
+    if (sched_getaffinity(0, sizeof before_, &before_) != 0) return;
+    int last = CPU_SETSIZE - 1;
+    while (last >= 0 && !CPU_ISSET(last, &before_)) --last;
+    if (last < 0) return;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(last, &one);
+    is_pinned_ = sched_setaffinity(0, sizeof one, &one) == 0;
+  }
+  ~PinnedThread() {
+    if (is_pinned_) sched_setaffinity(0, sizeof before_, &before_);
+  }
+  PinnedThread(const PinnedThread&) = delete;
+  PinnedThread& operator=(const PinnedThread&) = delete;
+  bool is_pinned() const { return is_pinned_; }
+
+ private:
+  cpu_set_t before_{};
+  bool is_pinned_ = false;
+};
+
+template <class T>
+T median_of(std::vector<T> values) {
+  if (values.empty()) return T{};
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The mean without the samples that are far above the median: those of calls during which the thread lost the
+/// processor. A mean, because the counter of some machines advances by ten nanoseconds at once: the difference of two
+/// readings is then exact only on average.
+double mean_without_pauses(const std::vector<std::uint64_t>& samples) {
+  if (samples.empty()) return 0;
+  const double most = 2.0 * double(median_of(samples)), far = std::max(most, 1.0);
+  double sum = 0, count = 0;
+  for (const std::uint64_t s : samples) {
+    if (double(s) > far) continue;
+    sum += double(s);
+    ++count;
+  }
+  return sum / count;
+}
+
+[[gnu::noinline]] int empty_call(const int& x) { return x; }
+
+/// The ticks between begin() and end() around a call that does nothing.
+double ticks_of_empty_call() {
+  const std::vector<int> none(2000);
+  TimedRounds rounds;
+  rounds.most = 1;
+  time_calls<int>(none, empty_call, rounds);
+  return mean_without_pauses(rounds.ticks);
+}
+
+/// Nanoseconds of a tick, from a wait of two milliseconds.
+double nanoseconds_of_tick() {
+  const std::int64_t from = CallClock::nanoseconds(CLOCK_MONOTONIC);
+  const std::uint64_t begin = CallClock::begin();
+  std::int64_t now = from;
+  while (now < from + 2'000'000) now = CallClock::nanoseconds(CLOCK_MONOTONIC);
+  return double(now - from) / double(std::max<std::uint64_t>(1, CallClock::end() - begin));
+}
+
+/// Times the calls of `answer`, which decodes the inputs itself.
+void time_erased(const AnswerFunction& answer, std::span<const double> values, std::size_t inputs,
+                 TimedRounds& rounds) {
+  std::vector<std::span<const double>> cases;
+  for (std::size_t at = 0; at + inputs <= values.size(); at += inputs) cases.push_back(values.subspan(at, inputs));
+  time_calls<std::span<const double>>(cases, answer, rounds);
+}
+
+TimedRounds timed_rounds(const OfferedFunctions& offer, std::span<const double> values, std::size_t inputs) {
+  TimedRounds rounds;
+  rounds.most = rounds_of_batch;
+  rounds.until = CallClock::nanoseconds(CLOCK_THREAD_CPUTIME_ID) + most_nanoseconds;
+  if (offer.time != nullptr) {
+    offer.time(values, inputs, rounds);
+  } else {
+    time_erased(offer.answer, values, inputs, rounds);
+  }
+  return rounds;
+}
+
+/// The time of each case's call in nanoseconds, without the cost of the clock; at least a tenth of a nanosecond.
+std::vector<double> nanoseconds_of(const TimedRounds& rounds, std::size_t cases) {
+  static const double of_tick = nanoseconds_of_tick();
+  const double empty = ticks_of_empty_call();
+  std::vector<double> times;
+  for (std::size_t i = 0; i < cases; ++i) {
+    std::vector<std::uint64_t> ticks;
+    for (std::size_t at = i; at < rounds.ticks.size(); at += cases) ticks.push_back(rounds.ticks[at]);
+    times.push_back(std::max(least_nanoseconds, of_tick * (mean_without_pauses(ticks) - empty)));
+  }
+  return times;
+}
+
+}  // namespace
+
+void time_batch(const OfferedFunctions& offer, const wire::SharedRequest& asked, wire::SharedAnswers& answered) {
+  const std::size_t first = asked.first, count = asked.count, inputs = asked.inputs, cases = count - first;
+  const std::span<const double> values{asked.values.data() + first * inputs, cases * inputs};
+  std::vector<double> times;
+  const Answer outcome = answer_or_broke([&] {
+    const PinnedThread pinned;
+    const TimedRounds rounds = timed_rounds(offer, values, inputs);
+    times = nanoseconds_of(rounds, cases);
+    answered.timed = {double(median_of(rounds.processor)) / double(cases), std::uint32_t(rounds.processor.size()),
+                      offer.time != nullptr, pinned.is_pinned()};
+    return Answer{};
+  });
+  const bool ok = outcome.status == Answer::Status::answered;
+  for (std::size_t i = 0; i < cases; ++i) {
+    answered.heads[first + i] = {outcome.status, true, std::uint8_t(ok ? 1 : 0), outcome.cause, 0, outcome.given};
+    if (ok) answered.numbers[i] = times[i];
+    if (!ok) answered.reasons[first + i] = outcome.why;
+  }
+  answered.done.store(std::uint32_t(count), std::memory_order_release);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,82 @@
+#include "reports/trade/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss {
+
+namespace {
+
+bool is_length(Role role) { return role == Role::position || role == Role::size || role == Role::depth; }
+
+/// Adds the forward error of one number of the answer, in the number's unit.
+void add_forward(TradeAnswer& a, Role role, double absolute, double of_unit) {
+  if (is_length(role)) a.distance = std::max(a.distance, absolute / of_unit);
+  if (role == Role::time) a.time = std::max(a.time, absolute);
+}
+
+void add_forward_errors(TradeAnswer& a, const Query& query, const Finding& f, double of_unit) {
+  a.ulps = f.forward_ulps;
+  for (const MemberFinding& m : f.members) {
+    if (m.member < 0) continue;
+    add_forward(a, query.layout.parts[std::size_t(m.member)].role, m.forward_absolute, of_unit);
+  }
+  if (f.members.empty() && f.worst >= 0)
+    add_forward(a, query.outputs[std::size_t(f.worst)].role, f.forward_absolute, of_unit);
+}
+
+TradeAnswer::State state_of(const Finding& f) {
+  switch (f.verdict) {
+    case Verdict::not_asked: return TradeAnswer::State::not_asked;
+    case Verdict::cannot_answer: return TradeAnswer::State::no_answer;
+    case Verdict::broke: return TradeAnswer::State::broke;
+    default: return TradeAnswer::State::compared;
+  }
+}
+
+}  // namespace
+
+TradeTolerance relative_tolerance(double error, const std::string& source) {
+  TradeTolerance t;
+  t.error = t.missed_depth = error;
+  t.source = source;
+  return t;
+}
+
+double largest_length(const Case& question) {
+  double largest = 0;
+  for (std::size_t i = 0; i < question.values.size(); ++i) {
+    const Role role = question.query->inputs[i].role;
+    if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(question.values[i]));
+  }
+  return largest;
+}
+
+TradeAnswer trade_answer(const Case& question, Scalar scalar, const Answer& answer, const Finding& f,
+                         const TradeTolerance& tolerance) {
+  TradeAnswer a;
+  a.state = state_of(f);
+  if (a.state != TradeAnswer::State::compared) return a;
+  a.truth_yes = f.truth_yes;
+  a.yes = answer.yes;
+  a.missed = f.has(Disagreement::false_miss);
+  a.phantom = f.has(Disagreement::false_hit);
+  a.not_finite = f.has(Disagreement::not_finite);
+  const double length = largest_length(question);
+  if (f.backward) a.backward = f.backward->above * unit_roundoff(question.scalar);
+  a.shift = tolerance.unit.empty() ? a.backward : a.backward * length;
+  if (a.missed || a.phantom) return a;
+  add_forward_errors(a, *question.query, f, tolerance.unit.empty() && length > 0 ? length : 1);
+  a.ulps *= unit_roundoff(question.scalar) / unit_roundoff(scalar);
+  return a;
+}
+
+bool is_beyond(const TradeAnswer& a, const TradeTolerance& tolerance) {
+  if (a.state == TradeAnswer::State::broke || a.not_finite) return true;
+  if (a.state != TradeAnswer::State::compared) return false;
+  if (a.missed) return a.shift > tolerance.missed_depth;
+  if (a.phantom || tolerance.unit.empty()) return a.shift > tolerance.error;
+  return a.distance > tolerance.error || (tolerance.time && a.time > *tolerance.time);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,51 @@
+#include "reports/trade/sources.hpp"
+
+#include "corpus/fit.hpp"
+#include "corpus/scenes/scene_cases.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+TradeTolerance tolerance_of(const scenes::Scene& scene) {
+  constexpr double nanoseconds_of_second = 1e9;
+  const scenes::Requirements& r = scene.required;
+  TradeTolerance t;
+  t.unit = scene.unit;
+  t.error = r.position_error.value;
+  t.missed_depth = r.missed_depth.value;
+  t.time = r.time_error.value * scene.step.value;
+  t.missed_rate = r.missed_rate.value;
+  t.phantom_rate = r.phantom_rate.value;
+  t.nanoseconds = r.time_budget.value / scene.queries_per_step.value * nanoseconds_of_second;
+  t.source = "scene " + scene.name;
+  return t;
+}
+
+}  // namespace
+
+TradeSource generated_cases(TradeTolerance tolerance) {
+  TradeSource source;
+  source.draw = [](Case& into, const Query& query, std::uint64_t seed, std::uint64_t index, Preconditions required) {
+    generate_inside(into, query, Scalar::float32, seed, index, required);
+  };
+  source.share = [](const Query&) { return 1.0; };
+  source.tolerance = std::move(tolerance);
+  return source;
+}
+
+TradeSource scene_cases(std::shared_ptr<const scenes::Scene> scene) {
+  TradeSource source;
+  source.scene = scene->name;
+  source.title = scene->title;
+  source.scalar = scene->scalar;
+  source.tolerance = tolerance_of(*scene);
+  source.draw = [scene](Case& into, const Query& query, std::uint64_t seed, std::uint64_t index,
+                        Preconditions required) {
+    scenes::draw_case_inside(into, *scene, query, scene->scalar, seed, index, required);
+  };
+  source.share = [scene](const Query& query) { return scene->share_of(query); };
+  return source;
+}
+
+}  // namespace nearmiss

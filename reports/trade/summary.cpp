@@ -1,0 +1,162 @@
+#include "reports/trade/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss {
+
+namespace {
+
+using AnswerState = TradeAnswer::State;
+
+/// One number of some answers.
+template <class Has, class Number>
+std::vector<double> numbers_of_answers(std::span<const TradeAnswer> answers, Has has, Number number) {
+  std::vector<double> numbers;
+  for (const TradeAnswer& a : answers) {
+    if (a.state == AnswerState::compared && has(a)) numbers.push_back(number(a));
+  }
+  return numbers;
+}
+
+template <class Is>
+std::uint64_t count_of(std::span<const TradeAnswer> answers, Is is) {
+  return std::uint64_t(std::count_if(answers.begin(), answers.end(), is));
+}
+
+void add_counts(TradeSummary& s, std::span<const TradeAnswer> answers, const TradeTolerance& tolerance) {
+  const auto in = [&](AnswerState state) {
+    return count_of(answers, [&](const TradeAnswer& a) { return a.state == state; });
+  };
+  s.compared = in(AnswerState::compared);
+  s.no_answer = in(AnswerState::no_answer);
+  s.not_asked = in(AnswerState::not_asked);
+  const std::uint64_t asked = answers.size() - s.not_asked;
+  const std::uint64_t contacts = count_of(answers, [](const TradeAnswer& a) { return a.truth_yes; });
+  const std::uint64_t reported = count_of(answers, [](const TradeAnswer& a) { return a.yes; });
+  const auto rate = [&](auto is, std::uint64_t of) { return rate_of(count_of(answers, is), of); };
+  s.broke = rate_of(in(AnswerState::broke), asked);
+  s.missed = rate([](const TradeAnswer& a) { return a.missed; }, contacts);
+  s.phantom = rate([](const TradeAnswer& a) { return a.phantom; }, reported);
+  s.missed_deeper = rate([&](const TradeAnswer& a) { return a.missed && is_beyond(a, tolerance); }, contacts);
+  s.phantom_wider = rate([&](const TradeAnswer& a) { return a.phantom && is_beyond(a, tolerance); }, reported);
+  s.beyond = rate([&](const TradeAnswer& a) { return is_beyond(a, tolerance); }, asked);
+}
+
+void add_errors(TradeSummary& s, std::span<const TradeAnswer> answers) {
+  const auto all = [](const TradeAnswer&) { return true; };
+  const auto right = [](const TradeAnswer& a) { return !a.missed && !a.phantom && !a.not_finite; };
+  const auto quantiles = [&](auto has, auto number) {
+    std::vector<double> numbers = numbers_of_answers(answers, has, number);
+    return quantiles_of(numbers);
+  };
+  const auto shift = [](const TradeAnswer& a) { return a.shift; };
+  s.missed_depth = quantiles([](const TradeAnswer& a) { return a.missed; }, shift);
+  s.phantom_gap = quantiles([](const TradeAnswer& a) { return a.phantom; }, shift);
+  s.ulps = quantiles(right, [](const TradeAnswer& a) { return a.ulps; });
+  s.distance = quantiles(right, [](const TradeAnswer& a) { return a.distance; });
+  s.time = quantiles(right, [](const TradeAnswer& a) { return a.time; });
+  s.backward = quantiles(all, [](const TradeAnswer& a) { return a.backward; });
+  std::vector<double> shifts = numbers_of_answers(answers, all, shift);
+  s.shift = quantiles_of(shifts);
+  for (std::size_t i = 0; i < tail_sizes.size(); ++i) s.tails[i] = one_in(shifts, tail_sizes[i]);
+}
+
+void add_times(TradeSummary& s, const TradeTimes& times) {
+  s.timed = times.how;
+  s.pinned = times.pinned;
+  std::vector<double> calls, repeats = times.repeats, sequential = times.sequential;
+  std::copy_if(times.of_case.begin(), times.of_case.end(), std::back_inserter(calls),
+               [](double t) { return !std::isnan(t); });
+  s.nanoseconds = quantiles_of(calls);
+  s.repeats = quantiles_of(repeats);
+  s.sequential = quantiles_of(sequential);
+  if (s.repeats) s.least_repeat = repeats.front();
+  if (s.sequential) s.least_sequential = sequential.front();
+}
+
+using MetState = MetRequirement::State;
+
+MetRequirement at_most(std::string name, std::optional<double> worst, double limit, std::string unit) {
+  const double value = worst.value_or(0);
+  return {std::move(name), limit, value, std::move(unit), value <= limit ? MetState::shown : MetState::failed};
+}
+
+MetRequirement rate_at_most(std::string name, const Rate& rate, double limit) {
+  const MetState state = rate.share() > limit ? MetState::failed
+                         : rate.high <= limit ? MetState::shown
+                                              : MetState::so_far;
+  return {std::move(name), limit, rate.share(), "", state};
+}
+
+std::optional<double> largest_of(const std::optional<Quantiles>& q) { return q ? std::optional(q->max) : std::nullopt; }
+
+void add_requirements(TradeSummary& s, std::uint64_t useless, const TradeTolerance& t) {
+  s.requirements.push_back(
+      at_most("cases without an answer", double(s.no_answer + s.not_asked + s.broke.count), 0, ""));
+  const std::string unit = t.unit.empty() ? "of the largest length" : t.unit;
+  if (t.unit.empty()) {
+    s.requirements.push_back(at_most("error of the inputs", largest_of(s.shift), t.error, unit));
+  } else {
+    s.requirements.push_back(at_most("error of places and depths", largest_of(s.distance), t.error, unit));
+  }
+  s.requirements.push_back(at_most("answers that are not finite", double(useless), 0, ""));
+  s.requirements.push_back(rate_at_most("missed contacts", s.missed_deeper, t.missed_rate));
+  s.requirements.push_back(rate_at_most("phantom contacts", s.phantom_wider, t.phantom_rate));
+  if (t.time) s.requirements.push_back(at_most("error of times of impact", largest_of(s.time), *t.time, "s"));
+  if (t.nanoseconds && s.sequential)
+    s.requirements.push_back(at_most("time of a call", s.sequential->p50, *t.nanoseconds, "ns"));
+}
+
+}  // namespace
+
+std::string_view name_of(MetRequirement::State s) {
+  switch (s) {
+    case MetState::shown: return "met";
+    case MetState::so_far: return "met so far";
+    case MetState::failed: break;
+  }
+  return "failed";
+}
+
+bool TradeSummary::meets_all() const {
+  return compared > 0 && std::none_of(requirements.begin(), requirements.end(),
+                                      [](const MetRequirement& r) { return r.state == MetState::failed; });
+}
+
+std::optional<double> TradeSummary::cost() const {
+  return nanoseconds ? std::optional(nanoseconds->p50) : std::nullopt;
+}
+
+TradeSummary summarised(const Subject& subject, std::span<const TradeAnswer> answers, const TradeTimes& times,
+                        const TradeTolerance& tolerance) {
+  TradeSummary s;
+  s.subject = &subject;
+  add_counts(s, answers, tolerance);
+  add_errors(s, answers);
+  add_times(s, times);
+  add_requirements(s, count_of(answers, [](const TradeAnswer& a) { return a.not_finite; }), tolerance);
+  return s;
+}
+
+void mark_front(std::span<TradeSummary> subjects) {
+  std::vector<Price> prices;
+  std::vector<TradeSummary*> priced;
+  for (TradeSummary& s : subjects) {
+    if (!s.cost() || !s.shift) continue;
+    prices.push_back({*s.cost(), s.shift->max});
+    priced.push_back(&s);
+  }
+  const std::vector<bool> front = pareto_front(prices);
+  for (std::size_t i = 0; i < priced.size(); ++i) priced[i]->on_front = front[i];
+}
+
+const TradeSummary* cheapest(std::span<const TradeSummary> subjects) {
+  const TradeSummary* best = nullptr;
+  for (const TradeSummary& s : subjects) {
+    if (s.meets_all() && s.cost() && (best == nullptr || *s.cost() < *best->cost())) best = &s;
+  }
+  return best;
+}
+
+}  // namespace nearmiss
