@@ -281,6 +281,8 @@ class ImportCommand : public Command {
     std::vector<std::string> names;
     for (const std::string& f : files_) names.push_back(fs::path(f).filename().string());
     const scenes::Scene s = scenes::write_trace_scene(scene_, cases, fmt::format("{}", fmt::join(names, ", ")));
+    std::vector<std::string_view> asked;
+    for (const Query* q : s.all_queries()) asked.push_back(q->name);
     fmt::print(
         "{}: {} cases, asking {}; what the scene requires is chosen from their sizes: state what the program "
         "needs\n",

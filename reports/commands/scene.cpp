@@ -11,22 +11,18 @@ namespace nearmiss {
 
 namespace {
 
-using scenes::Scene;
-using scenes::Sourced;
-using scenes::Spread;
+using SceneRows = std::vector<std::vector<std::string>>;
 
-using Rows = std::vector<std::vector<std::string>>;
-
-std::string spread_text(const Spread& s, const std::string& unit) {
+std::string spread_text(const scenes::Spread& s, const std::string& unit) {
   if (s.least.value == s.most.value) return fmt::format("{:g} {}", s.least.value, unit);
   return fmt::format("{:g} to {:g} {}{}", s.least.value, s.most.value, unit, s.logarithmic ? ", logarithmic" : "");
 }
 
-void add_row(Rows& rows, const std::string& what, const Sourced& number, std::string_view unit) {
+void add_scene_row(SceneRows& rows, const std::string& what, const scenes::Sourced& number, std::string_view unit) {
   rows.push_back({what, fmt::format("{:g}{}{}", number.value, unit.empty() ? "" : " ", unit), number.source});
 }
 
-void add_row(Rows& rows, const std::string& what, const Spread& spread, const std::string& unit) {
+void add_scene_row(SceneRows& rows, const std::string& what, const scenes::Spread& spread, const std::string& unit) {
   if (spread.least.source.empty()) return;
   std::string source = spread.least.source;
   if (spread.most.source != source) source += "; " + spread.most.source;
@@ -34,32 +30,32 @@ void add_row(Rows& rows, const std::string& what, const Spread& spread, const st
 }
 
 std::string list_of_scenes() {
-  Rows rows{{"SCENE", "SCALAR", "UNIT", "QUERIES", "TITLE"}};
+  SceneRows rows{{"SCENE", "SCALAR", "UNIT", "QUERIES", "TITLE"}};
   for (const std::string& name : scenes::scene_names()) {
-    const Scene s = scenes::load_scene(name);
+    const scenes::Scene s = scenes::load_scene(name);
     rows.push_back({s.name, std::string(name_of(s.scalar)), s.unit, std::to_string(s.queries.size()), s.title});
   }
   return table_text(rows);
 }
 
-std::string world_text(const Scene& s) {
-  Rows rows{{"NUMBER", "VALUE", "SOURCE"}};
+std::string world_text(const scenes::Scene& s) {
+  SceneRows rows{{"NUMBER", "VALUE", "SOURCE"}};
   rows.push_back({"scalar", std::string(name_of(s.scalar)), s.scalar_source});
-  add_row(rows, "extent", s.extent, s.unit);
-  add_row(rows, "distance", s.distance, s.unit);
-  add_row(rows, "step", s.step, "s");
-  add_row(rows, "queries per step", s.queries_per_step, "");
-  add_row(rows, "near contact", s.near_contact, "");
+  add_scene_row(rows, "extent", s.extent, s.unit);
+  add_scene_row(rows, "distance", s.distance, s.unit);
+  add_scene_row(rows, "step", s.step, "s");
+  add_scene_row(rows, "queries per step", s.queries_per_step, "");
+  add_scene_row(rows, "near contact", s.near_contact, "");
   for (const scenes::Shapes& shapes : s.shapes) {
-    add_row(rows, fmt::format("{} ({}), count", shapes.name, name_of(shapes.type)), shapes.count, "");
-    add_row(rows, shapes.name + ", size", shapes.size, s.unit);
-    add_row(rows, shapes.name + ", speed", shapes.speed, s.unit + "/s");
+    add_scene_row(rows, fmt::format("{} ({}), count", shapes.name, name_of(shapes.type)), shapes.count, "");
+    add_scene_row(rows, shapes.name + ", size", shapes.size, s.unit);
+    add_scene_row(rows, shapes.name + ", speed", shapes.speed, s.unit + "/s");
   }
   return table_text(rows);
 }
 
-std::string mix_text(const Scene& s) {
-  Rows rows{{"QUERY", "SHARE", "OF", "SOURCE"}};
+std::string mix_text(const scenes::Scene& s) {
+  SceneRows rows{{"QUERY", "SHARE", "OF", "SOURCE"}};
   for (const scenes::MixedQuery& m : s.queries) {
     std::string of = fmt::format("{} recorded cases", m.recorded.size());
     if (!m.operands.empty()) of = fmt::format("{}, {}", s.shapes[m.operands[0]].name, s.shapes[m.operands[1]].name);
@@ -69,14 +65,14 @@ std::string mix_text(const Scene& s) {
   return table_text(rows);
 }
 
-std::string requires_text(const Scene& s) {
-  Rows rows{{"REQUIRED", "AT MOST", "SOURCE"}};
-  add_row(rows, "position error", s.required.position_error, s.unit);
-  add_row(rows, "missed depth", s.required.missed_depth, s.unit);
-  add_row(rows, "time error", s.required.time_error, "of the step");
-  add_row(rows, "missed rate", s.required.missed_rate, "");
-  add_row(rows, "phantom rate", s.required.phantom_rate, "");
-  add_row(rows, "time budget", s.required.time_budget, "s a step");
+std::string requirements_text(const scenes::Scene& s) {
+  SceneRows rows{{"REQUIRED", "AT MOST", "SOURCE"}};
+  add_scene_row(rows, "position error", s.required.position_error, s.unit);
+  add_scene_row(rows, "missed depth", s.required.missed_depth, s.unit);
+  add_scene_row(rows, "time error", s.required.time_error, "of the step");
+  add_scene_row(rows, "missed rate", s.required.missed_rate, "");
+  add_scene_row(rows, "phantom rate", s.required.phantom_rate, "");
+  add_scene_row(rows, "time budget", s.required.time_budget, "s a step");
   return table_text(rows);
 }
 
@@ -118,9 +114,9 @@ class SceneCommand : public Command {
     if (names_.empty())
       throw BadInput(fmt::format("scene {}: which scene? 'nearmiss scene list' shows the names", action_));
     for (const std::string& name : names_) {
-      const Scene s = scenes::load_scene(name);
+      const scenes::Scene s = scenes::load_scene(name);
       if (action_ == "show") {
-        fmt::print("{}: {}\n\n{}\n{}\n{}", s.name, s.title, world_text(s), mix_text(s), requires_text(s));
+        fmt::print("{}: {}\n\n{}\n{}\n{}", s.name, s.title, world_text(s), mix_text(s), requirements_text(s));
       } else {
         fmt::print("{}: valid: {} queries, {}\n", s.file.string(), s.queries.size(),
                    s.is_recorded() ? fmt::format("{} recorded cases", count_text(s.recorded.size()))
