@@ -252,6 +252,7 @@ TEST(TradeCommand, MeasuresEachSubjectOnTheSameCases) {
   for (const json& s : query["subjects"]) {
     EXPECT_EQ(s["compared"], 60);
     EXPECT_EQ(s["missed"]["of"], query["contacts"]);
+    EXPECT_EQ(s["time"]["how"], "typed calls");
     EXPECT_GT(s["time"]["call"]["p50"], 0);
     EXPECT_GE(s["time"]["call"]["max"], s["time"]["call"]["p99"]);
     EXPECT_GT(s["time"]["calls_per_second"], 0);
