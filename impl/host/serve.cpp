@@ -144,7 +144,7 @@ int run_host(const Subject& subject) {
   }
   std::vector<OfferedFunctions> offers;
   for (const Offering& o : subject.offerings) {
-    if (o.offer != Offer::not_offered) offers.push_back({o.answer, nullptr});
+    if (o.offer != Offer::not_offered) offers.push_back({o.answer, o.time});
   }
   if (!write_all(wire::to_judge, hello_of(subject))) return 1;
   FloatingPointModes::standard().set();

@@ -8,10 +8,6 @@
 
 namespace nearmiss {
 
-struct TimedRounds;
-/// Measures calls of the subject's typed function for the cases of a batch (impl/subject/timed_calls.hpp).
-using TimeFunction = void (*)(std::span<const double> values, std::size_t inputs, TimedRounds& rounds);
-
 /// The functions of an offer.
 struct OfferedFunctions {
   AnswerFunction answer;

@@ -6,8 +6,15 @@
 
 #include "impl/subject/adapter.hpp"
 #include "impl/subject/subject.hpp"
+#include "impl/subject/timed_calls.hpp"
 
 namespace nearmiss {
+
+/// The typed answer. Not inlined: the timed calls and the answers to the judge share one function.
+template <class Adapter, class Q>
+[[gnu::noinline]] auto typed_answer(const Q& q) {
+  return Adapter::answer(q);
+}
 
 template <class Adapter, class Q>
 Offering offering_of(std::string_view query) {
@@ -15,7 +22,13 @@ Offering offering_of(std::string_view query) {
   o.query = query;
   if constexpr (requires(const Q& q) { Adapter::answer(q); }) {
     o.offer = Offer::answers;
-    o.answer = [](std::span<const double> values) { return erase(Adapter::answer(inputs_from<Q>(values.data()))); };
+    o.answer = [](std::span<const double> values) {
+      return erase(typed_answer<Adapter, Q>(inputs_from<Q>(values.data())));
+    };
+    o.time = [](std::span<const double> values, std::size_t inputs, TimedRounds& rounds) {
+      const std::vector<Q> cases = typed_cases<Q>(values, inputs);
+      time_calls<Q>(cases, typed_answer<Adapter, Q>, rounds);
+    };
     if constexpr (requires { Adapter::template contract<Q>(); }) o.contract = Adapter::template contract<Q>();
     if constexpr (requires { Adapter::template needs<Q>(); }) o.required = Adapter::template needs<Q>();
     if constexpr (requires { Adapter::template equivalence<Q>(); }) {

@@ -53,6 +53,10 @@ class AnswerFunction {
   const void* context_ = nullptr;
 };
 
+struct TimedRounds;
+/// Measures calls of the subject's typed function for the cases of a batch (impl/subject/timed_calls.hpp).
+using TimeFunction = void (*)(std::span<const double> values, std::size_t inputs, TimedRounds& rounds);
+
 /// What a subject offers for one query.
 struct Offering {
   std::string query;
@@ -68,6 +72,7 @@ struct Offering {
     int inputs, outputs;
   };
   std::optional<Counts> counts{};  ///< the numbers of inputs and outputs that the host states
+  TimeFunction time = nullptr;     ///< nullptr: its calls can be timed only through `answer`; known only in the host
 };
 
 /// A program that answers in place of a function of this process (docs/protocol.md).

@@ -69,7 +69,7 @@ nearmiss.panels = (() => {
     const y = errorScale("error", subjects.map(error), limit, top, bottom, limit / 1e3);
     const root = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img")
       .attr("aria-label", `Proved error against time of ${query.query}`);
-    frame(root, x, y, top, bottom, `largest proved error, ${unit}`, false, power);
+    frame(root, x, y, top, bottom, `largest proved error (${unit})`, false, power);
     root.append("text").attr("x", width - right - 6).attr("y", bottom - band / 2 + 3.5).attr("text-anchor", "end").text("the oracle proves no error");
     root.append("line").attr("class", "tolerance").attr("x1", left).attr("x2", width - right).attr("y1", y(limit)).attr("y2", y(limit));
     root.append("text").attr("class", "tolerance-text").attr("x", width - right - 4).attr("y", y(limit) - 4).attr("text-anchor", "end").text(`tolerable: ${about(limit)} ${raw.tolerance.unit}`);
@@ -89,7 +89,7 @@ nearmiss.panels = (() => {
     const x = timeScale(timed(query)), y = errorScale("rate", subjects.map(s => s[member].share), limit, top, bottom, 1e-4);
     const root = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img").attr("aria-label", `${name} against time of ${query.query}`);
     frame(root, x, y, top, bottom, name, withTimes, v => percent(v));
-    if (limit > 0) root.append("line").attr("class", "tolerance").attr("x1", left).attr("x2", width - right).attr("y1", y(limit)).attr("y2", y(limit));
+    root.append("line").attr("class", "tolerance").attr("x1", left).attr("x2", width - right).attr("y1", y(limit)).attr("y2", y(limit));
     for (const s of subjects) {
       const r = s[member], cx = x(costOf(s)), cy = y(r.share);
       if (r.count > 0) whisker(root, s, cx, Math.max(top, y(Math.min(1, r.high))), cx, Math.min(bottom - band, y(r.low)));
@@ -101,8 +101,8 @@ nearmiss.panels = (() => {
 
   function draw(query) {
     if (timed(query).length === 0) return [];
-    return [errorPanel(query), ratePanel(query, "missed", "missed contacts, share of the contacts, with 95 % intervals", raw.tolerance.missed_rate, false),
-      ratePanel(query, "phantom", "phantom contacts, share of the reported contacts, with 95 % intervals", raw.tolerance.phantom_rate, true)];
+    return [errorPanel(query), ratePanel(query, "missed", "missed contacts, share of the contacts, with 95 % intervals; dashed: the limit for those that are deeper than is tolerable", raw.tolerance.missed_rate, false),
+      ratePanel(query, "phantom", "phantom contacts, share of the reported contacts, with 95 % intervals; dashed: the limit for wider ones", raw.tolerance.phantom_rate, true)];
   }
   return {draw};
 })();

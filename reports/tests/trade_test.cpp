@@ -67,6 +67,15 @@ TEST(TradeStatistics, NoneOfManyObeysTheRuleOfThree) {
   EXPECT_EQ(all.high, 1);
 }
 
+TEST(TradeStatistics, TheIntervalsOfManyContinueThoseOfFewer) {
+  const Rate fewer = rate_of(999, 1'000'000), more = rate_of(1000, 1'000'000);
+  // One more of a thousand moves both ends by a thousandth; the two formulas agree within another one.
+  EXPECT_NEAR(more.low / fewer.low, 1.001, 0.0015);
+  EXPECT_NEAR(more.high / fewer.high, 1.001, 0.0015);
+  EXPECT_LT(more.low, 1e-3);
+  EXPECT_GT(more.high, 1e-3);
+}
+
 TEST(TradeStatistics, TheFrontHasWhatNothingBeats) {
   const std::vector<Price> choices{{1, 9}, {2, 5}, {3, 5}, {4, 1}, {4, 1}, {5, 2}};
   EXPECT_EQ(pareto_front(choices), (std::vector<bool>{true, true, false, true, true, false}));
@@ -243,6 +252,7 @@ TEST(TradeCommand, MeasuresEachSubjectOnTheSameCases) {
   for (const json& s : query["subjects"]) {
     EXPECT_EQ(s["compared"], 60);
     EXPECT_EQ(s["missed"]["of"], query["contacts"]);
+    EXPECT_EQ(s["time"]["how"], "typed calls");
     EXPECT_GT(s["time"]["call"]["p50"], 0);
     EXPECT_GE(s["time"]["call"]["max"], s["time"]["call"]["p99"]);
     EXPECT_GT(s["time"]["calls_per_second"], 0);

@@ -1,11 +1,14 @@
 #include "reports/trade/sources.hpp"
 
 #include "corpus/fit.hpp"
+#include "corpus/generator.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+constexpr std::uint64_t beyond_all_indices = std::uint64_t{1} << 40;
 
 TradeTolerance tolerance_of(const scenes::Scene& scene) {
   constexpr double nanoseconds_of_second = 1e9;
@@ -28,6 +31,8 @@ TradeSource generated_cases(TradeTolerance tolerance) {
   TradeSource source;
   source.draw = [](Case& into, const Query& query, std::uint64_t seed, std::uint64_t index, Preconditions required) {
     generate_inside(into, query, Scalar::float32, seed, index, required);
+    for (std::uint64_t again = 1; has_extreme_mutator(into); ++again)
+      generate_inside(into, query, Scalar::float32, seed, index + again * beyond_all_indices, required);
   };
   source.share = [](const Query&) { return 1.0; };
   source.tolerance = std::move(tolerance);

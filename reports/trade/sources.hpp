@@ -23,7 +23,8 @@ struct TradeSource {
   TradeTolerance tolerance;
 };
 
-/// The generator's cases, in float, so that every subject gets the same numbers. All queries have the same share.
+/// The generator's cases without extreme numbers, in float, so that every subject gets the same numbers. All queries
+/// have the same share.
 TradeSource generated_cases(TradeTolerance tolerance);
 /// The cases of a scene, in its scalar, with what the scene requires.
 TradeSource scene_cases(std::shared_ptr<const scenes::Scene> scene);

@@ -9,6 +9,7 @@ namespace nearmiss {
 namespace {
 
 constexpr double confidence_left_out = 0.05;
+constexpr std::uint64_t enough_for_wilson = 1000;
 
 /// The probability of at most `count` in `of` independent draws at the rate p.
 double at_most(std::uint64_t count, std::uint64_t of, double p) {
@@ -34,6 +35,15 @@ double rate_with(std::uint64_t count, std::uint64_t of, double probability) {
   return high;
 }
 
+/// The interval of Wilson, for many of both kinds: it then agrees with that of Clopper and Pearson to three digits, and
+/// its cost does not grow with the counts.
+Rate wilson(std::uint64_t count, std::uint64_t of) {
+  constexpr double z = 1.959964;  // 95 % of a normal distribution lie within so many standard deviations
+  const double n = double(of), p = double(count) / n;
+  const double middle = p + z * z / (2 * n), half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return {count, of, (middle - half) / (1 + z * z / n), (middle + half) / (1 + z * z / n)};
+}
+
 }  // namespace
 
 double quantile(std::span<const double> sorted, double q) {
@@ -56,6 +66,7 @@ Rate rate_of(std::uint64_t count, std::uint64_t of) {
   if (of == 0) return {count, of, 0, 1};
   if (count == 0) return {count, of, 0, -std::expm1(std::log(confidence_left_out) / double(of))};
   if (count == of) return {count, of, std::exp(std::log(confidence_left_out) / double(of)), 1};
+  if (std::min(count, of - count) >= enough_for_wilson) return wilson(count, of);
   const double tail = confidence_left_out / 2;
   return {count, of, rate_with(count - 1, of, 1 - tail), rate_with(count, of, tail)};
 }
