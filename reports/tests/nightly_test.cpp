@@ -239,7 +239,7 @@ TEST(Nightly, EndsWithATriageAgainstTheLastNightAndAPage) {
   const TemporaryFolder folder;
   const auto night = [&] {
     return nearmiss({"nightly", "--minutes", "0.3", "--triage-minutes", "0.1", "--seed", "5", "--plugin",
-                     plugin_file("planted_plugin"), "--fuzz-targets", folder.path().string(), "--out",
+                     plugin_file("planted"), "--fuzz-targets", folder.path().string(), "--out",
                      (folder / "r").string()});
   };
   const auto changes_of_planted = [&] {
