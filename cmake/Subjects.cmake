@@ -250,8 +250,11 @@ function(nearmiss_finish_subjects)
     target_include_directories(nearmiss_catalogue PUBLIC ${NEARMISS_GENERATED})
   endif()
   # The parts of a host other than its subject.
-  add_library(nearmiss_host STATIC ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp ${PROJECT_SOURCE_DIR}/impl/host/timing.cpp)
-  target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nlohmann_json::nlohmann_json)
+  add_library(nearmiss_host STATIC
+    ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp
+    ${PROJECT_SOURCE_DIR}/impl/host/shared_layout.cpp
+    ${PROJECT_SOURCE_DIR}/impl/host/timing.cpp)
+  target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nearmiss_catalogue nlohmann_json::nlohmann_json)
   target_include_directories(nearmiss_host PUBLIC ${NEARMISS_GENERATED})
   add_executable(nearmiss_host_of_plugins ${PROJECT_SOURCE_DIR}/impl/host/plugin_host.cpp)
   target_link_libraries(nearmiss_host_of_plugins PRIVATE nearmiss_host ${CMAKE_DL_LIBS})

@@ -14,6 +14,7 @@
 #include "impl/catalogue/query.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/host/replies.hpp"
+#include "impl/host/shared_layout.hpp"
 #include "impl/host/wire.hpp"
 #include "impl/subject/printable.hpp"
 
@@ -37,9 +38,17 @@ bool is_one_printable_line(std::string_view text) {
   return printable(text) == text;
 }
 
+/// The hello with the layout of this build in the place of the word LAYOUT. Every other layout is refused at once.
+std::string with_layout(std::string hello) {
+  constexpr std::string_view word = "LAYOUT";
+  if (const std::size_t at = hello.find(word); at != std::string::npos)
+    hello.replace(at, word.size(), shared_layout(catalogue()));
+  return hello;
+}
+
 void hear_hello(std::string_view text, HostProgram::Batches batches) {
   try {
-    const Subject s = subject_from_hello("host", text, {{"host"}, batches});
+    const Subject s = subject_from_hello("host", with_layout(std::string(text)), {{"host"}, batches});
     demand(!s.name.empty() && s.name.size() <= 64 && is_one_printable_line(s.name), "a name that is none");
     demand(is_one_printable_line(s.version), "a version that is not one line");
     demand(s.offerings.size() == catalogue().size(), "not an offering for each query");

@@ -26,12 +26,16 @@ InternalError::InternalError(const Case& question, const Finding& first, const F
                                      question.query->name, word_of(first), word_of(in_full))),
       question_(question) {}
 
-Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail) {
+Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
+                  const SecondLook& needs_second) {
   const bool in_full = detail == Detail::full;
   const Finding first = judge(question, answer, standard, in_full ? Detail::verdict : detail);
   if (!accuses(first) && !in_full) return first;
-  const Finding full = judge(question, answer, standard, Detail::full);
+  const bool may_be_saved = !in_full && needs_second && first.is_proved() && first.settled;
+  if (may_be_saved && !needs_second(first)) return first;
+  Finding full = judge(question, answer, standard, Detail::full);
   if (accuses(first) && !same_word(first, full)) throw InternalError(question, first, full);
+  if (!in_full) full.branches = first.branches;
   return full;
 }
 

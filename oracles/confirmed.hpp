@@ -2,6 +2,7 @@
 /// judgement is counted unchecked.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 
 #include "oracles/judge.hpp"
@@ -22,11 +23,18 @@ class InternalError : public std::runtime_error {
   Case question_;
 };
 
+/// Tells whether a settled finding needs a second judgement.
+using SecondLook = std::function<bool(const Finding&)>;
+
 /// Judges as judge() does. Where the first judgement accuses the subject (a violation, a wrong decision, a number that
 /// is not finite), judges the answer a second time with Detail::full and returns that second judgement. With
 /// Detail::full the second judgement is always the one returned. Throws InternalError if the two differ in the verdict
 /// or the truth. They may differ in which member is worst, because the first judgement knows distances only between
 /// bounds.
-Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
+///
+/// `needs_second` may save the second judgement of a proved violation that is settled (Finding::settled): where it
+/// returns false, the first judgement is returned.
+Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
+                  const SecondLook& needs_second = {});
 
 }  // namespace nearmiss

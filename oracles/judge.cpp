@@ -65,20 +65,21 @@ class Examination {
   Enclosure exactly(std::vector<Alternative>* list = nullptr) const {
     return oracle_of(*question_.query).exact(question_.values, answer_, question_.scalar, list);
   }
-  /// The highest rung at which no exact answer matches; empty if even the lowest rung may have a match.
-  std::optional<Backward> backward() const {
-    return highest_rung([](const Rung& r) { return !r.may_match; });
+  /// The highest rung at which no exact answer matches; empty if even the lowest rung may have a match. `about`: where
+  /// the search begins.
+  std::optional<Backward> backward(int about) const {
+    return highest_rung(about, [](const Rung& r) { return !r.may_match; });
   }
   /// The same for the given decision, and for one member together with the given decision.
-  std::optional<Backward> backward_of_decision() const {
-    return highest_rung([&](const Rung& r) { return answer_.yes ? !r.may_be_yes : !r.may_be_no; });
+  std::optional<Backward> backward_of_decision(int about) const {
+    return highest_rung(about, [&](const Rung& r) { return answer_.yes ? !r.may_be_yes : !r.may_be_no; });
   }
-  std::optional<Backward> backward_of_member(std::size_t member) const {
-    return highest_rung([&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; });
+  std::optional<Backward> backward_of_member(std::size_t member, int about) const {
+    return highest_rung(about, [&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; });
   }
   /// The highest rung up to which every input has the same decision.
   std::optional<Backward> margin() const {
-    return highest_rung([](const Rung& r) { return r.may_be_yes != r.may_be_no; });
+    return highest_rung(0, [](const Rung& r) { return r.may_be_yes != r.may_be_no; });
   }
   bool in_domain(const collide::Contract& contract) const {
     for (std::size_t role = 0; role < largest_.size(); ++role) {
@@ -128,13 +129,20 @@ class Examination {
     for (std::size_t i = 0; i < e.members.size(); ++i) r.may_match_member |= std::uint32_t{e.members[i].may_match} << i;
     return r;
   }
-  /// Widening an input never shrinks its enclosure, so the rungs that pass come first.
+  /// Widening an input never shrinks its enclosure, so the rungs that pass come first. Starts from what earlier
+  /// searches saw, walks away from `about` in steps that double, and then halves.
   template <class Passes>
-  std::optional<Backward> highest_rung(Passes passes) const {
+  std::optional<Backward> highest_rung(int about, Passes passes) const {
     int low = -1, high = rungs;  // passes at low, fails at high
-    while (high - low > 1) {
-      const int middle = low < 0 ? 0 : high == rungs && low < 8 ? std::min(2 * low + 1, rungs - 1) : (low + high) / 2;
-      (passes(at(middle)) ? low : high) = middle;
+    for (int k = 0; k < high; ++k) {
+      if (const Rung& r = remembered_[std::size_t(k)]; r.known) (passes(r) ? low : high) = k;
+    }
+    const int lowest = low, highest = high;
+    for (int k = about, step = 1; high - low > 1; step *= 2) {
+      k = std::min(std::max(k, low + 1), high - 1);
+      const bool up = passes(at(k));
+      (up ? low : high) = k;
+      k = low > lowest && high < highest ? (low + high) / 2 : up ? k + step : k - step;
     }
     if (low < 0) return std::nullopt;
     return Backward{rung(low)};
@@ -204,6 +212,8 @@ class Judgement {
     judge_members();
     judge_length();
     conclude();
+    f_.forward_at_most = largest_forward();
+    f_.settled = is_settled();
     return std::move(f_);
   }
 
@@ -230,13 +240,21 @@ class Judgement {
       f_.forward_absolute = here_.absolute;
     }
     // The exact stage excludes a match at the input itself where the lowest rung cannot.
-    if (!here_.may_match) f_.backward = x_.backward().value_or(Backward{0});
+    if (!here_.may_match) f_.backward = x_.backward(likely_rung()).value_or(Backward{0});
   }
+  /// A guess at the backward bound. It changes the cost of the search, not the result.
+  int likely_rung() const {
+    const int wrong_by_as_much_as_the_inputs = -std::ilogb(unit_roundoff(question_.scalar));
+    if (decision_differs_ || !(here_.ulps < HUGE_VAL)) return wrong_by_as_much_as_the_inputs;
+    return std::clamp(std::ilogb(std::max(here_.ulps, 1.0)) - 1, 0, wrong_by_as_much_as_the_inputs);
+  }
+  /// The rung of the bound of the whole answer: no member has a higher one.
+  int rung_of_whole() const { return f_.backward && f_.backward->above > 0 ? std::ilogb(f_.backward->above) + 1 : 0; }
   void judge_decision() {
     if (!decision_differs_) return;
     MemberFinding m;
     m.disagreement = answer_.yes ? Disagreement::false_hit : Disagreement::false_miss;
-    m.backward = x_.backward_of_decision().value_or(Backward{0});
+    m.backward = x_.backward_of_decision(rung_of_whole()).value_or(Backward{0});
     if (m.backward->above >= contract_.backward) {
       breaks(m, Clause::backward);
     } else if (contract_.exact_decisions) {
@@ -309,7 +327,7 @@ class Judgement {
   /// Beside a wrong decision, a member counts only if it is wrong for every input that has the given decision too.
   void judge_member(std::size_t member, const Part& part) {
     if (!answer_.gives(part.begin) || here_.members[member].may_match) return;
-    std::optional<Backward> backward = x_.backward_of_member(member);
+    std::optional<Backward> backward = x_.backward_of_member(member, rung_of_whole());
     if (decision_differs_ && !(backward && backward->above > f_.members.front().backward->above)) return;
     const Enclosure::Member& seen = here_.members[member];
     const int worst = seen.number < 0 ? int(part.begin) : seen.number;
@@ -357,7 +375,9 @@ class Judgement {
   }
 
   /// How many times the promised bound is exceeded; orders the headline. A number that is not finite comes first.
-  double excess(const MemberFinding& m) const {
+  double excess(const MemberFinding& m) const { return excess(m, m.forward_ulps); }
+  /// The same with another forward error.
+  double excess(const MemberFinding& m, double forward_ulps) const {
     const auto times = [](double amount, double promised) {
       return std::isfinite(promised) ? amount / std::max(promised, 1.0) : 0.0;
     };
@@ -365,7 +385,7 @@ class Judgement {
     if (m.disagreement == Disagreement::not_unit) return times(std::abs(f_.unit_error), contract_.unit);
     const double backward = m.backward ? m.backward->above : 0.0;
     if (!m.breaks()) return backward;
-    return std::max({times(backward, contract_.backward), times(m.forward_ulps, contract_.forward),
+    return std::max({times(backward, contract_.backward), times(forward_ulps, contract_.forward),
                      contract_.exact_decisions && m.member == MemberFinding::decision ? 1.0 : 0.0});
   }
   /// Members that break the contract come before those that differ; within each group the worst comes first.
@@ -388,6 +408,56 @@ class Judgement {
     if (here_.may_match && head == nullptr) return;  // agrees
     f_.verdict = Verdict::not_proved;
     f_.disagreement = head != nullptr ? head->disagreement : Disagreement::wrong_combination;
+  }
+  /// At most this far, in ulps, is a part of the answer from that of any exact answer with the given decision. A NaN
+  /// has no distance.
+  double forward_at_most(const Part& part) const {
+    double largest = 0, furthest = 0;
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      if (!answer_.gives(i) || std::isnan(answer_.values[i])) continue;
+      largest = std::max(largest, std::abs(answer_.values[i]));
+      furthest = std::max(furthest, here_.error[i].furthest_from_zero());
+    }
+    return std::isfinite(largest) ? furthest / ulp(largest, question_.scalar) : HUGE_VAL;
+  }
+  double largest_forward() const {
+    double largest = 0;
+    if (decision_differs_) return largest;
+    for (const Part& part : query_.layout.parts) largest = std::max(largest, forward_at_most(part));
+    return largest;
+  }
+  /// The finding about the value of a member; nullptr where the member may match, or has no number.
+  const MemberFinding* about_value_of(std::size_t member) const {
+    const auto found = std::find_if(f_.members.begin(), f_.members.end(), [&](const MemberFinding& m) {
+      return m.member == int(member) && m.disagreement != Disagreement::not_unit;
+    });
+    return found == f_.members.end() ? nullptr : &*found;
+  }
+  /// A member that does not break the contract here may break it in full only by a forward error within the enclosure.
+  bool breaks_as_in_full(std::size_t member, const Part& part) const {
+    const MemberFinding* m = about_value_of(member);
+    if ((m != nullptr && m->breaks()) || !is_given(part.begin)) return true;
+    return contract_.backward > 0 && forward_at_most(part) <= contract_.forward;
+  }
+  /// No other member can come before the headline, wherever the forward errors lie in their enclosures.
+  bool has_headline_of_full() const {
+    const MemberFinding* head = f_.headline_member();
+    if (head == nullptr) return true;
+    const std::tuple least(head->breaks(), excess(*head), head->forward_ulps);
+    return std::all_of(f_.members.begin(), f_.members.end(), [&](const MemberFinding& m) {
+      if (&m == head) return true;
+      const double most = m.backward ? forward_at_most(query_.layout.parts[std::size_t(m.member)]) : m.forward_ulps;
+      const std::tuple greatest(m.breaks(), excess(m, most), most);
+      return greatest < least || (greatest == least && &m > head);  // of equals the first one is the headline
+    });
+  }
+  bool is_settled() const {
+    if (detail_ == Detail::full || f_.decided_by == Stage::exact) return true;
+    if (decision_differs_) return f_.members.front().breaks();
+    for (std::size_t i = 0; i < query_.layout.parts.size(); ++i) {
+      if (!breaks_as_in_full(i, query_.layout.parts[i])) return false;
+    }
+    return has_headline_of_full();
   }
   void combination(Clause c) {
     f_.headline = -1;

@@ -98,6 +98,11 @@ struct Finding {
   std::uint64_t branches = 0;          ///< the branches of the oracle that reported right answers (Enclosure::branches)
   std::uint32_t right_answers = 0;     ///< how many right answers the oracle reported; more than one: a tie
 
+  /// True where a judgement with Detail::full has the same verdict, truth and backward bounds, and the same members
+  /// break the contract, with the same headline. Its forward error is at most `forward_at_most` ulps.
+  bool settled = false;
+  double forward_at_most = 0;
+
   std::vector<MemberFinding> members;  ///< every member that differs; empty for a wrong combination
   int headline = -1;                   ///< index in `members` of the one that breaks or differs most; -1: none
 

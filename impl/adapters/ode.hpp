@@ -101,8 +101,8 @@ struct Ode {
   static auto answer(const in::moving_point_capsule<double>& q) -> Reply<collide::Impact<double>> {
     const Geometry capsule = geometry(q.capsule);
     const double depth = dGeomCapsulePointDepth(capsule.get(), q.point.x, q.point.y, q.point.z);
+    if (std::abs(depth) <= rounding_of_depth(q.point, q.capsule)) return CannotAnswer{on_surface};
     if (depth > 0) return collide::Impact<double>::miss();
-    if (depth == 0) return CannotAnswer{on_surface};
     return cast(q.point, q.velocity, capsule, time_to_pass(q.point, 0, q.velocity, ball_around(q.capsule)));
   }
   static auto answer(const in::moving_point_plane<double>& q) -> Reply<collide::Impact<double>> {
@@ -114,6 +114,15 @@ struct Ode {
   }
 
  private:
+  /// At most so far is dGeomCapsulePointDepth() from the exact depth. The center, the axis and the length of the
+  /// capsule are rounded too. In each direction, at most 16 terms up to twice the largest number are added, each with
+  /// at most 8 roundings: of the center, the length, the axis (by a rotation), the place along it, and the distance.
+  static double rounding_of_depth(const Vec3d& p, const collide::Capsule<double>& c) {
+    constexpr double roundings = 2 * 16 * 8 * 0x1p-53;
+    double largest = c.radius;
+    for (const Vec3d& v : {p, c.p0, c.p1}) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return roundings * largest;
+  }
   static constexpr const char* on_surface =
       "ODE's rays do not tell entering from leaving where they start on a surface";
 

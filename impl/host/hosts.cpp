@@ -15,6 +15,7 @@
 
 #include "impl/catalogue/query.hpp"
 #include "impl/host/replies.hpp"
+#include "impl/host/shared_layout.hpp"
 #include "impl/subject/printable.hpp"
 
 namespace nearmiss {
@@ -178,6 +179,14 @@ HostProgram::Batches batches_in(const std::string& word, bool may_share) {
   refuse("its \"batches\" is '{}': it must be \"json\" or \"binary\"", word);
 }
 
+/// A host that was built before or after this program.
+void check_layout(const std::string& stated) {
+  if (stated == shared_layout(catalogue())) return;
+  refuse(
+      "its host is of another build than this program; build all of it again, and check that nothing else builds or "
+      "copies there");
+}
+
 Subject described(std::string_view hello, HostProgram program) {
   if (wire::nesting(hello) > wire::most_nested) refuse("its hello is nested more than {} deep", wire::most_nested);
   const Json j = Json::parse(hello, nullptr, false);
@@ -185,16 +194,17 @@ Subject described(std::string_view hello, HostProgram program) {
     refuse("what it says first is no JSON: {}", hello.substr(0, std::min<std::size_t>(hello.find('\n'), 60)));
   const bool may_share = program.batches == HostProgram::Batches::shared;
   const Members m =
-      may_share
-          ? Members(j, "its hello",
-                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered", "referee"})
-          : Members(j, "its hello",
-                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
+      may_share ? Members(j, "its hello",
+                          {"nearmiss", "refused", "name", "version", "scalar", "batches", "layout", "offers",
+                           "not_offered", "referee"})
+                : Members(j, "its hello",
+                          {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
   const std::optional<int> version = m.whole("nearmiss");
   if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
   if (*version != wire::version)
     refuse("it speaks version {} of the protocol, and this is version {}", *version, wire::version);
   if (const std::string why = m.text("refused"); !why.empty()) refuse("{}", why);
+  if (may_share) check_layout(m.text("layout"));
   Subject s;
   s.name = m.text("name");
   if (s.name.empty() || s.name.size() > most_of_a_name ||

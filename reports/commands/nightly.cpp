@@ -19,6 +19,7 @@
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/page/night_triage.hpp"
 
 namespace nearmiss {
 
@@ -33,6 +34,8 @@ constexpr double default_minutes = 10, most_minutes = 1e6;
 /// shares of the fuzzing time for judging the cases that it found, and for minimising corpora.
 constexpr double climbing_share = 1.0 / 12, properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3, judging_share = 0.1,
                  merging_share = 0.25;
+/// Where --triage-minutes is not given: the share of the total time for the triage, and the most.
+constexpr double triage_share = 0.1, most_triage_minutes = 30;
 static_assert(fuzzing_share * merging_share <= 0.1, "corpora are minimised in at most a tenth of the night");
 constexpr std::uint64_t most_jobs = 1024;
 
@@ -247,9 +250,13 @@ class NightlyCommand : public Command {
          "those that find most have more. Their cases are judged and reported like all others. The targets ask the "
          "tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where "
          "the fuzz targets are not built, the summary and the index say so, and the generated cases get their time.",
-         "The end of the output compares the night with the earlier nights in the same folder, by query, subject "
-         "and kind of finding: new, worse (a proved bound of at least twice the earlier ones), known, and fixed "
-         "(asked again, and right now). The first line is about the subjects whose night it is: collide, plugins, "
+         "The night ends with a triage, as in 'nearmiss triage', for a tenth of the time (at most half an hour) or "
+         "--triage-minutes: reports are grouped into signatures, and compared with those of the last night: new, worse "
+         "(at least twice the proved size), known, and fixed (asked again, and right now). The last night is the one "
+         "before in the same folder; without --out the newest run with a triage. The result is triage/triage.json, and "
+         "index.html is its page, as 'nearmiss render' writes it. With --no-triage, findings are compared by query, "
+         "subject and kind alone, with the earlier nights in the same folder. The first line of the comparison is "
+         "about the subjects whose night it is: collide, plugins, "
          "commands and subjects of NEARMISS_ADD. They alone decide the exit status: 1 for a new or worse finding, a "
          "finding that a stored case does not expect, a broken relation, a failed property, or a fuzz target that "
          "ends with an error.",
@@ -270,6 +277,9 @@ class NightlyCommand : public Command {
     add_whole_number(app, "-j,--jobs", jobs_, "How many fuzz targets run at once. Default: the number of processors", 1,
                      most_jobs);
     add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
+    add_positive_number(app, "--triage-minutes", triage_minutes_,
+                        "The most time of the triage, a part of --minutes and at most half of it", "M", most_minutes);
+    app.add_flag("--no-triage", no_triage_, "End without a triage and without a page")->excludes("--triage-minutes");
     app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
         ->type_name("DIR")
         ->check(CLI::Validator(
@@ -282,7 +292,9 @@ class NightlyCommand : public Command {
   int run(const CLI::App&) override {
     const auto begin = Clock::now();
     const double seconds = 60 * minutes_.value_or(default_minutes);
-    const auto end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    const double for_triage = triage_seconds(seconds);
+    const auto end =
+        begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds - for_triage));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
     foreign_subjects();  // refuses a bad name now rather than in the last third
@@ -312,16 +324,33 @@ class NightlyCommand : public Command {
     run.note("night", changes.to_json());
     run.finish();
     put_aside_fixed(changes, earlier, run.settings().folder);
+    const std::optional<NightTriage> triaged = triage(run, for_triage);
     fmt::print("\n{}\n{}{}\n{}\n{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
-               run.kept().worst_text(), changes.text(run.settings().folder), unexpected_text(unexpected), run.summary(),
-               fuzzing);
+               run.kept().worst_text(), triaged ? triaged->text() : changes.text(run.settings().folder),
+               unexpected_text(unexpected), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     if (std::max(related, run.exit_code()) == InternalError::exit_code) return InternalError::exit_code;
-    if (failed || unexpected > 0 || changes.is_regression()) return 1;
+    if (triaged && triaged->internal_errors() > 0) return InternalError::exit_code;
+    if (failed || unexpected > 0 || (triaged ? triaged->is_regression() : changes.is_regression())) return 1;
     return run.shortfall() ? 2 : 0;
   }
 
  private:
+  double triage_seconds(double seconds) const {
+    if (no_triage_) return 0;
+    if (triage_minutes_) return std::min(60 * *triage_minutes_, seconds / 2);
+    return std::min(seconds * triage_share, 60 * most_triage_minutes);
+  }
+  /// The triage of a night that was not interrupted, noted in the index; empty with --no-triage.
+  std::optional<NightTriage> triage(Run& run, double seconds) const {
+    if (no_triage_ || interrupted()) return std::nullopt;
+    const fs::path folder = run.settings().folder;
+    const std::optional<fs::path> siblings = out_.empty() ? std::optional(folder.parent_path()) : std::nullopt;
+    NightTriage triaged({folder, last_triage(folder, siblings), std::chrono::duration<double>(seconds)});
+    run.note("triage", triaged.to_json());
+    run.finish();
+    return triaged;
+  }
   static std::string unexpected_text(std::uint64_t unexpected) {
     if (unexpected == 0) return "";
     return fmt::format("{} that stored cases do not expect: \"stored\" in index.json\n",
@@ -374,7 +403,8 @@ class NightlyCommand : public Command {
 
   unsigned jobs() const { return unsigned(jobs_.value_or(std::max(1u, std::thread::hardware_concurrency()))); }
 
-  std::optional<double> minutes_;
+  std::optional<double> minutes_, triage_minutes_;
+  bool no_triage_ = false;
   std::optional<std::uint64_t> seed_, jobs_;
   std::string out_, targets_;
 };

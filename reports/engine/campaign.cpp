@@ -63,7 +63,11 @@ void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, st
     dispatcher_.pass_over(subject, query, cases.size() - answers.size());
   const Standard standard = standard_for(subject, query);
   for (std::size_t i = 0; i < answers.size() && (i % between_looks != 0 || !should_stop()); ++i) {
-    const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, detail);
+    const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, detail, [&](const Finding& first) {
+      const Examined e{cases[i], subject, answers[i], first, {}, i};
+      return internal_errors_.count() > 0 ||
+             std::any_of(sinks_.begin(), sinks_.end(), [&](const Sink* s) { return s->needs_second(e); });
+    });
     if (!f) continue;
     const Examined e{cases[i], subject, answers[i], *f, dispatcher_.workers().output(subject, i), i};
     for (Sink* s : sinks_) s->take(e);

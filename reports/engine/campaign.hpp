@@ -33,6 +33,8 @@ class Sink {
   /// The batch is empty for a case that is examined alone.
   virtual void begin_batch(std::span<const Case>) {}
   virtual void take(const Examined& e) = 0;
+  /// True where this sink needs the second judgement of a settled violation (oracles/confirmed.hpp).
+  virtual bool needs_second(const Examined&) const { return true; }
   /// A number of cases that were not asked because the subject was late too often.
   virtual void take_given_up(const Query&, const Subject&, std::uint64_t) {}
   /// Called when no answer of the batch is pending: the sink may ask other cases.

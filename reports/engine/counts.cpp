@@ -94,6 +94,13 @@ void Counts::take(const Examined& e) {
   }
 }
 
+bool Counts::needs_second(const Examined& e) const {
+  constexpr std::uint64_t one_in = 64;
+  const Tally& t = tallies_.at({e.question.query, &e.subject});
+  return t.bad() % one_in == 0 || e.finding.forward_at_most > t.worst_forward ||
+         (!e.finding.backward && t.worst_backward < 0);
+}
+
 void Counts::count_by_class(const Examined& e) {
   if (e.question.moves.empty()) by_class_[{&e.subject, "none"}].count(e.finding);
   for (const auto& move : e.question.moves) by_class_[{&e.subject, std::string(move)}].count(e.finding);

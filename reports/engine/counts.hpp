@@ -21,6 +21,9 @@ class Counts : public Sink {
 
   void begin_batch(std::span<const Case> cases) override { touching_.assign(cases.size(), std::nullopt); }
   void take(const Examined& e) override;
+  /// Where the second judgement may raise the worst error; and for a sample, so that a judge that contradicts itself is
+  /// noticed.
+  bool needs_second(const Examined& e) const override;
   void take_given_up(const Query& query, const Subject& subject, std::uint64_t cases) override;
 
   /// The counts of one subject on one query; nullptr where the subject does not offer it.

@@ -17,9 +17,9 @@ constexpr const char* subfolder = "internal-errors";
 }
 
 std::optional<Finding> InternalErrors::judged(const Case& question, const Subject& subject, const Answer& answer,
-                                              const Standard& standard, Detail detail) {
+                                              const Standard& standard, Detail detail, const SecondLook& needs_second) {
   try {
-    return confirmed(question, answer, standard, detail);
+    return confirmed(question, answer, standard, detail, needs_second);
   } catch (const InternalError& error) {
     add(subject, error);
     return std::nullopt;

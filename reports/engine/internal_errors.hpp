@@ -20,7 +20,7 @@ class InternalErrors {
 
   /// confirmed(); empty, after add(), where the judge contradicts itself.
   std::optional<Finding> judged(const Case& question, const Subject& subject, const Answer& answer,
-                                const Standard& standard, Detail detail);
+                                const Standard& standard, Detail detail, const SecondLook& needs_second = {});
   /// Counts the error. For the first few it prints one line with both findings to standard error, and stores the case
   /// as a file for 'nearmiss replay'. Throws IoError where the file cannot be written.
   void add(const Subject& subject, const InternalError& error);

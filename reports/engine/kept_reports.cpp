@@ -22,10 +22,23 @@ void KeptReports::list_those_on_disk() {
   for (WrittenReport& w : written_) w.earlier = true;
 }
 
+namespace {
+
+Variant variant_of(const Examined& e) {
+  return {e.finding.branches, feature_regions_of(e.question), is_ordinary(e.question)};
+}
+
+}  // namespace
+
+bool KeptReports::needs_second(const Examined& e) const {
+  return is_bad(e.finding) &&
+         retention_.would_keep(*counts_.of(*e.question.query, e.subject), e.finding, variant_of(e));
+}
+
 void KeptReports::take(const Examined& e) {
   if (!is_bad(e.finding)) return;
   const Tally& tally = *counts_.of(*e.question.query, e.subject);
-  const Variant variant{e.finding.branches, feature_regions_of(e.question), is_ordinary(e.question)};
+  const Variant variant = variant_of(e);
   const bool kept = retention_.keep(tally, e.finding, variant);
   variants_.count(tally, e, variant, kept);
   if (!kept) return;

@@ -26,6 +26,7 @@ class KeptReports : public Sink {
   void list_those_on_disk();
 
   void take(const Examined& e) override;
+  bool needs_second(const Examined& e) const override;
   void end_batch() override;
 
   /// All reports; those of earlier runs in the folder come first.

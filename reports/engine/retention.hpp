@@ -17,6 +17,8 @@ class Retention {
   /// True where a finding of this kind and variant (any number) is kept. `above` is its proved bound, which orders the
   /// findings of a kind; 0 or negative: no bound.
   bool keep(const std::string& kind, std::uint64_t variant, double above, First first);
+  /// The result of keep(), without keeping.
+  bool would_keep(const std::string& kind, std::uint64_t variant, double above, First first) const;
   /// The same for a kind without variants.
   bool keep(const std::string& kind, double above, std::uint64_t first_few) {
     return keep(kind, 0, above, {first_few, first_few});

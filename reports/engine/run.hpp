@@ -107,6 +107,7 @@ class Run {
     void take(const Examined& e) override {
       if (to != nullptr) to->take(e);
     }
+    bool needs_second(const Examined& e) const override { return to != nullptr && to->needs_second(e); }
   };
   std::vector<const Subject*> offering(const Query& query) const;
   void write_record(const Climb& c, std::map<const Climb*, double>& written) const;

@@ -106,20 +106,40 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
           {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
 }
 
-bool FindingRetention::keep(const Tally& of, const Finding& f, const Variant& variant) {
-  // Two variants with one number would share their first few.
-  const std::uint64_t alike = (variant.branches ^ std::uint64_t{variant.regions.bits()} << 1) * 2 + variant.ordinary;
-  const auto keeps = [&](std::string_view fault, const std::optional<Backward>& bound) {
-    const std::string kind = fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault);
-    return retention_.keep(kind, alike, bound ? bound->above : 0, {first_few, most_of_a_kind});
+namespace {
+
+/// True where `keeps` is true of the kind and the bound of any fault of the finding; asks about each one.
+template <class Keeps>
+bool any_is_kept(const Tally& of, const Finding& f, Keeps keeps) {
+  const auto keeps_fault = [&](std::string_view fault, const std::optional<Backward>& bound) {
+    return keeps(fmt::format("{}/{}/{}", of.query->name, of.subject->name, fault), bound ? bound->above : 0);
   };
-  if (f.verdict == Verdict::broke) return keeps("broke/" + of.breakage_of(f), std::nullopt);
-  if (f.headline < 0) return keeps(fault_of(f), f.backward);
+  if (f.verdict == Verdict::broke) return keeps_fault("broke/" + of.breakage_of(f), std::nullopt);
+  if (f.headline < 0) return keeps_fault(fault_of(f), f.backward);
   bool any = false;
   for (const MemberFinding& m : f.members) {
-    if (m.breaks()) any = keeps(fmt::format("{}/{}", name_of(m.disagreement), m.member), m.backward) || any;
+    if (m.breaks()) any = keeps_fault(fmt::format("{}/{}", name_of(m.disagreement), m.member), m.backward) || any;
   }
   return any;
+}
+
+/// Two variants with one number would share their first few.
+std::uint64_t number_of(const Variant& v) {
+  return (v.branches ^ std::uint64_t{v.regions.bits()} << 1) * 2 + v.ordinary;
+}
+
+}  // namespace
+
+bool FindingRetention::keep(const Tally& of, const Finding& f, const Variant& variant) {
+  return any_is_kept(of, f, [&](const std::string& kind, double above) {
+    return retention_.keep(kind, number_of(variant), above, {first_few, most_of_a_kind});
+  });
+}
+
+bool FindingRetention::would_keep(const Tally& of, const Finding& f, const Variant& variant) const {
+  return any_is_kept(of, f, [&](const std::string& kind, double above) {
+    return retention_.would_keep(kind, number_of(variant), above, {first_few, most_of_a_kind});
+  });
 }
 
 }  // namespace nearmiss

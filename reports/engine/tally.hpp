@@ -63,6 +63,8 @@ nlohmann::ordered_json tally_to_json(const Tally& t);
 class FindingRetention {
  public:
   bool keep(const Tally& of, const Finding& f, const Variant& variant = {});
+  /// The result of keep(), without keeping.
+  bool would_keep(const Tally& of, const Finding& f, const Variant& variant) const;
   static constexpr std::uint64_t first_few = 4, most_of_a_kind = 32;
 
  private:

@@ -94,6 +94,10 @@ std::string count_text(std::uint64_t n) {
 }
 
 std::string plural_text(std::uint64_t n, std::string_view noun) {
+  constexpr std::string_view vowels = "aeiou";
+  const bool turns_to_ies =
+      noun.size() > 1 && noun.back() == 'y' && vowels.find(noun[noun.size() - 2]) == std::string_view::npos;
+  if (n != 1 && turns_to_ies) return fmt::format("{} {}ies", count_text(n), noun.substr(0, noun.size() - 1));
   const std::string_view ending = n == 1                                                               ? ""
                                   : noun.ends_with('s') || noun.ends_with('x') || noun.ends_with("ch") ? "es"
                                                                                                        : "s";
@@ -161,6 +165,19 @@ std::string one_line(std::string_view text, std::size_t most) {
   if (cut == text.size()) return printable(text);
   return fmt::format("{} ... ({} bytes) ... {}", printable(text.substr(0, cut)), count_text(goes_on - cut),
                      printable(text.substr(goes_on)));
+}
+
+std::string first_words(std::string_view text, std::size_t most) {
+  constexpr std::string_view left_out = " ...";
+  const std::string line = printable(text);
+  if (line.size() <= most) return line;
+  std::size_t cut = most - left_out.size();
+  if (line[cut] != ' ') {
+    const std::size_t space = line.rfind(' ', cut);
+    if (space != std::string::npos && space > 0) cut = space;
+  }
+  while (cut > 0 && (line[cut] & 0xC0) == 0x80) --cut;
+  return line.substr(0, cut) + std::string(left_out);
 }
 
 std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent,

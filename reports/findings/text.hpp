@@ -22,7 +22,7 @@ std::string epsilons_text(double k);
 std::string amount_text(double k, Scalar scalar);
 /// 1234567 as "1,234,567".
 std::string count_text(std::uint64_t n);
-/// "1 case", "1,234 cases", "2 misses".
+/// "1 case", "1,234 cases", "2 misses", "3 queries".
 std::string plural_text(std::uint64_t n, std::string_view noun);
 /// "a", "a and b", "a, b and c".
 std::string list_text(std::span<const std::string> items);
@@ -41,6 +41,10 @@ std::string unknown_text(std::string_view what, std::string_view word, std::span
 /// Text for one line: printable (impl/subject/printable.hpp), and shortened in its middle where it exceeds `most`
 /// bytes.
 std::string one_line(std::string_view text, std::size_t most = 1000);
+
+/// The first whole words of a text, on one line of at most `most` bytes; " ..." stands for those that are left out. A
+/// first word that is longer is cut.
+std::string first_words(std::string_view text, std::size_t most);
 
 /// A table with columns padded to their widest cell and two spaces between them; the first row is the heading. Columns
 /// from `right_from` on are aligned to the right.

@@ -32,7 +32,7 @@ nearmiss.numbers = (() => {
   }
   /// Text of a report with its powers as a person writes them: 2^50 as 2⁵⁰.
   const readable = text => text.replace(/\^(-?\d+)/g, (_, n) => raised(n));
-  const plural = (n, noun) => `${count(n)} ${noun}${n === 1 ? "" : "s"}`;
+  const plural = (n, noun) => `${count(n)} ${n === 1 ? noun : noun.replace(/([^aeiou])y$/, "$1ie") + "s"}`;
 
   /// An element with attributes and children. Text is never read as HTML.
   function element(name, attributes = {}, ...children) {

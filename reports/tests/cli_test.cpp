@@ -289,7 +289,7 @@ TEST(Run, EndsNobodyElseWhereNoWorkerCanBeStarted) {
 TEST(Run, SaysThatNothingWasAsked) {
   const TemporaryFolder folder;
   const Ran run = nearmiss({"run", "--seconds", "1e-9", "--out", (folder / "r").string()});
-  const Ran night = nearmiss({"nightly", "--minutes", "1e-9", "--out", (folder / "n").string()});
+  const Ran night = nearmiss({"nightly", "--no-triage", "--minutes", "1e-9", "--out", (folder / "n").string()});
   for (const Ran& ran : {run, night}) {
     EXPECT_EQ(ran.exit_code, 2);
     EXPECT_TRUE(ran.err.starts_with("nearmiss: nothing was asked: ")) << ran.err;
@@ -561,8 +561,9 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   const fs::path target = folder.file("targets/fuzz_moving_sphere_box", fuzz_target(seed, artifact));
   fs::permissions(target, fs::perms::owner_all);
   const std::string plugin = plugin_file("skim_plugin");
-  const Ran ran = nearmiss({"nightly", "--minutes", is_sanitized ? "1" : "0.25", "--seed", "3", "--plugin", plugin,
-                            "--fuzz-targets", (folder / "targets").string(), "--out", (folder / "r").string()});
+  const Ran ran =
+      nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "1" : "0.25", "--seed", "3", "--plugin", plugin,
+                "--fuzz-targets", (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   const json index = index_of(folder / "r");
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
@@ -638,8 +639,8 @@ TEST(Nightly, FailsWithATargetThatEndsWithAnError) {
   const fs::path target =
       folder.file("targets/fuzz_" + query, "#!/bin/sh\nexit 77\n" + std::string("\0max_total_time\0", 16));
   fs::permissions(target, fs::perms::owner_all);
-  const Ran ran = nearmiss({"nightly", "--minutes", "0.25", "--fuzz-targets", (folder / "targets").string(), "--out",
-                            (folder / "r").string()});
+  const Ran ran = nearmiss({"nightly", "--no-triage", "--minutes", "0.25", "--fuzz-targets",
+                            (folder / "targets").string(), "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r");
   ASSERT_EQ(index["fuzz"]["targets"].size(), 1u) << index["fuzz"];
@@ -653,7 +654,7 @@ TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
   fs::create_directory(folder / "targets");
   const std::string query(catalogue().front().name);
   folder.file("targets/fuzz_" + query, std::string("\0max_total_time\0", 16));  // not executable
-  const Ran ran = nearmiss({"nightly", "--minutes", is_sanitized ? "0.5" : "0.1", "--fuzz-targets",
+  const Ran ran = nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "0.5" : "0.1", "--fuzz-targets",
                             (folder / "targets").string(), "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r");
@@ -666,8 +667,8 @@ TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
 TEST(Nightly, SaysThatFuzzTargetsAreNotBuilt) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "targets");
-  const Ran ran = nearmiss({"nightly", "--minutes", "0.02", "--fuzz-targets", (folder / "targets").string(), "--out",
-                            (folder / "r").string()});
+  const Ran ran = nearmiss({"nightly", "--no-triage", "--minutes", "0.02", "--fuzz-targets",
+                            (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   EXPECT_TRUE(last_line(ran.out).ends_with("fuzzing: not built")) << ran.out;
   const json index = index_of(folder / "r");

@@ -85,8 +85,8 @@ TEST(Nightly, EndsWhenItIsToldTo) {
   for (const double after : {0.5, 3.0}) {
     const std::string mark = new_mark();
     Started nightly(nearmiss_program(),
-                    {"nightly", "--minutes", "10", "--patience", "3000", "--command", zoo_program(), "--out",
-                     (folder / std::to_string(after)).string()},
+                    {"nightly", "--no-triage", "--minutes", "10", "--patience", "3000", "--command", zoo_program(),
+                     "--out", (folder / std::to_string(after)).string()},
                     {mark, "NEARMISS_ZOO=always-sleeps"});
     EXPECT_FALSE(nightly.wait(after).has_value());
     nightly.send(SIGTERM);
@@ -247,7 +247,8 @@ TEST(Killed, NightsLeaveNothingButWhatTheyFound) {
       targets.file("fuzz_sphere_sphere_overlap",
                    "#!/bin/sh\ntrap '' INT TERM\nsleep 600 & sleep 600\n" + std::string("\0max_total_time\0", 16));
   fs::permissions(target, fs::perms::owner_all);
-  expect_to_survive_kills({"nightly", "--minutes", "0.15", "--fuzz-targets", targets.path().string()}, 8.5);
+  expect_to_survive_kills({"nightly", "--no-triage", "--minutes", "0.15", "--fuzz-targets", targets.path().string()},
+                          8.5);
 }
 
 }  // namespace

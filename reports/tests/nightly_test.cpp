@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "corpus/codec.hpp"
 #include "reports/engine/fuzz_night.hpp"
 #include "reports/engine/night_changes.hpp"
+#include "reports/page/night_triage.hpp"
 #include "reports/tests/program.hpp"
+#include "reports/tests/schema.hpp"
 
 namespace nearmiss {
 namespace {
@@ -212,8 +215,9 @@ TEST(NightChanges, ReportsOfFixedKindsMoveAside) {
 TEST(Nightly, AnAddedLibrarysFindingsAreNewInTheFirstNightAndKnownInTheSecond) {
   const TemporaryFolder folder;
   const auto night = [&] {
-    return nearmiss({"nightly", "--minutes", "0.2", "--seed", "5", "--plugin", plugin_file("skim_plugin"),
-                     "--fuzz-targets", folder.path().string(), "--out", (folder / "r").string()});
+    return nearmiss({"nightly", "--no-triage", "--minutes", "0.2", "--seed", "5", "--plugin",
+                     plugin_file("skim_plugin"), "--fuzz-targets", folder.path().string(), "--out",
+                     (folder / "r").string()});
   };
   const Ran first = night();
   EXPECT_EQ(first.exit_code, 1) << first.out << first.err;
@@ -227,6 +231,50 @@ TEST(Nightly, AnAddedLibrarysFindingsAreNewInTheFirstNightAndKnownInTheSecond) {
   const Ran second = night();
   EXPECT_LE(second.exit_code, 1) << second.err;
   EXPECT_GT(kinds("known"), 0u) << second.out;
+}
+
+/// The planted plugin calls balls larger than they are.
+TEST(Nightly, EndsWithATriageAgainstTheLastNightAndAPage) {
+  ::setenv("NEARMISS_PLANTED", "R", 1);
+  const TemporaryFolder folder;
+  const auto night = [&] {
+    return nearmiss({"nightly", "--minutes", "0.3", "--triage-minutes", "0.1", "--seed", "5", "--plugin",
+                     plugin_file("planted"), "--fuzz-targets", folder.path().string(), "--out",
+                     (folder / "r").string()});
+  };
+  const auto changes_of_planted = [&] {
+    std::set<std::string> changes;
+    const auto triage = nlohmann::json::parse(read_file(folder / "r/triage/triage.json"));
+    for (const auto& s : triage.at("signatures")) {
+      if (s.at("subject") == "planted") changes.insert(s.at("change"));
+    }
+    return changes;
+  };
+  const Ran first = night();
+  EXPECT_EQ(first.exit_code, 1) << first.out << first.err;
+  EXPECT_EQ(changes_of_planted(), std::set<std::string>{"new"}) << first.out;
+  EXPECT_NE(first.out.find("no earlier night to compare with\n"), std::string::npos) << first.out;
+  const Ran second = night();
+  EXPECT_LE(second.exit_code, 1) << second.err;
+  EXPECT_TRUE(changes_of_planted().contains("known")) << second.out;
+  const auto index = nlohmann::json::parse(read_file(folder / "r/index.json"));
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index.at("triage").at("compared"), true);
+  EXPECT_GT(index.at("triage").at("ours").at("known"), 0) << second.out;
+  EXPECT_EQ(fs::exists(folder / "r/index.html"), index.at("triage").at("page").is_string());
+  ::unsetenv("NEARMISS_PLANTED");
+}
+
+TEST(Nightly, ComparesWithTheNewestRunThatHasATriage) {
+  const TemporaryFolder runs;
+  for (const char* name : {"20260101T000000Z-9", "20260102T000000Z-1", "20260103T000000Z-5"})
+    fs::create_directories(runs / name / "triage");
+  EXPECT_FALSE(last_triage(runs / "20260103T000000Z-5", runs.path()));
+  for (const char* name : {"20260101T000000Z-9", "20260102T000000Z-1"})
+    write_file(runs / name / "triage/triage.json", "{}");
+  EXPECT_EQ(last_triage(runs / "20260103T000000Z-5", runs.path()), runs / "20260102T000000Z-1/triage/triage.json");
+  EXPECT_EQ(last_triage(runs / "20260101T000000Z-9", std::nullopt), runs / "20260101T000000Z-9/triage/triage.json");
+  EXPECT_FALSE(last_triage(runs / "20260103T000000Z-5", std::nullopt));
 }
 
 }  // namespace

@@ -186,6 +186,18 @@ TEST(Text, GroupsDigitsAndMakesPlurals) {
   EXPECT_EQ(count_text(1234567), "1,234,567");
   EXPECT_EQ(plural_text(1, "false miss"), "1 false miss");
   EXPECT_EQ(plural_text(2, "false miss"), "2 false misses");
+  EXPECT_EQ(plural_text(6, "query"), "6 queries");
+  EXPECT_EQ(plural_text(1, "query"), "1 query");
+  EXPECT_EQ(plural_text(2, "day"), "2 days");
+}
+
+TEST(Text, EndsAShortenedTextAtAWord) {
+  EXPECT_EQ(first_words("killed by signal 6", 18), "killed by signal 6");
+  EXPECT_EQ(first_words("killed by signal 6", 17), "killed by ...");
+  EXPECT_EQ(first_words("killed by signal 6", 13), "killed by ...");
+  EXPECT_EQ(first_words("killed by signal 6", 12), "killed ...");
+  EXPECT_EQ(first_words("aVeryLongWordIndeed", 10), "aVeryL ...");
+  EXPECT_EQ(first_words("\xc3\xa4\xc3\xb6\xc3\xbc\xc3\xa4\xc3\xb6", 9), "\xc3\xa4\xc3\xb6 ...");
 }
 
 TEST(Text, FindsCloseMatchesOnly) {

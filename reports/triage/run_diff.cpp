@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include "corpus/codec.hpp"
@@ -60,6 +61,8 @@ RunFindings findings_of(const fs::path& folder) {
     for (const WrittenReport& w : reports_on_disk(folder)) add_report(run, folder, w, has_counts);
   } catch (const json::exception&) {
     throw BadInput(fmt::format("{}: it is no index of a run of this version", file.string()));
+  } catch (const std::logic_error&) {  // of a number in it
+    throw BadInput(fmt::format("{}: it is no index of a run of this version", file.string()));
   }
   for (auto& [kind, in_run] : run.kinds) in_run.asked = run.asked_of(kind);
   // Reports of an earlier run in the same folder may concern what this run did not ask.
@@ -84,7 +87,7 @@ Json in_run_to_json(const KindInRuns::InRun& r) {
 
 std::string what_of(const FindingKind& k) {
   const std::string member = k.member.empty() || k.member == "decision" ? "" : " of " + k.member;
-  const std::string reason = k.fault == "broke" ? ": " + one_line(k.clause, 40) : "";
+  const std::string reason = k.fault == "broke" ? ": " + first_words(k.clause, 40) : "";
   return k.fault + member + reason;
 }
 
