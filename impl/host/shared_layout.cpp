@@ -42,7 +42,7 @@ class LayoutHash {
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
 
 void add_memory(LayoutHash& hash) {
-  using wire::SharedAnswers, wire::SharedRequest;
+  using wire::SharedAnswers, wire::SharedRequest, wire::TimedBatch;
   using Head = SharedAnswers::Head;
   for (const std::size_t number : {sizeof(SharedRequest),
                                    offsetof(SharedRequest, offer),
@@ -50,6 +50,7 @@ void add_memory(LayoutHash& hash) {
                                    offsetof(SharedRequest, first),
                                    offsetof(SharedRequest, count),
                                    offsetof(SharedRequest, rounding),
+                                   offsetof(SharedRequest, timed),
                                    offsetof(SharedRequest, answer),
                                    offsetof(SharedRequest, values),
                                    sizeof(SharedAnswers),
@@ -57,6 +58,12 @@ void add_memory(LayoutHash& hash) {
                                    offsetof(SharedAnswers, heads),
                                    offsetof(SharedAnswers, numbers),
                                    offsetof(SharedAnswers, reasons),
+                                   offsetof(SharedAnswers, timed),
+                                   sizeof(TimedBatch),
+                                   offsetof(TimedBatch, processor_nanoseconds),
+                                   offsetof(TimedBatch, rounds),
+                                   offsetof(TimedBatch, typed),
+                                   offsetof(TimedBatch, pinned),
                                    sizeof(Head),
                                    offsetof(Head, status),
                                    offsetof(Head, yes),
