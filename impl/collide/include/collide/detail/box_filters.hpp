@@ -40,7 +40,7 @@ std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere, cons
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
     constexpr W u = std::numeric_limits<W>::epsilon() / 2, most = half_ulp<T> / 64;
-    if (!all_finite(sphere, box)) return std::nullopt;
+    if (!(magnitudes(box.half) <= std::numeric_limits<T>::max())) return std::nullopt;
     const Axes<W> axes = axes_in_wider(box.orientation);
     const Vec3<W> middle = in_wider(box.center), center = in_wider(sphere.center), between = center - middle;
     const std::array<W, 3> half = components(in_wider(box.half)), local = into_frame<Plain>(axes, between);
@@ -85,7 +85,6 @@ std::optional<CornerContacts<T>> filtered_contacts(const Box<T>& box, const Plan
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
     constexpr W u = std::numeric_limits<W>::epsilon() / 2, most = half_ulp<T> / 32;
-    if (!all_finite(box, plane)) return std::nullopt;
     const Axes<W> axes = axes_in_wider(box.orientation);
     const Vec3<W> middle = in_wider(box.center), half = in_wider(box.half), n = in_wider(plane.normal);
     const Vec3<W> x = axes[0] * half.x, y = axes[1] * half.y, z = axes[2] * half.z;
@@ -97,8 +96,9 @@ std::optional<CornerContacts<T>> filtered_contacts(const Box<T>& box, const Plan
     const W norm = detail::sqrt(Plain::dot(n, n)), inverse = W(1) / norm;
     CornerContacts<T> answer;
     answer.depth = T(-lowest * inverse);
-    if (!(norm > W(0) && size <= most * detail::abs(lowest) &&
-          detail::abs(answer.depth) >= std::numeric_limits<T>::min()))
+    const T magnitude = detail::abs(answer.depth);
+    if (!(norm > W(0) && size <= std::numeric_limits<W>::max() && size <= most * detail::abs(lowest) &&
+          magnitude >= std::numeric_limits<T>::min() && magnitude <= std::numeric_limits<T>::max()))
       return std::nullopt;
     if (lowest > W(0)) return answer;
     answer.normal = rounded_to<T>(n * inverse);
@@ -134,13 +134,15 @@ std::optional<BoxBoxInfo<T>> filtered_info(const Box<T>& box1, const Box<T>& box
     };
     BoxBoxInfo<T> info;
     info.half1 = box1.half, info.half2 = box2.half, info.between = rounded_to<T>(between);
+    T all = magnitudes(info.half1) + magnitudes(info.half2) + magnitudes(info.between);
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3<T> row = rounded_in(axes2, axes1[i]);
       info.cosine[i] = row;
       info.abs_cosine[i] = {detail::abs(row.x), detail::abs(row.y), detail::abs(row.z)};
+      all += magnitudes(row);
     }
     info.between1 = rounded_in(axes1, between), info.between2 = rounded_in(axes2, between);
-    if (all_finite(box1, box2) && all_finite(info)) return info;
+    if (all <= std::numeric_limits<T>::max() / 8) return info;
   }
   return std::nullopt;
 }

@@ -170,7 +170,8 @@ std::optional<Impact<T>> filtered_contact(const Vec3<T>& center, T radius, const
     if (terms + reach <= (height - reach) * m)
       return accurate_impact(center, radius, step, height - reach, approach, n);
     if (radius > T(0) && terms + reach <= (reach - height) * half_ulp<T> &&
-        terms + reach <= (reach + height) * half_ulp<T> && all_finite(center, radius, velocity, plane)) {
+        terms + reach <= (reach + height) * half_ulp<T> && radius <= std::numeric_limits<T>::max() &&
+        all_finite(center, velocity, plane)) {
       const Vec3<T> contact = rounded_to<T>(from - n * (height / length2));
       if (terms <= detail::sqrt(length2) * W(largest_magnitude(contact)) * (half_ulp<T> / 32))
         return Impact<T>{T(0), contact, rounded_to<T>(n * (W(1) / detail::sqrt(length2)))};
@@ -220,7 +221,6 @@ template <class T>
 std::optional<ClosestPoints<T>> filtered_closest_points(const Line<T>& line1, const Line<T>& line2) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
-    if (!all_finite(line1, line2)) return std::nullopt;
     const Vec3<W> first = in_wider(line1.point), second = in_wider(line2.point), between = second - first;
     const Vec3<W> along1 = in_wider(line1.direction), along2 = in_wider(line2.direction);
     const Vec3<W> normal = Plain::cross(along1, along2);
@@ -237,12 +237,14 @@ std::optional<ClosestPoints<T>> filtered_closest_points(const Line<T>& line1, co
 }
 
 /// A penetration, or nullopt where it is not accurate: where `of_depth` is more than half_ulp / 64 of the depth, or
-/// `of_contact` more than that of the contact's largest number.
+/// `of_contact` more than that of the contact's largest number, or one of them is not finite.
 template <class T, class W>
 std::optional<Penetration<T>> accurate_penetration(W depth, const Vec3<W>& normal, const Vec3<W>& contact, W of_depth,
                                                    W of_contact) {
   constexpr W most = half_ulp<T> / 64;
-  if (!(of_depth <= most * detail::abs(depth) && detail::abs(T(depth)) >= std::numeric_limits<T>::min()))
+  const T magnitude = detail::abs(T(depth));
+  if (!(of_depth <= most * detail::abs(depth) && magnitude >= std::numeric_limits<T>::min() &&
+        magnitude <= std::numeric_limits<T>::max() && of_contact <= W(std::numeric_limits<T>::max())))
     return std::nullopt;
   if (depth < W(0)) return Penetration<T>{T(depth), {}, {}};
   const Penetration<T> answer{T(depth), rounded_to<T>(normal), rounded_to<T>(contact)};
@@ -258,7 +260,6 @@ template <class T>
 std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
-    if (!all_finite(sphere1, sphere2)) return std::nullopt;
     const Vec3<W> center = in_wider(sphere1.center), between = in_wider(sphere2.center) - center;
     const W distance = detail::sqrt(Plain::dot(between, between)), radius = W(sphere1.radius);
     const W radii = radius + W(sphere2.radius);
@@ -279,7 +280,6 @@ template <class T>
 std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere, const Plane<T>& plane) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
-    if (!all_finite(sphere, plane)) return std::nullopt;
     const Vec3<W> center = in_wider(sphere.center), n = in_wider(plane.normal);
     const Vec3<W> above{n.x * center.x, n.y * center.y, n.z * center.z};
     const W length2 = Plain::dot(n, n), inverse = W(1) / detail::sqrt(length2);
