@@ -248,7 +248,7 @@ TEST(Scenes, ALogarithmicSpreadHasAsManyOfEachOrder) {
     ASSERT_TRUE(x >= 1 && x <= 1024);
     ++octaves[std::ilogb(x)];
   }
-  for (int k = 0; k < 10; ++k) EXPECT_NEAR(octaves[k], draws / 10, 6 * std::sqrt(draws / 10.0)) << k;
+  for (int k = 0; k < 10; ++k) EXPECT_NEAR(octaves[k], draws / 10.0, 6 * std::sqrt(draws / 10.0)) << k;
 }
 
 /// The first round asks the recorded cases as they are; the next ones move a shape by at most eight times the

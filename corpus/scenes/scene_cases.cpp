@@ -26,7 +26,7 @@ Random random_at(const Scene& scene, std::string_view query, int scalar, std::ui
   return Random(Random(Random(seed).bits() ^ stream).bits() ^ Random(index).bits());
 }
 
-/// A length of up to eight times the tolerable error, of either sign; uniform in its logarithm over 24 octaves.
+/// A length of up to eight times the tolerable error, of either sign; in each of 25 octaves equally often.
 double draw_gap(Random& random, const Scene& scene) {
   const double tolerable = std::max(scene.required.position_error.value, scene.required.missed_depth.value);
   return random.sign() * tolerable * std::ldexp(random.uniform(1, 2), random.between(-22, 2));

@@ -161,7 +161,7 @@ void Selection::check_offered() const {
 void SceneOption::declare(CLI::App& app) {
   app.add_option("--scene", name,
                  "Take the cases from this scene, a name that 'nearmiss scene list' shows or a file, in place of the "
-                 "generator")
+                 "generator; --cases then counts the cases of its mix")
       ->type_name("SCENE");
 }
 
