@@ -1,43 +1,10 @@
 /// The plugin "planted": `collide` in the tier Accurate and in double, with one planted mistake for each query. It
 /// keeps the contract of that tier except for the mistake. fuzz/feedback-gain measures how soon fuzz targets find the
 /// mistakes. planted.def is the table of the mistakes.
-#include <algorithm>
-#include <cmath>
-
-#include "impl/adapters/collide.hpp"
-#include "impl/catalogue/answer.hpp"
-#include "impl/plugin/nearmiss_plugin.h"
+#include "fuzz/planted/planting.hpp"
 
 namespace nearmiss::planted {
 namespace {
-
-using Vector = collide::Vec3<double>;
-
-double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double length(const Vector& a) { return std::hypot(a.x, a.y, a.z); }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vector normal_of(const collide::Triangle<double>& t) { return cross(t.v1 - t.v0, t.v2 - t.v0); }
-/// Whether the angle between the vector and the plane with this unit normal has a sine below `sine`.
-bool grazes(const Vector& normal, const Vector& vector, double sine) {
-  return std::abs(dot(normal, vector)) < sine * length(vector);
-}
-
-template <class Q>
-[[gnu::noinline]] typename Q::Answer right(const Q& q) {
-  return adapters::ask_collide<collide::Accurate>(q);
-}
-Vector nearest(const Vector& a, const Vector& b, const Vector& p) {
-  return right(inputs::closest_point_segment<double>{{a, b}, p}).point;
-}
-/// The cross product of two axes, or one axis, as box_box_separating_axis numbers them.
-template <class Q>
-Vector axis_of(const Q& q, int axis) {
-  return right(inputs::box_box_separating_axis<double>{q.box1, q.box2, axis}).direction;
-}
-
-#define NEARMISS_MISTAKE(query) inputs::query<double>::Answer mistake(inputs::query<double> q)
 
 NEARMISS_MISTAKE(closest_point_segment) {
   if (length(q.segment.v1 - q.segment.v0) < 1e-6 * length(q.point - q.segment.v0)) return {q.segment.v0};
@@ -275,36 +242,10 @@ NEARMISS_MISTAKE(slide_direction) {
   return right(q);
 }
 
-template <class Q>
-int answer(const double* numbers, nearmiss_answer* to) {
-  const Answer a = erase(mistake(inputs_from<Q>(numbers)));
-  to->yes = a.yes;
-  std::copy_n(a.values.begin(), a.count, to->values);
-  return NEARMISS_ANSWERED;
-}
-
-template <class Q>
-nearmiss_contract contract() {
-  const collide::Contract c = adapters::CollideFunction<Q>::template contract<collide::Accurate>();
-  return {c.backward, c.forward, c.unit, c.exact_decisions, c.lowest, c.highest};
-}
-
-template <class S>
-int count_of_leaves() {
-  S s{};
-  int count = 0;
-  collide::for_each_leaf(s, [&](const auto&, collide::Role) { ++count; });
-  return count;
-}
-
-template <class Q>
-nearmiss_offer offer(const char* query) {
-  static const nearmiss_contract promise = contract<Q>();
-  return {query, count_of_leaves<Q>(), count_of_leaves<typename Q::Answer>(), nullptr, &promise, answer<Q>, 0};
-}
-
 }  // namespace
 }  // namespace nearmiss::planted
+
+#include "fuzz/planted/planted_offers.hpp"
 
 extern "C" const nearmiss_plugin* nearmiss_plugin_entry() {
   using namespace nearmiss;

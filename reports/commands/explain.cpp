@@ -29,8 +29,9 @@ class ExplainCommand : public Command {
          "four rounding modes, multiplied by powers of two, with neighbouring numbers, and generated cases of the same "
          "query. Each answer is judged. Without a report and without --subject, every subject that offers the query is "
          "examined.",
-         "A cause is named only where its test passed: rounding, absolute tolerance, iteration limit, unsupported, "
-         "overflow, underflow, convention, logic. Otherwise the finding is unexplained. docs/triage.md has the tests.",
+         "A cause is named only where its test passed: rounding, absolute tolerance, relative tolerance, "
+         "iteration limit, unsupported, overflow, underflow, convention, logic. Otherwise the finding is unexplained. "
+         "docs/triage.md has the tests.",
          "The report is written to FOLDER/QUERY/SUBJECT-FAULT-ID.json, with the cause and the evidence under "
          "\"cause\". The result is the same each time, unless --seconds ended the search."},
         judging_exit_status(),

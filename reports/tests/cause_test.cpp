@@ -14,9 +14,12 @@
 #include "reports/tests/schema.hpp"
 #include "reports/triage/border.hpp"
 #include "reports/triage/cause.hpp"
+#include "reports/triage/crossings.hpp"
+#include "reports/triage/magnitudes.hpp"
 #include "reports/triage/readings.hpp"
 #include "reports/triage/regions.hpp"
 #include "reports/triage/scales.hpp"
+#include "reports/triage/written_constant.hpp"
 
 namespace nearmiss {
 namespace {
@@ -102,6 +105,91 @@ TEST(Cause, AbsoluteToleranceOfASize) {
   EXPECT_EQ(c.kind, CauseKind::absolute_tolerance) << text_of(c);
   EXPECT_EQ(c.key, "1e-3 length") << text_of(c);
   EXPECT_NE(c.text.find("sphere.radius"), std::string::npos) << text_of(c);
+}
+
+Answer with_relative_slack(Values q) {
+  Answer a;
+  a.yes = gap(q) <= 1e-9 * (q[3] + q[7]);
+  return a;
+}
+
+TEST(Cause, RelativeToleranceOfAGap) {
+  const Subject s = planted("sphere_sphere_overlap", with_relative_slack, Scalar::float64, {.backward = 8});
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 0.2, 0.3, 0.5, 1.3, 0.2, 0.3, 0.7 - 4.1e-10}));
+  EXPECT_EQ(c.kind, CauseKind::relative_tolerance) << text_of(c);
+  EXPECT_EQ(c.key, "1e-9") << text_of(c);
+}
+
+/// Lines: point x y z, direction x y z, twice.
+Answer nearly_parallel_is_parallel(Values q) {
+  Answer a = right("closest_points_lines", q);
+  const double x = q[4] * q[11] - q[5] * q[10], y = q[5] * q[9] - q[3] * q[11], z = q[3] * q[10] - q[4] * q[9];
+  const double square = q[9] * q[9] + q[10] * q[10] + q[11] * q[11];
+  const double sine = std::hypot(x, y, z) / (std::hypot(q[3], q[4], q[5]) * std::sqrt(square));
+  if (sine == 0 || sine >= 1e-5) return a;
+  const double t = ((q[0] - q[6]) * q[9] + (q[1] - q[7]) * q[10] + (q[2] - q[8]) * q[11]) / square;
+  for (std::size_t k = 0; k < 3; ++k) a.values[k] = q[k], a.values[3 + k] = q[6 + k] + t * q[9 + k];
+  return a;
+}
+
+TEST(Cause, RelativeToleranceOfASine) {
+  const Subject s = planted("closest_points_lines", nearly_parallel_is_parallel);
+  const Cause c = cause(s, case_of("closest_points_lines", {0.1, 0.2, 0.3, 1, 2, 3, 1, -2, 0.5, 1.000004, 2, 3}));
+  EXPECT_EQ(c.kind, CauseKind::relative_tolerance) << text_of(c);
+  EXPECT_EQ(c.key, "1e-5") << text_of(c);
+  EXPECT_NE(c.text.find("the sine of the angle between line1.direction and line2.direction"), std::string::npos)
+      << text_of(c);
+}
+
+/// Every wrong answer has a right one near by, but at no common ratio.
+Answer wrong_in_a_half(Values q) {
+  Answer a = right("sphere_sphere_overlap", q);
+  if (q[0] + 2 * q[5] < 0.61803) a.yes = !a.yes;
+  return a;
+}
+
+TEST(Cause, NoRelativeToleranceWhereNoRatioIsTheSame) {
+  const Subject s = planted("sphere_sphere_overlap", wrong_in_a_half);
+  const Cause c = cause(s, case_of("sphere_sphere_overlap", {0.1, 0.7, 0.3, 0.7, 0.4, 0.2, 0.2, 0.6}));
+  EXPECT_NE(c.kind, CauseKind::relative_tolerance) << text_of(c);
+}
+
+TEST(Crossings, LieWhereTheSubjectJumpsAndTheTruthStays) {
+  const Subject s = planted("sphere_sphere_overlap", with_relative_slack, Scalar::float64, {.backward = 8});
+  Workers workers;
+  Trials trials(case_of("sphere_sphere_overlap", {0.1, 0.2, 0.3, 0.5, 1.3, 0.2, 0.3, 0.7 - 4.1e-10}), s, {}, workers);
+  const std::vector<Crossing> crossings = crossings_of(trials, trials.base().question, {});
+  ASSERT_FALSE(crossings.empty());
+  for (const Crossing& x : crossings) {
+    const auto share = [](const Case& c) { return gap(c.values) / (c.values[3] + c.values[7]); };
+    constexpr double bisected = 1e-12;  // the bisection ends at a 2^-11 of a move of at most 1e-9
+    EXPECT_NEAR(share(x.at_wrong), 1e-9, bisected) << x.number;
+    EXPECT_NEAR(share(x.at_right.question), 1e-9, bisected) << x.number;
+    EXPECT_FALSE(exact_decision(x.at_wrong)) << x.number;
+  }
+}
+
+TEST(WrittenConstants, AreRoundInTenOrTwo) {
+  const auto text = [](double x) {
+    const auto constant = written_constant(x, x, 1.01);
+    return constant ? constant->text : "";
+  };
+  EXPECT_EQ(text(1.0005e-6), "1e-6");
+  EXPECT_EQ(text(0x1.001p-23), "2^-23");
+  EXPECT_EQ(text(4.99e-4), "5e-4");
+  EXPECT_EQ(text(3.3e-6), "");
+}
+
+TEST(Magnitudes, KeepTheDigitsOfAGap) {
+  const double radius = 0.7 - 0x1p-40;
+  const Case c = case_of("sphere_sphere_overlap", {0, 0, 0, 0.5, 1.2, 0, 0, radius});
+  const Magnitudes all = magnitudes_of(c);
+  const auto gap = std::find_if(all.lengths.begin(), all.lengths.end(), [](const Magnitude& m) {
+    return m.name == "the gap between sphere1.center and sphere2";
+  });
+  ASSERT_NE(gap, all.lengths.end());
+  constexpr double rounding = 4 * 0x1p-63;  // of a square, a root and two differences below 2 in extended precision
+  EXPECT_NEAR(double(gap->value - (static_cast<long double>(1.2) - 0.5L - radius)), 0, rounding);
 }
 
 // moving_sphere_box: the answer is a time, a location and a normal.

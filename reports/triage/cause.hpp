@@ -16,6 +16,7 @@ namespace nearmiss {
 enum class CauseKind {
   rounding,
   absolute_tolerance,
+  relative_tolerance,
   iteration_limit,
   unsupported,
   overflow,

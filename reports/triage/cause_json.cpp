@@ -4,6 +4,16 @@
 
 namespace nearmiss {
 
+nlohmann::ordered_json cause_to_json(const Cause& cause) {
+  nlohmann::ordered_json evidence = nlohmann::ordered_json::array();
+  for (const Evidence& e : cause.evidence) evidence.push_back({{"test", e.test}, {"result", e.result}});
+  return {{"kind", name_of(cause.kind)},
+          {"key", cause.key},
+          {"text", cause.text},
+          {"evidence", evidence},
+          {"questions", cause.questions}};
+}
+
 Cause cause_from_json(const nlohmann::json& j) {
   Cause cause;
   const std::string kind = j.at("kind");

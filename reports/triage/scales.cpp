@@ -134,7 +134,29 @@ bool ScaleScan::explained_by(Raised exception) const {
     if (a.trial.outcome == Outcome::right && k >= flip->right * direction)
       never_beyond |= !has_raised(a.trial, exception);
   }
-  return always && never_beyond;
+  const auto behind = from_one(trials, -direction);
+  const bool right_behind = !behind.empty() && behind.front()->trial.outcome == Outcome::right;
+  return always && never_beyond && !right_behind;
+}
+
+std::optional<Flip> ScaleScan::ends_with(Raised exception) const {
+  constexpr int least_beyond = 3;
+  const auto base = std::find_if(trials.begin(), trials.end(), [](const At& a) { return a.k == 0; });
+  if (base == trials.end() || !has_raised(base->trial, exception)) return std::nullopt;
+  for (const int direction : {1, -1}) {
+    Flip ends;
+    int beyond = 0;
+    bool together = true;
+    for (const At* a : from_one(trials, direction)) {
+      if (a->trial.outcome == Outcome::none) continue;
+      const bool with_finding = a->trial.outcome == Outcome::same, raised = has_raised(a->trial, exception);
+      together = together && with_finding == raised && !(with_finding && beyond > 0);
+      if (with_finding && beyond == 0) ends.wrong = a->k;
+      if (!with_finding && beyond++ == 0) ends.right = a->k;
+    }
+    if (together && beyond >= least_beyond) return ends;
+  }
+  return std::nullopt;
 }
 
 ScaleScan scan(Trials& trials, const ScaleGroup& group) {

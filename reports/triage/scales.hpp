@@ -42,7 +42,11 @@ struct ScaleScan {
   std::optional<Flip> flip;
 
   /// Every answer with the finding from scale 1 to the flip raised the exception, and a right answer beyond did not.
+  /// The first answer in the other direction is not right.
   bool explained_by(Raised exception) const;
+  /// Where the finding ends together with the exception, though no answer is right: in one direction every answer with
+  /// the finding raised the exception, and at least three beyond have another finding, or none, and raised nothing.
+  std::optional<Flip> ends_with(Raised exception) const;
 };
 
 /// Scans one group; answers have the raised exceptions where the subject can be asked so.

@@ -1,0 +1,83 @@
+#include "reports/triage/asked_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corpus/fit.hpp"
+#include "corpus/generator.hpp"
+
+namespace nearmiss {
+
+const std::vector<Trial>& AskedCases::similar() {
+  constexpr std::size_t most = 16;
+  if (!similar_) similar_ = variants(trials_, most, seed_);
+  return *similar_;
+}
+
+const std::vector<Trial>& AskedCases::sample() {
+  constexpr std::size_t size = 256;
+  if (sample_) return *sample_;
+  const Preconditions required = trials_.subject().offering(trials_.query().name).required;
+  std::vector<Case> cases(size);
+  std::uint64_t index = 0;
+  for (Case& c : cases) {
+    do {
+      generate_inside(c, trials_.query(), trials_.subject().scalar, seed_, index++, required);
+    } while (has_extreme_mutator(c));
+  }
+  sample_ = trials_.ask(cases);
+  return *sample_;
+}
+
+const std::vector<Trial>& AskedCases::neighbours() {
+  constexpr std::size_t count = 64;
+  constexpr int ulps = 8;
+  if (!neighbours_) neighbours_ = trials_.ask(ulp_neighbours(question(), count, ulps, seed_));
+  return *neighbours_;
+}
+
+const std::vector<Trial>& AskedCases::roundings() {
+  if (roundings_) return *roundings_;
+  roundings_.emplace();
+  if (!trials_.sets_rounding()) return *roundings_;
+  for (const Rounding r : {Rounding::to_nearest, Rounding::downward, Rounding::upward, Rounding::toward_zero})
+    roundings_->push_back(trials_.ask({&question(), 1}, r).front());
+  return *roundings_;
+}
+
+const std::vector<ScaleScan>& AskedCases::scans() {
+  if (scans_) return *scans_;
+  scans_.emplace();
+  for (const ScaleGroup& group : scale_groups()) scans_->push_back(scan(trials_, group));
+  return *scans_;
+}
+
+bool AskedCases::same_in_all_roundings() {
+  return !roundings().empty() && count(roundings(), Outcome::same) == roundings().size();
+}
+
+bool AskedCases::is_exact() {
+  return std::any_of(roundings().begin(), roundings().end(), [](const Trial& t) {
+    return t.outcome == Outcome::same && t.answer.status == Answer::Status::answered && t.raised == 0;
+  });
+}
+
+bool AskedCases::is_wrong_decision() const {
+  const Disagreement d = trials_.base().finding.disagreement;
+  return d == Disagreement::false_hit || d == Disagreement::false_miss;
+}
+
+int largest_exponent_of(const Case& c) {
+  double largest = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const Role role = c.query->inputs[i].role;
+    if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
+  }
+  return largest > 0 ? std::ilogb(largest) : 0;
+}
+
+std::string of_text(std::size_t part, std::size_t all) { return fmt::format("{} of {}", part, all); }
+
+}  // namespace nearmiss

@@ -1,0 +1,74 @@
+/// What the tests of causes share: trials that several of them use, each asked once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/triage/readings.hpp"
+#include "reports/triage/scales.hpp"
+#include "reports/triage/tested.hpp"
+#include "reports/triage/trials.hpp"
+
+namespace nearmiss {
+
+/// Not thread-safe. Refers to the trials.
+class AskedCases {
+ public:
+  explicit AskedCases(Trials& trials) : trials_(trials), seed_(seed_of(trials.base().question)) {}
+
+  Trials& trials() const { return trials_; }
+  const Case& question() const { return trials_.base().question; }
+  std::uint64_t seed() const { return seed_; }
+  /// Whether nothing is proved against an answer.
+  const IsRight& is_right() const { return is_right_; }
+
+  /// At most 16 other cases with the finding.
+  const std::vector<Trial>& similar();
+  /// 256 generated cases, of ordinary numbers.
+  const std::vector<Trial>& sample();
+  /// 64 cases a few ulps away.
+  const std::vector<Trial>& neighbours();
+  /// The case in the four rounding modes; none for a subject behind pipes.
+  const std::vector<Trial>& roundings();
+  /// The case at many scales, in the order of scale_groups().
+  const std::vector<ScaleScan>& scans();
+
+  bool same_in_all_roundings();
+  /// The subject's arithmetic on the case was exact: no exception, not even an inexact result.
+  bool is_exact();
+  /// The finding is a false hit or a false miss.
+  bool is_wrong_decision() const;
+
+ private:
+  Trials& trials_;
+  std::uint64_t seed_;
+  IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
+  std::optional<std::vector<Trial>> similar_, sample_, neighbours_, roundings_;
+  std::optional<std::vector<ScaleScan>> scans_;
+};
+
+/// The binary exponent of the largest position or size; 0 where all are zero.
+int largest_exponent_of(const Case& c);
+/// "3 of 4".
+std::string of_text(std::size_t part, std::size_t all);
+
+/// A test of one hypothesis, which collects what was seen.
+class TestOfCause {
+ public:
+  explicit TestOfCause(AskedCases& asked) : asked_(asked) {}
+  Tested finished(std::optional<Named> named) { return {std::move(named), std::move(evidence_)}; }
+
+ protected:
+  void saw(std::string test, std::string result) { evidence_.push_back({std::move(test), std::move(result)}); }
+  Trials& trials() const { return asked_.trials(); }
+  const Case& question() const { return asked_.question(); }
+
+  AskedCases& asked_;
+
+ private:
+  std::vector<Evidence> evidence_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,87 @@
+#include "reports/triage/convention.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/findings/text.hpp"
+#include "reports/triage/readings.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+class Convention : public TestOfCause {
+ public:
+  using TestOfCause::TestOfCause;
+
+  std::optional<Named> named() {
+    if (trials().base().answer.status != Answer::Status::answered) return std::nullopt;
+    std::vector<std::string> by_chance;
+    for (const Reading& reading : readings()) {
+      if (reading.decides && !asked_.is_wrong_decision()) continue;
+      if (!reading.right(question(), trials().base().answer, asked_.is_right()).value_or(false)) continue;
+      const Support s = support_of(reading);
+      if (s.holds()) return named_reading(reading, s);
+      by_chance.emplace_back(reading.name);
+    }
+    const std::string which =
+        by_chance.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance));
+    saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
+        "None explains the answers." + which);
+    return std::nullopt;
+  }
+
+ private:
+  /// How the subject's answers fit a reading.
+  struct Support {
+    std::size_t with_finding = 0, explained = 0;  ///< cases with the finding, and those that the reading explains
+    std::size_t for_it = 0;      ///< generated cases with a wrong answer that is right under the reading
+    std::size_t against_it = 0;  ///< generated cases with a right answer that is wrong under the reading
+
+    /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
+    bool holds() const {
+      constexpr std::size_t least = 4, least_generated = 2;
+      return explained >= least && nearly_all(explained, with_finding) && for_it >= least_generated &&
+             nearly_all(for_it, for_it + against_it);
+    }
+  };
+  /// The answer would be wrong under the reading if the reading made a difference.
+  static bool contradicts(const Reading& reading, const Trial& t) {
+    if (t.outcome == Outcome::right) return true;
+    return reading.decides && t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
+  }
+  /// A reading of the decision alone says nothing about the cases in which it makes no difference.
+  static void count_finding(const Reading& reading, std::optional<bool> fits, Support& s) {
+    s.with_finding += fits || !reading.decides;
+    s.explained += fits.value_or(false);
+  }
+  Support support_of(const Reading& reading) {
+    Support s;
+    for (const Trial& t : asked_.similar())
+      count_finding(reading, reading.right(t.question, t.answer, asked_.is_right()), s);
+    for (const Trial& t : asked_.sample()) {
+      if (t.outcome == Outcome::none) continue;
+      const std::optional<bool> fits = reading.right(t.question, t.answer, asked_.is_right());
+      s.against_it += contradicts(reading, t) && !fits.value_or(true);
+      s.for_it += t.outcome != Outcome::right && fits.value_or(false);
+      if (t.outcome == Outcome::same) count_finding(reading, fits, s);
+    }
+    return s;
+  }
+
+  Named named_reading(const Reading& reading, const Support& s) {
+    saw(fmt::format("The answers were judged as if {}.", reading.what),
+        fmt::format("The answer to the case is right then, and so are those to {} other cases with the finding. Of the "
+                    "generated cases, {} wrong answers become right, and {} right ones become wrong.",
+                    of_text(s.explained, s.with_finding), s.for_it, s.against_it));
+    return {reading.kind, std::string(reading.name), fmt::format("The answer is right if {}.", reading.what)};
+  }
+};
+
+}  // namespace
+
+Tested convention_of(AskedCases& asked) {
+  Convention test(asked);
+  return test.finished(test.named());
+}
+
+}  // namespace nearmiss

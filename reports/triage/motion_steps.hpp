@@ -1,0 +1,13 @@
+/// Tests whether a finding comes from too few steps along a motion.
+#pragma once
+
+#include "reports/triage/asked_cases.hpp"
+
+namespace nearmiss {
+
+/// The given times of contact are few, while the exact ones differ.
+Tested times_of_steps_of(AskedCases& asked);
+/// The answer depends on where the same motion begins.
+Tested starts_of_motion_of(AskedCases& asked);
+
+}  // namespace nearmiss

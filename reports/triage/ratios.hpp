@@ -1,0 +1,33 @@
+/// The closed table of dimensionless ratios of a case.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "reports/triage/magnitudes.hpp"
+
+namespace nearmiss {
+
+/// The pure numbers of a case, and the quotient of each two of its lengths: the same list for every case of a query.
+class Ratios {
+ public:
+  explicit Ratios(const Case& c, const Answer* right = nullptr) : magnitudes_(magnitudes_of(c, right)) {}
+
+  std::size_t size() const { return pure() + lengths() * (lengths() - 1); }
+  /// 0 where it has no meaning in this case.
+  long double value(std::size_t i) const;
+  /// "the sine of the angle between a and b", "the length of a over the radius of b".
+  std::string name(std::size_t i) const;
+  /// Of a quotient; 0 for a pure number.
+  long double numerator(std::size_t i) const { return i < pure() ? 0 : magnitudes_.lengths[pair(i).first].value; }
+
+ private:
+  std::size_t pure() const { return magnitudes_.pure.size(); }
+  std::size_t lengths() const { return magnitudes_.lengths.size(); }
+  std::pair<std::size_t, std::size_t> pair(std::size_t i) const;
+
+  Magnitudes magnitudes_;
+};
+
+}  // namespace nearmiss

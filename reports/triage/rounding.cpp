@@ -1,0 +1,151 @@
+#include "reports/triage/rounding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corpus/relations/exact_sums.hpp"
+#include "reports/triage/border.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// "Some, and not nearly all": 1 to 9 of 10.
+bool is_mixed(std::size_t part, std::size_t all) { return 10 * part >= all && 10 * part <= 9 * all && part > 0; }
+
+class RoundingErrors : public TestOfCause {
+ public:
+  using TestOfCause::TestOfCause;
+
+  /// The kernels of `collide` in exact real numbers are its tier Certified.
+  std::optional<Named> certified() {
+    const Subject& s = trials().subject();
+    if (!s.own || !s.name.starts_with("collide-")) return std::nullopt;
+    const Subject* exact =
+        find_subject(s.scalar == Scalar::float32 ? "collide-certified-float" : "collide-certified-double");
+    if (exact == nullptr) return std::nullopt;
+    const Answer answer = trials().workers().ask(*exact, question());
+    const bool is_right = trials().is_right(question(), answer);
+    saw("The same kernel was run in exact real numbers (" + exact->name + ").",
+        is_right ? "It is right." : "It has no right answer either.");
+    if (is_right)
+      return Named{CauseKind::rounding, "", "The kernel is right over the real numbers: its rounding is not."};
+    return Named{CauseKind::logic, "", "The kernel is wrong over the real numbers too: the mistake is in its logic."};
+  }
+
+  std::optional<Named> rounding() {
+    const std::vector<Trial>& near = asked_.neighbours();
+    const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
+    if (auto named = by_roundings()) return named;
+    saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
+        fmt::format("{} have the finding, and {} are right.", count(near, Outcome::same), right));
+    if (asked_.is_exact()) {
+      saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
+      return std::nullopt;
+    }
+    if (is_mixed(right, all)) {
+      if (!are_on_two_sides(question(), near))
+        return Named{CauseKind::rounding, "",
+                     "The answer is unstable: it is right or wrong by the last bits of the inputs."};
+      saw("A plane was sought that separates these cases with the finding from those without.",
+          "There is one: the case lies on a border, and the answer is not right or wrong by chance.");
+    }
+    return far_from_the_origin();
+  }
+
+ private:
+  /// How far the worst number of the answer moves between the roundings, as a share of its error.
+  double moved_by_rounding() const {
+    const Trial& base = trials().base();
+    const Finding full = trials().in_full(base);
+    const MemberFinding* worst = full.headline_member();
+    if (worst == nullptr || worst->worst < 0 || !(worst->forward_absolute > 0)) return 0;
+    double furthest = 0;
+    for (const Trial& t : asked_.roundings()) {
+      const bool comparable = t.answer.status == Answer::Status::answered && t.answer.yes == base.answer.yes;
+      const double by = t.answer.values[std::size_t(worst->worst)] - base.answer.values[std::size_t(worst->worst)];
+      if (comparable && std::isfinite(by)) furthest = std::max(furthest, std::abs(by));
+    }
+    return furthest / worst->forward_absolute;
+  }
+  std::optional<Named> by_roundings() {
+    if (asked_.roundings().empty()) {
+      saw("The subject answers behind pipes.", "It cannot be asked in other rounding modes.");
+      return std::nullopt;
+    }
+    const std::size_t right = count(asked_.roundings(), Outcome::right),
+                      same = count(asked_.roundings(), Outcome::same);
+    const double moved = moved_by_rounding();
+    saw("The case was asked in the four rounding modes.",
+        fmt::format(
+            "The finding is there in {}, and the answer is right in {}. The worst number moves by {:.2g} % of its "
+            "error.",
+            same, right, 100 * moved));
+    constexpr double least_moved = 0.25;
+    if (right > 0) return Named{CauseKind::rounding, "", "The answer is right in another rounding mode."};
+    if (moved >= least_moved)
+      return Named{CauseKind::rounding, "",
+                   "The error changes with the rounding mode: it consists of rounding errors."};
+    return std::nullopt;
+  }
+
+  /// Exactly moved toward the origin, in steps that halve the distance.
+  std::optional<Named> far_from_the_origin() {
+    const std::vector<Case> cases = moved_to_the_origin();
+    if (cases.empty()) return std::nullopt;
+    const std::vector<Trial> moved = trials().ask(cases);
+    const std::size_t first = std::size_t(
+        std::find_if(moved.begin(), moved.end(), [](const Trial& t) { return t.outcome != Outcome::same; }) -
+        moved.begin());
+    const std::size_t right = std::size_t(std::count_if(moved.begin() + std::ptrdiff_t(first), moved.end(),
+                                                        [](const Trial& t) { return t.outcome == Outcome::right; }));
+    saw("The scene was moved exactly toward the origin, by halves of its distance.",
+        fmt::format("The finding stays in {} of {} steps, and then {} are right.", first, moved.size(), right));
+    constexpr std::size_t least = 3;
+    if (right < least || right != moved.size() - first) return std::nullopt;
+    return Named{
+        CauseKind::rounding, "far from the origin",
+        "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances."};
+  }
+  std::vector<Case> moved_to_the_origin() const {
+    const Query& q = trials().query();
+    std::vector<Case> cases;
+    if (std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::offset; }))
+      return cases;
+    const auto first =
+        std::find_if(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::position; });
+    if (first == q.inputs.end()) return cases;
+    const std::size_t at = std::size_t(first - q.inputs.begin());
+    const double* place = &question().values[at];
+    for (int m = 1; m <= 24; ++m) {
+      Case c = question();
+      for (std::size_t i = 0; i < c.values.size(); ++i) {
+        if (q.inputs[i].role != Role::position) continue;
+        const std::size_t k = std::size_t(q.inputs[i].name.back() - 'x');
+        const auto kept = metamorphic::exact_product(place[k], std::ldexp(1.0, -m), c.scalar);
+        const auto shift = kept ? metamorphic::exact_sum(*kept, -place[k], c.scalar) : std::nullopt;
+        const auto moved = shift ? metamorphic::exact_sum(c.values[i], *shift, c.scalar) : std::nullopt;
+        if (!moved) return cases;
+        c.values[i] = *moved;
+      }
+      if (c.values != question().values) cases.push_back(std::move(c));
+    }
+    return cases;
+  }
+};
+
+}  // namespace
+
+Tested certified_of(AskedCases& asked) {
+  RoundingErrors test(asked);
+  return test.finished(test.certified());
+}
+
+Tested rounding_of(AskedCases& asked) {
+  RoundingErrors test(asked);
+  return test.finished(test.rounding());
+}
+
+}  // namespace nearmiss
