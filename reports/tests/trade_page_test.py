@@ -147,9 +147,9 @@ class TradePage(unittest.TestCase):
             if "this build writes no pages" in ran.stderr:
                 self.skipTest(ran.stderr.strip())
             self.assertEqual(ran.returncode, 0, ran.stderr)
-            self.browser.get((pathlib.Path(name) / "index.html").resolve().as_uri())
-            links = [a.get_attribute("href").rsplit("/", 1)[-1] for a in self.all("#head a")]
-            self.assertIn("trade.html", links)
+            page = (pathlib.Path(name) / "index.html").read_text()
+            self.assertIn('"trades":["trade.html"]', page)
+            self.assertTrue((pathlib.Path(name) / "trade.html").exists())
 
 
 def write_images(trade, folder):
