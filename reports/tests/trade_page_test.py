@@ -138,6 +138,19 @@ class TradePage(unittest.TestCase):
             self.browser.get((pathlib.Path(name) / "trade.html").resolve().as_uri())
             self.assertEqual(len(self.all("#queries button")), len(QUERIES))
 
+    def test_is_linked_from_the_page_of_a_run(self):
+        with tempfile.TemporaryDirectory() as name:
+            subprocess.run([PROGRAM, "run", "-q", "moving_sphere_box", "-s", "collide-fast-float", "--measure", "1e-9", "--cases", "300",
+                            "--out", name], capture_output=True, text=True, cwd=TOP)
+            (pathlib.Path(name) / "trade.json").write_text(json.dumps(self.trade))
+            ran = subprocess.run([PROGRAM, "render", name, "--seconds", "0"], capture_output=True, text=True)
+            if "this build writes no pages" in ran.stderr:
+                self.skipTest(ran.stderr.strip())
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            page = (pathlib.Path(name) / "index.html").read_text()
+            self.assertIn('"trades":["trade.html"]', page)
+            self.assertTrue((pathlib.Path(name) / "trade.html").exists())
+
 
 def write_images(trade, folder):
     """Pictures of the page of a trade, light and dark."""

@@ -39,7 +39,7 @@ TradeSource generated_cases(TradeTolerance tolerance) {
   return source;
 }
 
-TradeSource scene_cases(std::shared_ptr<const scenes::Scene> scene) {
+TradeSource scene_cases(const std::shared_ptr<const scenes::Scene>& scene) {
   TradeSource source;
   source.scene = scene->name;
   source.title = scene->title;

@@ -27,6 +27,6 @@ struct TradeSource {
 /// have the same share.
 TradeSource generated_cases(TradeTolerance tolerance);
 /// The cases of a scene, in its scalar, with what the scene requires.
-TradeSource scene_cases(std::shared_ptr<const scenes::Scene> scene);
+TradeSource scene_cases(const std::shared_ptr<const scenes::Scene>& scene);
 
 }  // namespace nearmiss
