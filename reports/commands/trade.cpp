@@ -71,6 +71,7 @@ class TradeCommand : public Command {
     selection_.check_offered();
     const TradeSource source = chosen_source();
     const std::vector<const Query*> queries = chosen_queries();
+    check_measurable(queries);
     const std::uint64_t seed = seed_.value_or(1);
     const std::filesystem::path folder = out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_);
     catch_interrupts();
@@ -103,6 +104,15 @@ class TradeCommand : public Command {
         throw BadInput(fmt::format("--query {}: the scene {} does not ask it", q->name, loaded_->name));
     }
     return selection_.queries();
+  }
+
+  void check_measurable(const std::vector<const Query*>& queries) const {
+    for (const Query* q : queries) {
+      for (const Subject* s : selection_.subjects()) {
+        if (!(s->offering(q->name).answer == nullptr)) return;
+      }
+    }
+    throw BadInput("nothing to measure: none of the subjects offers a query of the scene");
   }
 
   Selection selection_;
