@@ -74,23 +74,24 @@ target_compile_options(nearmiss_flags INTERFACE
   $<$<BOOL:${NEARMISS_COVERAGE}>:--coverage>)
 target_link_options(nearmiss_flags INTERFACE $<$<BOOL:${NEARMISS_COVERAGE}>:--coverage>)
 if(NEARMISS_SANITIZE)
-  target_compile_options(nearmiss_flags INTERFACE
-    -fsanitize=${NEARMISS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  set(sanitized -fsanitize=${NEARMISS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=${NEARMISS_SANITIZE})
 endif()
 # The coverage counters of libFuzzer; only fuzz targets link its main. Without the traces of comparisons, which are for
 # comparisons of whole numbers: nearly all of ours are of floating-point numbers.
 if(NEARMISS_LIBFUZZER AND NOT NEARMISS_FUZZING_ENGINE)
-  target_compile_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp)
+  list(APPEND sanitized -fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp)
   target_link_options(nearmiss_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
+# A target's own options come before those of what it links: an -fno-sanitize=all of its own would be without effect.
+target_compile_options(nearmiss_flags INTERFACE "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:NEARMISS_EXAMINES>>>:${sanitized}>")
 target_include_directories(nearmiss_flags INTERFACE ${PROJECT_SOURCE_DIR})
 
 # Marks a target that examines and is not examined. Fuzz targets do not instrument it: they run ten times as fast, and
 # libFuzzer counts only the coverage of the subjects.
 function(nearmiss_examines target)
   if(NEARMISS_LIBFUZZER)
-    target_compile_options(${target} PRIVATE -fno-sanitize=all)
+    set_target_properties(${target} PROPERTIES NEARMISS_EXAMINES ON)
   endif()
   if(NEARMISS_FUZZING_ENGINE)  # takes back every engine's instrumentation: flags of clang, and the compilers of AFL++
     target_compile_options(${target} PRIVATE -O2 -DNDEBUG -fno-profile-instr-generate -fno-coverage-mapping

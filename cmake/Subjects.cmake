@@ -254,6 +254,7 @@ function(nearmiss_finish_subjects)
     ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp
     ${PROJECT_SOURCE_DIR}/impl/host/shared_layout.cpp
     ${PROJECT_SOURCE_DIR}/impl/host/timing.cpp)
+  nearmiss_examines(nearmiss_host)
   target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nearmiss_catalogue nlohmann_json::nlohmann_json)
   target_include_directories(nearmiss_host PUBLIC ${NEARMISS_GENERATED})
   add_executable(nearmiss_host_of_plugins ${PROJECT_SOURCE_DIR}/impl/host/plugin_host.cpp)
@@ -270,9 +271,18 @@ function(nearmiss_finish_subjects)
   if(NOT NEARMISS_EXAMINER)
     nearmiss_write_hosts(${NEARMISS_GENERATED}/subjects/hosts.cpp ${subjects})
   endif()
-  add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp ${PROJECT_SOURCE_DIR}/impl/subject/subject.cpp
-    ${PROJECT_SOURCE_DIR}/impl/host/hosts.cpp ${PROJECT_SOURCE_DIR}/impl/host/supervisor.cpp ${PROJECT_SOURCE_DIR}/impl/host/replies.cpp
-    ${PROJECT_SOURCE_DIR}/impl/host/worker.cpp ${PROJECT_SOURCE_DIR}/impl/subject/printable.cpp)
+  # The judge's side of the wall between processes.
+  set(NEARMISS_JUDGE_SIDE
+    subject/subject.cpp
+    host/hosts.cpp
+    host/supervisor.cpp
+    host/replies.cpp
+    host/worker.cpp
+    subject/printable.cpp)
+  list(TRANSFORM NEARMISS_JUDGE_SIDE PREPEND ${PROJECT_SOURCE_DIR}/impl/)
+  set(NEARMISS_JUDGE_SIDE ${NEARMISS_JUDGE_SIDE} PARENT_SCOPE)
+  add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp ${NEARMISS_JUDGE_SIDE})
+  nearmiss_examines(nearmiss_subjects)
   target_link_libraries(nearmiss_subjects PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
   # Programs that ask hosts link another list of subjects in the place of this one.
   set_source_files_properties(${NEARMISS_GENERATED}/subjects/all.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -61,7 +61,8 @@ inline Window times_within(const Vector<Interval>& w, const Vector<Interval>& u,
   Window times;
   if (!may_be_at_most_zero(outside)) {
     if (!may_be_positive(closing)) return never;
-    times.from = (outside / Interval((assume_at_least_zero(closing) + half).sup())).inf();
+    const double largest = (assume_at_least_zero(closing) + half).sup();
+    if (std::isfinite(largest)) times.from = (outside / Interval(largest)).inf();
   }
   if (!may_be_zero(speed2)) times.to = ((closing + half) / speed2).sup();
   return times;

@@ -165,8 +165,8 @@ TEST(Run, TakesOnlyWhatWasChosen) {
 
 TEST(Run, StopsWhenTheTimeIsOver) {
   const TemporaryFolder folder;
-  const Ran ran = nearmiss(
-      {"run", "-s", "collide-fast-double", "--seconds", "0.5", "--seed", "1", "--out", (folder / "r").string()});
+  const Ran ran =
+      nearmiss({"run", "-s", "collide-fast-double", "--seconds", "4", "--seed", "1", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
   const json index = index_of(folder / "r");
   for (const json& t : index["tallies"]) EXPECT_GT(t["cases"], 0) << t["query"] << ": every query gets its turn";
