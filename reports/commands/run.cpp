@@ -66,6 +66,10 @@ class RunCommand : public Command {
          "and "
          "mix of queries. --cases is then the number of cases of the mix for each subject. No stored worst cases are "
          "asked first.",
+         "A proof takes several times as long as the look that finds an answer right. Where a fifth of a subject's "
+         "first 16,384 answers to a query is proved wrong, every sixteenth further answer is judged, and a line says "
+         "how "
+         "many were not. --every-answer judges all.",
          "Every run first asks the stored worst cases (corpus/worst/) of the chosen queries and subjects, beyond the "
          "number of --cases. With --measure it does not."},
         judging_exit_status(),
@@ -86,6 +90,9 @@ class RunCommand : public Command {
     scene_.declare(app);
     app.add_flag("--by-class", by_class_,
                  "Print also each subject's findings by the generator's mutators that made the cases")
+        ->disable_flag_override();
+    app.add_flag("--every-answer", every_answer_,
+                 "Also judge every answer of a subject that is often wrong; otherwise a sample")
         ->disable_flag_override();
     CLI::Option* climb =
         app.add_flag("--climb", climb_, "Search for the worst errors in place of asking generated cases")
@@ -114,7 +121,8 @@ class RunCommand : public Command {
                          seed,
                          amount_.until(),
                          by_class_,
-                         scene ? &*scene : nullptr};
+                         scene ? &*scene : nullptr,
+                         every_answer_};
     Run run(std::move(settings));
     if (scene) run.note("scene", scene->name);
     fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
@@ -158,7 +166,7 @@ class RunCommand : public Command {
   Selection selection_;
   Amount amount_{10'000, {}, {}, {}, {}, {}};
   SceneOption scene_;
-  bool by_class_ = false, climb_ = false, update_worst_ = false;
+  bool by_class_ = false, climb_ = false, update_worst_ = false, every_answer_ = false;
 };
 
 }  // namespace

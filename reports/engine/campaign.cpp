@@ -62,16 +62,31 @@ void Campaign::judge_all(const Subject& subject, std::span<const Case> cases, st
   if (answers.size() < cases.size() && !should_stop())
     dispatcher_.pass_over(subject, query, cases.size() - answers.size());
   const Standard standard = standard_for(subject, query);
+  AnswerSample* sample = is_generating_ && !settings_.every_answer ? &samples_[{&subject, &query}] : nullptr;
+  std::uint64_t not_judged = 0;
   for (std::size_t i = 0; i < answers.size() && (i % between_looks != 0 || !should_stop()); ++i) {
-    const auto f = internal_errors_.judged(cases[i], subject, answers[i], standard, detail, [&](const Finding& first) {
-      const Examined e{cases[i], subject, answers[i], first, {}, i};
-      return internal_errors_.count() > 0 ||
-             std::any_of(sinks_.begin(), sinks_.end(), [&](const Sink* s) { return s->needs_second(e); });
-    });
-    if (!f) continue;
-    const Examined e{cases[i], subject, answers[i], *f, dispatcher_.workers().output(subject, i), i};
-    for (Sink* s : sinks_) s->take(e);
+    if (sample != nullptr && !sample->takes_next()) {
+      ++not_judged;
+      continue;
+    }
+    const bool proved = judge_one(subject, standard, cases[i], answers[i], i, detail);
+    if (sample != nullptr) sample->count(proved);
   }
+  if (not_judged == 0) return;
+  for (Sink* s : sinks_) s->take_not_judged(query, subject, not_judged);
+}
+
+bool Campaign::judge_one(const Subject& subject, const Standard& standard, const Case& question, const Answer& answer,
+                         std::size_t i, Detail detail) {
+  const auto f = internal_errors_.judged(question, subject, answer, standard, detail, [&](const Finding& first) {
+    const Examined e{question, subject, answer, first, {}, i};
+    return internal_errors_.count() > 0 ||
+           std::any_of(sinks_.begin(), sinks_.end(), [&](const Sink* s) { return s->needs_second(e); });
+  });
+  if (!f) return false;
+  const Examined e{question, subject, answer, *f, dispatcher_.workers().output(subject, i), i};
+  for (Sink* s : sinks_) s->take(e);
+  return f->is_proved();
 }
 
 void Campaign::hand_on_given_up(std::span<const Subject* const> subjects, const Query& query) {
@@ -120,6 +135,7 @@ void Campaign::examine_in_any_scalar(std::span<const Subject* const> subjects, c
 
 void Campaign::generate(Schedule& schedule, std::uint64_t seed) {
   Batch now, next;
+  is_generating_ = true;
   for (make(now, schedule, seed); now.of != nullptr && !should_stop(); std::swap(now, next)) {
     const Clock::time_point begin = Clock::now();
     examine(now.of->subjects, now.cases, [&] { make(next, schedule, seed); });
@@ -127,6 +143,7 @@ void Campaign::generate(Schedule& schedule, std::uint64_t seed) {
     now.of->seconds += seconds;
     adapt_batch(*now.of, seconds);
   }
+  is_generating_ = false;
 }
 
 }  // namespace nearmiss

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "reports/engine/answer_sample.hpp"
 #include "reports/engine/dispatcher.hpp"
 #include "reports/engine/internal_errors.hpp"
 #include "reports/engine/schedule.hpp"
@@ -37,6 +38,8 @@ class Sink {
   virtual bool needs_second(const Examined&) const { return true; }
   /// A number of cases that were not asked because the subject was late too often.
   virtual void take_given_up(const Query&, const Subject&, std::uint64_t) {}
+  /// A number of answers that were not judged because too many were wrong (reports/engine/answer_sample.hpp).
+  virtual void take_not_judged(const Query&, const Subject&, std::uint64_t) {}
   /// Called when no answer of the batch is pending: the sink may ask other cases.
   virtual void end_batch() {}
 };
@@ -52,6 +55,7 @@ class Campaign {
     /// The bound for answers; without a function, Subject::standard_for.
     std::function<Standard(const Subject&, const Query&)> standard{};
     Dispatcher::GiveUp give_up = Dispatcher::GiveUp::when_often_late;
+    bool every_answer = false;  ///< judge every answer to generated cases, also where most are wrong
   };
 
   Campaign(Settings settings, std::vector<Sink*> sinks);
@@ -66,7 +70,8 @@ class Campaign {
   /// Examines one case with subjects of any scalar. For a scalar that cannot hold the case exactly it is out of domain.
   void examine_in_any_scalar(std::span<const Subject* const> subjects, const Case& question);
   /// Examines generated cases until the schedule or the time ends. Makes the next batch while the subjects work. Limits
-  /// the duration of a batch, so that an interrupt takes effect soon.
+  /// the duration of a batch, so that an interrupt takes effect soon. Of the answers of a subject that is often wrong
+  /// it judges a sample (reports/engine/answer_sample.hpp).
   void generate(Schedule& schedule, std::uint64_t seed);
 
   /// True when the campaign was interrupted or its time is over.
@@ -83,6 +88,9 @@ class Campaign {
   void ask_and_judge(std::span<const Subject* const> subjects, std::span<const Case> cases,
                      const std::function<void()>& meanwhile, Detail detail = Detail::verdict);
   void judge_all(const Subject& subject, std::span<const Case> cases, std::span<const Answer> answers, Detail detail);
+  /// Judges the i-th answer of a batch and hands the finding on. True where the answer is proved wrong.
+  bool judge_one(const Subject& subject, const Standard& standard, const Case& question, const Answer& answer,
+                 std::size_t i, Detail detail);
   void hand_on_given_up(std::span<const Subject* const> subjects, const Query& query);
 
   Settings settings_;
@@ -91,6 +99,8 @@ class Campaign {
   Dispatcher dispatcher_;
   InternalErrors internal_errors_;
   std::map<std::pair<const Subject*, const Query*>, std::uint64_t> given_up_;  ///< as reported to the sinks
+  std::map<std::pair<const Subject*, const Query*>, AnswerSample> samples_;    ///< of the answers to generated cases
+  bool is_generating_ = false;
 };
 
 }  // namespace nearmiss

@@ -110,6 +110,11 @@ void Counts::take_given_up(const Query& query, const Subject& subject, std::uint
   tallies_.at({&query, &subject}).gave_up += cases;
 }
 
+void Counts::take_not_judged(const Query& query, const Subject& subject, std::uint64_t answers) {
+  tallies_.at({&query, &subject}).not_judged += answers;
+  not_judged_ += answers;
+}
+
 void Counts::add_to(Json& index) const {
   index["tallies"] = Json::array();
   for (const Query* q : queries_) {
@@ -175,6 +180,7 @@ std::string Counts::violated_text() const {
   return (counted.empty() ? "nothing violated" : "violations: " + list_text(counted)) +
          (not_asked == 0 ? ""
                          : fmt::format(", {} not asked for what subjects require", plural_text(not_asked, "case"))) +
+         (not_judged_ == 0 ? "" : fmt::format(", {} not judged", plural_text(not_judged_, "answer"))) +
          (unasked == 0 ? "" : fmt::format(", {} of {} queries not asked", unasked, asked.size()));
 }
 
@@ -199,15 +205,15 @@ std::string Counts::table() const {
     }
     if (queries_.size() > 1 && all.cases > 0) rows.push_back(table_row(all));
   }
-  return table_text(rows, "", 1) + breakages_text() + given_up_text() + stages_text();
+  return table_text(rows, "", 1) + breakages_text() + passed_over_text() + stages_text();
 }
 
-/// The subjects that were given up; empty where all were asked to the end.
-std::string Counts::given_up_text() const {
+/// The subjects that were given up or judged by a sample; empty where all were asked and judged to the end.
+std::string Counts::passed_over_text() const {
   std::string text;
   for (const auto& [key, t] : tallies_) {
-    if (t.gave_up == 0) continue;
-    text += fmt::format("\n{}", nearmiss::given_up_text(t.subject->name, t.query->name, t.late, t.gave_up));
+    if (t.gave_up > 0) text += "\n" + given_up_text(t.subject->name, t.query->name, t.late, t.gave_up);
+    if (t.not_judged > 0) text += "\n" + not_judged_text(t.subject->name, t.query->name, t.not_judged);
   }
   return text.empty() ? text : text + "\n";
 }

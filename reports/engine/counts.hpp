@@ -25,10 +25,13 @@ class Counts : public Sink {
   /// noticed.
   bool needs_second(const Examined& e) const override;
   void take_given_up(const Query& query, const Subject& subject, std::uint64_t cases) override;
+  void take_not_judged(const Query& query, const Subject& subject, std::uint64_t answers) override;
 
   /// The counts of one subject on one query; nullptr where the subject does not offer it.
   const Tally* of(const Query& query, const Subject& subject) const;
   std::uint64_t cases() const { return cases_; }
+  /// Answers that were not judged because too many were wrong.
+  std::uint64_t not_judged() const { return not_judged_; }
   /// Answers that are violations or breakages.
   std::uint64_t bad_answers() const { return bad_; }
   /// The same plus the number of subjects with two conventions of touching.
@@ -55,7 +58,7 @@ class Counts : public Sink {
   };
   Stages stages_of(const Query& query) const;
   std::string breakages_text() const;
-  std::string given_up_text() const;
+  std::string passed_over_text() const;
   std::string stages_text() const;
   void count_by_class(const Examined& e);
 
@@ -66,7 +69,7 @@ class Counts : public Sink {
   std::map<std::pair<const Subject*, std::string>, Tally> by_class_;
   TouchCounts touch_counts_;
   std::vector<std::optional<bool>> touching_;  ///< for each case of the batch: whether it is an exact touch, once known
-  std::uint64_t cases_ = 0, bad_ = 0;
+  std::uint64_t cases_ = 0, bad_ = 0, not_judged_ = 0;
 };
 
 }  // namespace nearmiss

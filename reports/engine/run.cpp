@@ -83,7 +83,8 @@ Run::Run(RunSettings settings)
       notes_(std::make_unique<Notes>()),
       counts_(settings_.queries, settings_.subjects, settings_.by_class),
       kept_(settings_.folder, counts_, [this](const auto& below, const std::string& text) { write(below, text); }),
-      campaign_({settings_.folder, [this] { tick(); }}, {&counts_, &kept_, &listener_}) {
+      campaign_({.folder = settings_.folder, .tick = [this] { tick(); }, .every_answer = settings_.every_answer},
+                {&counts_, &kept_, &listener_}) {
   campaign_.set_until(settings_.until);
   kept_.ask_with(campaign_.dispatcher().workers());
   make_folder(settings_.folder);
@@ -182,7 +183,7 @@ void Run::set_activity(std::string what) { progress_.set_activity(std::move(what
 void Run::tick() {
   std::optional<double> left;
   if (campaign_.until()) left = std::chrono::duration<double>(*campaign_.until() - Clock::now()).count();
-  progress_.show(counts_.cases(), total_, left, counts_.bad_answers());
+  progress_.show(counts_.cases() + counts_.not_judged(), total_, left, counts_.bad_answers());
   const auto since = Clock::now() - indexed_;
   if (since >= between_indexes && since >= index_share * indexing_) write_index(RunState::running);
 }

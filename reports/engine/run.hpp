@@ -43,6 +43,7 @@ struct RunSettings {
   std::optional<std::chrono::steady_clock::time_point> until;  ///< when to stop; empty: by number of cases
   bool by_class = false;                 ///< also count by mutator, for table_by_class() and the index
   const scenes::Scene* scene = nullptr;  ///< where generated cases are taken from; nullptr: the generator
+  bool every_answer = false;             ///< also judge every answer of a subject that is often wrong
 };
 
 class Run {

@@ -38,6 +38,11 @@ std::string given_up_text(std::string_view subject, std::string_view query, std:
                      plural_text(cases, "case"));
 }
 
+std::string not_judged_text(std::string_view subject, std::string_view query, std::uint64_t answers) {
+  return fmt::format("{} is often wrong of {}: only a sample was judged, and {} were not (--every-answer judges all)",
+                     subject, query, plural_text(answers, "answer"));
+}
+
 void Tally::count(const Finding& f) {
   ++cases;
   ++verdicts[std::size_t(f.verdict)];
@@ -76,6 +81,7 @@ void Tally::add(const Tally& other) {
   wrong += other.wrong;
   late += other.late;
   gave_up += other.gave_up;
+  not_judged += other.not_judged;
   decided_by_interval += other.decided_by_interval;
   decided_by_exact += other.decided_by_exact;
   truth_yes += other.truth_yes;
@@ -100,6 +106,7 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
           {"breakages", t.breakages},
           {"late", t.late},
           {"gave_up", t.gave_up},
+          {"not_judged", t.not_judged},
           {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)},
           {"worst_forward_ulps", t.worst_forward},
           {"decided_by", {{"interval", t.decided_by_interval}, {"exact", t.decided_by_exact}}},

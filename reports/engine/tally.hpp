@@ -18,6 +18,9 @@ namespace nearmiss {
 /// "X was late 8 times of QUERY, and was not asked 142 more cases".
 std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases);
 
+/// "X: of QUERY, 142 more answers were not judged, since too many are wrong (--every-answer)".
+std::string not_judged_text(std::string_view subject, std::string_view query, std::uint64_t answers);
+
 /// The counts of one subject on one query. Different kinds of disagreement are never added together.
 struct Tally {
   const Query* query = nullptr;
@@ -33,9 +36,10 @@ struct Tally {
   std::map<std::string, std::uint64_t> breakages{};
   static constexpr std::size_t most_kinds = 32;
   static constexpr const char* other_kind = "any other reason";
-  std::uint64_t wrong = 0;    ///< answers with a violation other than a wrong decision
-  std::uint64_t late = 0;     ///< breakages at a time limit
-  std::uint64_t gave_up = 0;  ///< cases that were not asked because too many were late; not among `cases`
+  std::uint64_t wrong = 0;       ///< answers with a violation other than a wrong decision
+  std::uint64_t late = 0;        ///< breakages at a time limit
+  std::uint64_t gave_up = 0;     ///< cases that were not asked because too many were late; not among `cases`
+  std::uint64_t not_judged = 0;  ///< answers that were not judged because too many were wrong; not among `cases`
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
   std::uint64_t truth_yes = 0;  ///< decided cases whose exact answer is yes
   double worst_backward = -1;   ///< the largest proved bound, in epsilon; negative: none

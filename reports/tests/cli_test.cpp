@@ -1,4 +1,5 @@
 /// The commands behave as their manuals describe.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "corpus/source_folder.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/subject.hpp"
+#include "reports/engine/answer_sample.hpp"
 #include "reports/engine/properties.hpp"
 #include "reports/engine/property_tests.hpp"
 #include "reports/engine/tally.hpp"
@@ -108,7 +110,7 @@ TEST(Run, IsTheSameForTheSameSeed) {
   const TemporaryFolder folder;
   std::vector<json> tallies;
   for (const char* name : {"a", "b"}) {
-    const Ran ran = nearmiss({"run", "--cases", "300", "--seed", "7", "--out", (folder / name).string()});
+    const Ran ran = nearmiss({"run", "--cases", "120", "--seed", "7", "--out", (folder / name).string()});
     ASSERT_NE(ran.exit_code, 2) << ran.err;
     tallies.push_back(index_of(folder / name).at("tallies"));
   }
@@ -123,7 +125,7 @@ std::uint64_t worst_cases_of(const std::string& query, const std::string& subjec
 TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
   const TemporaryFolder folder;
   const Ran ran =
-      nearmiss({"run", "--cases", "700", "--seed", "18446744073709551615", "--out", (folder / "r").string()});
+      nearmiss({"run", "--cases", "300", "--seed", "18446744073709551615", "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   const json index = index_of(folder / "r");
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
@@ -131,7 +133,7 @@ TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
   EXPECT_EQ(index["seed"], 18446744073709551615u);
   EXPECT_EQ(index["tallies"].size() + index["not_offered"].size(), catalogue().size() * subjects().size());
   for (const json& t : index["tallies"]) {
-    const std::uint64_t cases = 700 + worst_cases_of(t["query"], t["subject"]);  // those are asked first
+    const std::uint64_t cases = 300 + worst_cases_of(t["query"], t["subject"]);  // those are asked first
     EXPECT_EQ(t["cases"], cases);
     std::uint64_t sum = 0;
     for (const auto& v : t["verdicts"].items()) sum += v.value().get<std::uint64_t>();
@@ -153,6 +155,28 @@ TEST(Run, WritesAValidIndexThatCountsEveryAnswer) {
   EXPECT_GT(exact, 0u);
   EXPECT_NE(ran.out.find("The exact stage decided"), std::string::npos);
   EXPECT_EQ(index["summary"].get<std::string>().substr(0, 10), last_line(ran.out).substr(0, 10));
+}
+
+TEST(Run, JudgesASampleOfASubjectThatIsOftenWrong) {
+  const TemporaryFolder folder;
+  const std::uint64_t cases = AnswerSample::judged_at_first + 16 * AnswerSample::one_in;
+  const auto tally_with = [&](const char* name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run",     "--plugin", plugin_file("planted"),   "-s",
+                                       "planted", "--cases",  fmt::format("{}", cases), "--seed",
+                                       "1",       "--out",    (folder / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = nearmiss(arguments, {"NEARMISS_PLANTED=w"});
+    EXPECT_EQ(ran.exit_code, 1) << ran.err;
+    EXPECT_EQ(ran.out.find("only a sample was judged") == std::string::npos, !more.empty()) << ran.out;
+    const json index = index_of(folder / name);
+    EXPECT_EQ(complaints(index, "run.schema.json"), "");
+    return json(index.at("tallies").at(0));
+  };
+  const json sampled = tally_with("sampled", {}), every = tally_with("every", {"--every-answer"});
+  EXPECT_EQ(sampled.at("not_judged"), 15 * AnswerSample::one_in) << sampled;
+  EXPECT_EQ(sampled.at("cases"), cases - 15 * AnswerSample::one_in);
+  EXPECT_EQ(every.at("not_judged"), 0);
+  EXPECT_EQ(every.at("cases"), cases);
 }
 
 TEST(Run, TakesOnlyWhatWasChosen) {
@@ -343,7 +367,7 @@ TEST(Run, ReportsTheTunnellingOfFcl) {
   if (!has_fcl()) GTEST_SKIP() << "FCL is not part of this build";
   const TemporaryFolder folder;
   const Ran ran = nearmiss(
-      {"run", "-s", "fcl", "-q", "moving_sphere_box", "-n", "3000", "--seed", "1", "--out", (folder / "r").string()});
+      {"run", "-s", "fcl", "-q", "moving_sphere_box", "-n", "1500", "--seed", "1", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r");
   ASSERT_GT(index["tallies"][0]["disagreements"]["false miss"]["violations"], 0);

@@ -1,6 +1,7 @@
 /// Counts, retention of findings, and formats of numbers.
 #include <gtest/gtest.h>
 
+#include "reports/engine/answer_sample.hpp"
 #include "reports/engine/tally.hpp"
 #include "reports/findings/breakage.hpp"
 #include "reports/findings/text.hpp"
@@ -55,6 +56,29 @@ TEST(Tally, CountsByMember) {
   EXPECT_EQ(t.violations[std::size_t(Disagreement::wrong_normal)], 1u);
   EXPECT_EQ(t.wrong, 1u);
   EXPECT_EQ(t.bad(), 1u);
+}
+
+TEST(AnswerSample, TakesEveryAnswerOfASubjectThatIsRarelyWrong) {
+  AnswerSample sample;
+  for (std::uint64_t i = 0; i < 4 * AnswerSample::judged_at_first; ++i) {
+    ASSERT_TRUE(sample.takes_next()) << i;
+    sample.count(i % 6 == 0);
+  }
+}
+
+TEST(AnswerSample, TakesFewerOfOneThatIsOftenWrong) {
+  AnswerSample sample;
+  for (std::uint64_t i = 0; i < AnswerSample::judged_at_first; ++i) {
+    ASSERT_TRUE(sample.takes_next()) << i;
+    sample.count(i % 4 == 0);
+  }
+  std::uint64_t taken = 0;
+  for (std::uint64_t i = 0; i < 100 * AnswerSample::one_in; ++i) {
+    if (!sample.takes_next()) continue;
+    ++taken;
+    sample.count(true);
+  }
+  EXPECT_EQ(taken, 100u);
 }
 
 TEST(FindingRetention, KeepsAFaultThatACommonerOneHides) {
