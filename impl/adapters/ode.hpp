@@ -94,8 +94,8 @@ struct Ode {
   static auto answer(const in::moving_point_box<double>& q) -> Reply<collide::Impact<double>> {
     const Geometry box = geometry(q.box);
     const double depth = dGeomBoxPointDepth(box.get(), q.point.x, q.point.y, q.point.z);
+    if (std::abs(depth) <= rounding_of_depth(q.point, q.box)) return CannotAnswer{on_surface};
     if (depth > 0) return collide::Impact<double>::miss();
-    if (depth == 0) return CannotAnswer{on_surface};
     return cast(q.point, q.velocity, box, time_to_pass(q.point, 0, q.velocity, ball_around(q.box)));
   }
   static auto answer(const in::moving_point_capsule<double>& q) -> Reply<collide::Impact<double>> {
@@ -114,14 +114,22 @@ struct Ode {
   }
 
  private:
+  static double largest_of(double so_far, const Vec3d& v) {
+    return std::max({so_far, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  }
+  /// At most so far is dGeomBoxPointDepth() from the exact depth. In each direction, 3 terms up to twice the largest
+  /// number are added to a half extent, each with at most 24 roundings: of the unit quaternion, the entry of its
+  /// matrix, the difference to the center, the product and the sum.
+  static double rounding_of_depth(const Vec3d& p, const collide::Box<double>& b) {
+    constexpr double roundings = 2 * 4 * 24 * 0x1p-53;
+    return roundings * largest_of(largest_of(largest_of(0, b.half), b.center), p);
+  }
   /// At most so far is dGeomCapsulePointDepth() from the exact depth. The center, the axis and the length of the
   /// capsule are rounded too. In each direction, at most 16 terms up to twice the largest number are added, each with
   /// at most 8 roundings: of the center, the length, the axis (by a rotation), the place along it, and the distance.
   static double rounding_of_depth(const Vec3d& p, const collide::Capsule<double>& c) {
     constexpr double roundings = 2 * 16 * 8 * 0x1p-53;
-    double largest = c.radius;
-    for (const Vec3d& v : {p, c.p0, c.p1}) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    return roundings * largest;
+    return roundings * largest_of(largest_of(largest_of(c.radius, c.p0), c.p1), p);
   }
   static constexpr const char* on_surface =
       "ODE's rays do not tell entering from leaving where they start on a surface";
