@@ -98,12 +98,13 @@ void print_head(unsigned repeats) {
 
 Written by `build/benchmarks/benchmarks/batch_gain`. Run the same command to update this page.
 
-A [batch](numerics.md#batches) answers a query for many arguments in one call. The table has the processor time of a query in ns: by
-single calls of `Fast` in a loop over an array of structs, and by a batch with SSE2 and with AVX2 over structures of arrays.
-The bits of the answers are the same. × is the time of the single calls divided by that of the batch. All ways answer the
-same {} plain scenes of the generator in the same order, half of them with the answer no where the query has a decision, and
-store the answers. The scenes stay in the processor's caches. A figure is the median of {} repeats, in each of which all
-ways run one after the other; so is a ratio.
+The [batch form](numerics.md#batch-forms) of a query answers it for many arguments in one call. The tables have the
+processor time of a query in ns: by single calls of `Fast` in a loop over an array of structs, and by a batch with SSE2 and
+with AVX2 over structures of arrays. The bits of the answers are the same. × is the time of the single calls divided by
+that of the batch. All ways answer the same {} plain scenes of the generator in the same order and store the answers. Half
+of the scenes have the answer no where the query has a decision. The scenes stay in the processor's caches. A figure is the
+median of {} repeats, in each of which all ways run one after the other; so is a ratio. Single calls of `ray_aabox` get
+prepared rays and boxes.
 
 Processor: {}.
 )",
@@ -123,7 +124,7 @@ void print_table(const char* scalar, const std::vector<std::pair<const char*, Ga
 
 int run(const std::vector<std::string>& names, unsigned repeats) {
   if (collide::widest_simd() != collide::Simd::avx2)
-    return std::cerr << "batch_gain: this machine has no AVX2, and so only a part of the page\n", 2;
+    std::cerr << "batch_gain: this machine has no AVX2: the figures are those of narrower instructions\n";
   print_head(repeats);
   std::vector<std::pair<const char*, Gain>> in_float, in_double;
   for (const Batched& b : batched) {
