@@ -96,7 +96,7 @@ constexpr Batched batched[] = {NEARMISS_BATCH_QUERIES(NEARMISS_BATCHED)};
 void print_head(unsigned repeats) {
   fmt::print(R"(# What batches gain
 
-Written by `build/benchmarks/benchmarks/batch_gain`. Run the same command to update this page.
+Written by `build/release/benchmarks/batch_gain`. Run the same command to update this page.
 
 The [batch form](numerics.md#batch-forms) of a query answers it for many arguments in one call. The tables have the
 processor time of a query in ns: by single calls of `Fast` in a loop over an array of structs, and by a batch with SSE2 and

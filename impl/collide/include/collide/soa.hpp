@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <collide/members.hpp>
 
@@ -139,64 +139,63 @@ class Soa {
   /// Struct i; requires i < size().
   S operator[](std::size_t i) const noexcept {
     S s{};
-    each([&](const auto& array, auto& leaf) { leaf = array[i]; }, s);
+    std::size_t k = 0;
+    detail::for_each_array_leaf(s, [&](auto& leaf) {
+      leaf = reinterpret_cast<const std::remove_cvref_t<decltype(leaf)>*>(memory_.data() + offsets_[k++])[i];
+    });
     return s;
   }
   /// Replaces struct i; requires i < size().
   void put(std::size_t i, const S& s) noexcept {
-    each([&](const auto& array, const auto& leaf) { array[i] = leaf; }, s);
+    std::size_t k = 0;
+    detail::for_each_array_leaf(s, [&](const auto& leaf) {
+      reinterpret_cast<std::remove_cvref_t<decltype(leaf)>*>(memory_.data() + offsets_[k++])[i] = leaf;
+    });
   }
 
   /// Array k.
   template <std::size_t k>
-  auto array() noexcept {
-    return std::span(std::get<k>(arrays_).get(), size_);
+  std::span<std::tuple_element_t<k, LeafTypes<S>>> array() noexcept {
+    return span().template array<k>();
   }
-  SoaView<S> view() const noexcept { return as<SoaView<S>>(std::make_index_sequence<leaf_count<S>>()); }
-  SoaSpan<S> span() noexcept { return as<SoaSpan<S>>(std::make_index_sequence<leaf_count<S>>()); }
+  SoaView<S> view() const noexcept { return view_of(std::make_index_sequence<leaf_count<S>>()); }
+  SoaSpan<S> span() noexcept { return span_of(std::make_index_sequence<leaf_count<S>>()); }
 
  private:
-  template <class... Leaf>
-  static std::tuple<std::unique_ptr<Leaf[]>...> arrays_of(const std::tuple<Leaf...>&);
-  using Arrays = decltype(arrays_of(std::declval<LeafTypes<S>>()));
+  template <std::size_t k>
+  using Leaf = std::tuple_element_t<k, LeafTypes<S>>;
 
-  template <class View, std::size_t... k>
-  View as(std::index_sequence<k...>) const noexcept {
-    return View(size_, std::get<k>(arrays_).get()...);
+  template <std::size_t... k>
+  SoaView<S> view_of(std::index_sequence<k...>) const noexcept {
+    return SoaView<S>(size_, reinterpret_cast<const Leaf<k>*>(memory_.data() + offsets_[k])...);
   }
-  /// Calls f(array, leaf) for each leaf of s. The types of the leaves may differ, and the number of the array is known
-  /// only at run time: the array of the leaf's type is chosen among all.
-  template <class F, class Struct>
-  void each(F&& f, Struct& s) const {
-    std::size_t leaf_number = 0;
-    detail::for_each_array_leaf(s, [&](auto& leaf) {
-      using Leaf = std::remove_cvref_t<decltype(leaf)>;
-      std::size_t k = 0;
-      std::apply(
-          [&](const auto&... array) {
-            const auto if_it = [&](const auto& a) {
-              if constexpr (std::is_same_v<std::remove_cvref_t<decltype(a)>, std::unique_ptr<Leaf[]>>) {
-                if (k == leaf_number) f(a, leaf);
-              }
-              ++k;
-            };
-            (if_it(array), ...);
-          },
-          arrays_);
-      ++leaf_number;
-    });
+  template <std::size_t... k>
+  SoaSpan<S> span_of(std::index_sequence<k...>) noexcept {
+    return SoaSpan<S>(size_, reinterpret_cast<Leaf<k>*>(memory_.data() + offsets_[k])...);
+  }
+  template <std::size_t... k>
+  static constexpr std::array<std::size_t, leaf_count<S>> leaf_sizes(std::index_sequence<k...>) {
+    return {sizeof(Leaf<k>)...};
   }
   void reallocate(std::size_t capacity) {
-    const auto grow = [&]<class Leaf>(std::unique_ptr<Leaf[]>& array) {
-      auto larger = std::make_unique<Leaf[]>(capacity);
-      std::copy_n(array.get(), size_, larger.get());
-      return larger;
-    };
-    arrays_ = std::apply([&](auto&... array) { return Arrays{grow(array)...}; }, arrays_);
-    capacity_ = capacity;
+    // Two cache lines lie between two arrays. Elements of the same index would otherwise compete for the same lines of
+    // a cache where the size of an array is a power of two.
+    constexpr std::size_t line = 64, between = 2 * line;
+    constexpr auto sizes = leaf_sizes(std::make_index_sequence<leaf_count<S>>());
+    std::array<std::size_t, leaf_count<S>> offsets{};
+    std::size_t bytes = 0;
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      offsets[k] = bytes;
+      bytes += (capacity * sizes[k] + line - 1) / line * line + between;
+    }
+    std::vector<std::byte> memory(bytes);
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      std::copy_n(memory_.data() + offsets_[k], size_ * sizes[k], memory.data() + offsets[k]);
+    memory_ = std::move(memory), offsets_ = offsets, capacity_ = capacity;
   }
 
-  Arrays arrays_{};
+  std::vector<std::byte> memory_;
+  std::array<std::size_t, leaf_count<S>> offsets_{};  ///< of the arrays in the memory
   std::size_t size_ = 0, capacity_ = 0;
 };
 
