@@ -88,7 +88,12 @@ struct Wide<double> {
   }
 };
 
+#include <collide/detail/batch/values.hpp>
+
 #include <collide/detail/batch/kernels.hpp>
+#include <collide/detail/batch/motions.hpp>
+
+#include <collide/detail/batch/blocks.hpp>
 
 }  // namespace collide::detail::sse2
 
