@@ -14,8 +14,12 @@ fail() {
   exit 1
 }
 
-# A program that contains every query of the tier Fast, called by a pointer to it.
+batches=$(sed -nE 's/^void ([a-z_]+)\(SoaView.*/\1/p' "$include_folder/collide/batch.hpp")
+[[ -n $batches ]] || fail "batch.hpp has no batch form"
+
+# A program that contains every query of the tier Fast, called by a pointer to it, and every batch form.
 {
+  echo '#include <collide/batch.hpp>'
   echo '#include <collide/collide.hpp>'
   echo 'namespace collide {'
   echo 'template <class... A> struct Call { template <class F> static auto of(F f) { return +f; } };'
@@ -29,6 +33,9 @@ fail() {
       concrete=$(sed -E "s/<T>/<$scalar>/g; s/\bT\b/$scalar/g" <<<"$parameters")
       echo "auto call_${query}_$scalar($concrete) { return $query<Fast>($names); }"
     done
+  done
+  for query in $batches; do
+    for scalar in float double; do echo "auto batch_of_${query}_$scalar = &batch::$query<$scalar>;"; done
   done
   echo '}'
 } >"$scratch/all.cpp"

@@ -1,4 +1,5 @@
-/// All of collide except the tier `Certified`, which needs GMP and MPFR (certified.hpp).
+/// All of collide except the batches (batch.hpp), which include the instructions of the processor, and the tier
+/// `Certified`, which needs GMP and MPFR (certified.hpp).
 #pragma once
 
 #include <collide/answers.hpp>
