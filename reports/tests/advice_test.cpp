@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "corpus/codec.hpp"
@@ -157,7 +159,7 @@ class SceneAdvice : public testing::Test {
  protected:
   Ran advise(const json& scene, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"scene",   "advise", folder_.file("scene.json", scene.dump()), "--out", out(),
-                                       "--cases", "200"};
+                                       "--cases", "100"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     Ran ran = nearmiss(arguments);
     std::istringstream lines(ran.out);
@@ -182,9 +184,9 @@ TEST_F(SceneAdvice, FindsATierThatMeetsEverythingAndWritesItsProfile) {
   EXPECT_NE(ran.out.find(chosen), std::string::npos);
   for (const json& c : query["candidates"]) {
     if (c["subject"] != chosen) continue;
-    EXPECT_EQ(c["evidence"]["answered"], 200);
+    EXPECT_EQ(c["evidence"]["answered"], 100);
     EXPECT_EQ(c["evidence"]["beyond"]["count"], 0);
-    EXPECT_LT(c["evidence"]["beyond"]["high"], 3.0 / 200);  // the rule of three bounds 1 - 0.05^(1/200)
+    EXPECT_LT(c["evidence"]["beyond"]["high"], 3.0 / 100);  // the rule of three bounds 1 - 0.05^(1/100)
   }
   EXPECT_EQ(profile["queries"][0]["subject"], chosen);
   EXPECT_EQ(profile["scene"]["file"], "../scene.json");
@@ -218,11 +220,65 @@ TEST_F(SceneAdvice, TriesRemediesWhereNoTierMeetsARequirement) {
   ASSERT_EQ(query["remedies"].size(), 3u);
   EXPECT_EQ(query["remedies"][0]["name"], "re-centre the origin");
   EXPECT_EQ(query["remedies"][0]["meets_all"], true);
-  EXPECT_EQ(query["remedies"][0]["evidence"]["answered"], 200);
+  EXPECT_EQ(query["remedies"][0]["evidence"]["answered"], 100);
   EXPECT_EQ(query["remedies"][2]["meets_all"], false);
   EXPECT_NE(ran.out.find("then meets everything"), std::string::npos) << ran.out;
   EXPECT_EQ(profile["missing"][0]["query"], "moving_sphere_box");
   EXPECT_EQ(nearmiss({"scene", "verify", (folder_ / "out" / "profile.json").string(), "--cases", "10"}).exit_code, 1);
+}
+
+/// A profile of two queries of the scene recorded, each with another subject.
+std::string some_profile_file(const TemporaryFolder& folder) {
+  json profile{{"schema", 1}, {"scene", {{"name", "recorded"}, {"file", nullptr}}}, {"seed", 2}, {"cases", 1}};
+  profile["queries"] = json::array({{{"query", "moving_sphere_box"}, {"subject", "collide-fast-float"}},
+                                    {{"query", "sphere_sphere_overlap"}, {"subject", "collide-accurate-double"}}});
+  profile["missing"] = json::array();
+  return folder.file("profile.json", profile.dump());
+}
+
+/// The table of a command has each query with its own subject alone.
+void expect_pairs_alone(const std::string& said) {
+  std::map<std::string, std::set<std::string>> subjects_of;
+  std::istringstream lines(said);
+  std::string query;
+  for (std::string line; std::getline(lines, line);) {
+    if (find_query(line) != nullptr) query = line;
+    if (line.starts_with("all ")) break;
+    if (line.starts_with("  collide-")) subjects_of[query].insert(line.substr(2, line.find(' ', 2) - 2));
+  }
+  const std::map<std::string, std::set<std::string>> asked{{"moving_sphere_box", {"collide-fast-float"}},
+                                                           {"sphere_sphere_overlap", {"collide-accurate-double"}}};
+  EXPECT_EQ(subjects_of, asked) << said;
+}
+
+TEST(ProfileOption, AsksEachQueryOfItsSubjectAlone) {
+  const TemporaryFolder folder;
+  const std::string profile = some_profile_file(folder), out = (folder / "out").string();
+  const Ran run = nearmiss({"run", "--profile", profile, "--cases", "100", "--seed", "1", "--out", out});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  expect_pairs_alone(run.out);
+  const json index = json::parse(read_file(folder / "out" / "index.json"));
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index.at("scene"), "recorded");
+  const Ran map = nearmiss({"extremes", "--profile", profile, "--cases", "1", "--out", out});
+  EXPECT_EQ(map.exit_code, 0) << map.out << map.err;
+  expect_pairs_alone(map.out);
+  const Ran related = nearmiss({"relations", "--profile", profile, "--cases", "20", "--seed", "1", "--out", out});
+  EXPECT_EQ(related.exit_code, 0) << related.out << related.err;
+  EXPECT_EQ(related.out.find("collide-certified"), std::string::npos) << related.out;
+}
+
+TEST(ProfileOption, ANightAsksNothingElse) {
+  const TemporaryFolder folder;
+  const Ran night =
+      nearmiss({"nightly", "--profile", some_profile_file(folder), "--minutes", "0.05", "--no-triage", "--seed", "1",
+                "--fuzz-targets", folder.path().string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(night.exit_code, 0) << night.out << night.err;
+  expect_pairs_alone(night.out);
+  const json index = json::parse(read_file(folder / "out" / "index.json"));
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  EXPECT_EQ(index.at("scene"), "recorded");
+  EXPECT_FALSE(index.contains("properties"));
 }
 
 /// The error of a command that must fail with one line and exit status 2.
@@ -246,6 +302,10 @@ TEST_F(SceneAdvice, BadInputIsOneLine) {
   profile["missing"] = json::array();
   EXPECT_NE(refused({"scene", "verify", folder_.file("a.json", profile.dump())}).find("no subject no-such"),
             std::string::npos);
+  EXPECT_NE(refused({"run", "--profile", folder_.file("a.json", profile.dump())}).find("no subject no-such"),
+            std::string::npos);
+  EXPECT_NE(refused({"run", "--profile", "a.json", "-q", "ray_aabox"}).find("--query"), std::string::npos);
+  EXPECT_NE(refused({"run", "--profile", "a.json", "--climb"}).find("--climb"), std::string::npos);
   profile["queries"][0]["query"] = "ray_aabox";
   EXPECT_NE(refused({"scene", "verify", folder_.file("b.json", profile.dump())}).find("does not ask ray_aabox"),
             std::string::npos);
