@@ -90,11 +90,10 @@ void Advice::find() {
   }
 }
 
-SceneEvidence Advice::evidence_of(const Subject& subject, const Query& query, const TradeSource& source,
-                                  std::uint64_t cases) {
+SceneEvidence Advice::evidence_of(const Subject& subject, const Query& query, const TradeSource& source) {
   progress_.set_activity(fmt::format("evidence for {}, {}", query.name, subject.name));
-  return measured_evidence({&subject, &query, &source, evidence_seed(), cases}, dispatcher_, internal_errors_,
-                           [this](std::uint64_t done) { return tick(done); });
+  return measured_evidence({&subject, &query, &source, evidence_seed(), settings_.cases, true}, dispatcher_,
+                           internal_errors_, [this](std::uint64_t done) { return tick(done); });
 }
 
 AdvisedQuery Advice::advised(const TradedQuery& traded) {
@@ -102,7 +101,7 @@ AdvisedQuery Advice::advised(const TradedQuery& traded) {
   for (std::size_t i = 0; i < a.candidates.size() && !a.chosen && !interrupted(); ++i) {
     RankedSubject& c = a.candidates[i];
     if (!c.measured->meets_all()) continue;
-    c.evidence = evidence_of(c.subject(), *a.query, settings_.source, settings_.cases);
+    c.evidence = evidence_of(c.subject(), *a.query, settings_.source);
     c.requirements = c.evidence->requirements(settings_.source.tolerance, sequential_cost(*c.measured));
     if (c.meets_all()) a.chosen = i;
   }
@@ -120,11 +119,10 @@ std::vector<TriedRemedy> Advice::tried_remedies(const AdvisedQuery& a) {
 
 TriedRemedy Advice::tried(const Remedy& remedy, const AdvisedQuery& a) {
   TriedRemedy best{remedy.name, remedy.words, remedy.source.tolerance.unit, nullptr, {}, {}, std::nullopt, false};
-  const std::uint64_t cases = std::min(settings_.cases, remedy_cases);
   const std::size_t end = a.chosen.value_or(a.candidates.size());
   for (std::size_t i = 0; i < end && !best.meets_all && !interrupted(); ++i) {
     const RankedSubject& c = a.candidates[i];
-    SceneEvidence e = evidence_of(c.subject(), *a.query, remedy.source, cases);
+    SceneEvidence e = evidence_of(c.subject(), *a.query, remedy.source);
     std::vector<MetRequirement> requirements = e.requirements(remedy.source.tolerance, sequential_cost(*c.measured));
     const bool meets = e.is_complete() && none_failed(requirements);
     if (best.subject != nullptr && !meets && e.worst_use >= best.evidence.worst_use) continue;

@@ -90,12 +90,10 @@ class Advice {
 
   /// How many cases of each query are timed, and judged for all subjects.
   static constexpr std::uint64_t timed_cases = 500;
-  /// How many cases of each query a remedy is tried on, for each subject.
-  static constexpr std::uint64_t remedy_cases = 1000;
 
  private:
   AdvisedQuery advised(const TradedQuery& traded);
-  SceneEvidence evidence_of(const Subject& subject, const Query& query, const TradeSource& source, std::uint64_t cases);
+  SceneEvidence evidence_of(const Subject& subject, const Query& query, const TradeSource& source);
   std::vector<TriedRemedy> tried_remedies(const AdvisedQuery& a);
   TriedRemedy tried(const Remedy& remedy, const AdvisedQuery& a);
   bool tick(std::uint64_t done);

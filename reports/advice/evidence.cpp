@@ -64,7 +64,7 @@ class EvidenceMeasurement {
     for (std::uint64_t at = 0; at < settings_.cases && !interrupted(); at += asked_at_once) {
       const std::uint64_t count = std::min<std::uint64_t>(asked_at_once, settings_.cases - at);
       ask(at, std::size_t(count));
-      if (!goes_on(count)) break;
+      if (!goes_on(count) || (settings_.until_failure && has_failed())) break;
     }
     e_.missed_deeper = rate_of(missed_deeper_, contacts_);
     e_.phantom_wider = rate_of(phantom_wider_, reported_);
@@ -72,6 +72,15 @@ class EvidenceMeasurement {
   }
 
  private:
+  /// True where a requirement fails whatever the answers to the cases that are left.
+  bool has_failed() const {
+    const double all = double(settings_.cases);
+    return e_.unanswered > 0 || e_.not_finite > 0 || e_.distance.proved > tolerance_.error ||
+           (tolerance_.time && e_.time.proved > *tolerance_.time) ||
+           double(missed_deeper_) > tolerance_.missed_rate * all ||
+           double(phantom_wider_) > tolerance_.phantom_rate * all;
+  }
+
   void ask(std::uint64_t first, std::size_t count) {
     std::vector<Case> drawn(count), asked;
     for (std::size_t i = 0; i < count; ++i)

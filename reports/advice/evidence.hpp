@@ -38,7 +38,7 @@ struct SceneEvidence {
   std::optional<Case> worst;       ///< the case whose answer uses up most of the tolerance; empty: no error is proved
   double worst_use = 0;            ///< the share of the tolerance that it uses up; above 1: too much
 
-  /// True where every case was asked: no interrupt ended the measurement.
+  /// True where every case was asked: neither an interrupt nor a failure ended the measurement.
   bool is_complete() const { return answered + unanswered == cases; }
   /// The requirements that these figures are about, and the time of a call, where it is known.
   std::vector<MetRequirement> requirements(const TradeTolerance& tolerance, std::optional<double> nanoseconds) const;
@@ -50,6 +50,7 @@ struct EvidenceSettings {
   const Query* query = nullptr;
   const TradeSource* source = nullptr;
   std::uint64_t seed = 1, cases = 0;
+  bool until_failure = false;  ///< end after the batch with which a requirement can no longer be met
 };
 
 /// Asks a subject the cases 0 ... cases - 1 of a stream. Each answer is judged by intervals first. Where they leave
