@@ -30,11 +30,27 @@ struct Room {
   int rank;
 };
 constexpr Room rooms[] = {
-    {"impl/collide", 0},      {"impl/catalogue", 1}, {"impl/plugin", 1},       {"impl/subject", 2},
-    {"impl/adapters", 3},     {"impl/host", 3},      {"oracles/exact", 4},     {"oracles/algorithms", 5},
-    {"oracles", 6},           {"corpus", 7},         {"reports/findings", 8},  {"reports/engine", 9},
-    {"reports/triage", 10},   {"reports/trade", 10}, {"reports/upstream", 11}, {"reports/page", 11},
-    {"reports/commands", 12}, {"reports/tests", 13}, {"properties", 13},       {"fuzz", 13},
+    {"impl/collide", 0},
+    {"impl/catalogue", 1},
+    {"impl/plugin", 1},
+    {"impl/subject", 2},
+    {"impl/adapters", 3},
+    {"impl/host", 3},
+    {"oracles/exact", 4},
+    {"oracles/algorithms", 5},
+    {"oracles", 6},
+    {"corpus", 7},
+    {"reports/findings", 8},
+    {"reports/engine", 9},
+    {"reports/triage", 10},
+    {"reports/trade", 10},
+    {"reports/advice", 11},
+    {"reports/upstream", 11},
+    {"reports/page", 11},
+    {"reports/commands", 12},
+    {"reports/tests", 13},
+    {"properties", 13},
+    {"fuzz", 13},
     {"benchmarks", 13},
 };
 

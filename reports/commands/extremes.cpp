@@ -3,6 +3,7 @@
 #include "corpus/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/commands/profile_option.hpp"
 #include "reports/engine/extremes.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/run.hpp"
@@ -23,6 +24,8 @@ class ExtremesCommand : public Command {
              "them. At each place it asks every chosen subject, and keeps the worst proved errors and the wrong "
              "decisions. Contracts play no part: places where nothing is promised are measured too, and no "
              "finding there is a violation.",
+             "--profile takes the queries of a profile and their subjects; the cases are the generator's, because the "
+             "axes begin at sizes of 1 near the origin.",
              "The folder receives extremes.json and, where the build found the Debian package node-d3, "
              "extremes.html: one self-contained page with a heat map for each query and subject. After an "
              "interrupt both hold the finished part. A subject with 3 time-outs in a row of a map is not asked "
@@ -41,6 +44,7 @@ class ExtremesCommand : public Command {
   void declare(CLI::App& app) override {
     selection_.declare_subjects(app);
     selection_.declare_queries(app);
+    profile_.declare(app);
     add_whole_number(app, "-n,--cases", cases_, fmt::format("Cases at each place. Default: {}", default_cases), 1,
                      most_cases_per_place);
     add_whole_number(app, "--seed", seed_, "The seed of the generator. Default: 1", 0,
@@ -49,10 +53,13 @@ class ExtremesCommand : public Command {
   }
   int run(const CLI::App&) override {
     selection_.check_offered();
+    std::optional<ChosenProfile> profile;
+    if (profile_.is_given()) profile.emplace(profile_.file);
     const std::uint64_t seed = seed_.value_or(1);
     catch_interrupts();
     Extremes extremes({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
-                       selection_.queries(), selection_.subjects(), seed, cases_.value_or(default_cases)});
+                       profile ? profile->queries() : selection_.queries(),
+                       profile ? profile->subjects() : selection_.subjects(), seed, cases_.value_or(default_cases)});
     extremes.sweep();
     extremes.write();
     fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
@@ -62,6 +69,7 @@ class ExtremesCommand : public Command {
 
  private:
   Selection selection_;
+  ProfileOption profile_;
   std::optional<std::uint64_t> cases_, seed_;
   std::string out_;
 };

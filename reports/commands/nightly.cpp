@@ -7,10 +7,12 @@
 #include <thread>
 
 #include "corpus/codec.hpp"
+#include "corpus/scenes/scene_cases.hpp"
 #include "corpus/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/commands/profile_option.hpp"
 #include "reports/engine/fuzz_night.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/night_changes.hpp"
@@ -161,6 +163,22 @@ std::optional<Case> fuzzed_case(const fs::path& file) {
   return c;
 }
 
+/// Puts cases of the scene into the corpora of the targets, for them to start from.
+void put_seeds_of(const scenes::Scene& scene, const FuzzTargets& found, const Run& run) {
+  constexpr std::uint64_t seeds_of_scalar = 64;
+  for (const FuzzTarget& t : found.targets) {
+    const fs::path corpus = run.settings().folder / "corpus" / t.query->name;
+    make_folder(corpus);
+    for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+      for (std::uint64_t i = 0; i < seeds_of_scalar; ++i) {
+        const auto bytes = case_to_bytes(scenes::draw_case(scene, *t.query, scalar, run.settings().seed, i));
+        write_file(corpus / fmt::format("scene-{}-{}", name_of(scalar), i),
+                   {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      }
+    }
+  }
+}
+
 /// Turns what the targets left into findings of this run.
 Json examine_fuzzed(Run& run) {
   run.set_activity("judging what fuzzing found");
@@ -192,12 +210,12 @@ void climb(Run& run) {
 
 /// Related cases of every subject. Returns 0, 1 for broken promises of a subject whose night it is, or InternalError's
 /// exit code.
-int relate(Run& run, Clock::time_point until) {
+int relate(Run& run, Clock::time_point until, const scenes::Scene* scene) {
   run.set_activity("relations");
   std::vector<const Relation*> all;
   for (const Relation& r : relations()) all.push_back(&r);
   RelationsRun related({run.settings().command, run.settings().folder, run.settings().queries, run.settings().subjects,
-                        all, run.settings().seed, false});
+                        all, run.settings().seed, false, scene});
   related.run(std::nullopt, until);
   related.write();
   run.note("relations", {{"file", "relations.json"},
@@ -250,6 +268,10 @@ class NightlyCommand : public Command {
          "those that find most have more. Their cases are judged and reported like all others. The targets ask the "
          "tiers of collide, plugins, commands, and the subjects of NEARMISS_ADD that they were built with. Where "
          "the fuzz targets are not built, the summary and the index say so, and the generated cases get their time.",
+         "With --profile the night asks what a profile of 'nearmiss scene advise' offers, and nothing else: cases of "
+         "its scene for each of its queries and subjects, their relations, and the fuzz targets of its queries, which "
+         "start from cases of the scene and ask all tiers of collide. Stored cases, climbs and property tests, which "
+         "know no scene, are left out, and the cases of the scene get their time.",
          "The night ends with a triage, as in 'nearmiss triage', for a tenth of the time (at most half an hour) or "
          "--triage-minutes: reports are grouped into signatures, and compared with those of the last night: new, worse "
          "(at least twice the proved size), known, and fixed (asked again, and right now). The last night is the one "
@@ -266,7 +288,8 @@ class NightlyCommand : public Command {
          "fixed. Give the same folder every night to keep the corpus and to compare."},
         judging_exit_status(),
         {{"nearmiss nightly --minutes 60", "One hour."},
-         {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."}}};
+         {"nearmiss nightly --minutes 480 --out nights", "A night, with a corpus that grows from night to night."},
+         {"nearmiss nightly --profile profile/profile.json", "A night for what one program asks."}}};
   }
   void declare(CLI::App& app) override {
     declare_foreign_subjects(app);
@@ -279,6 +302,7 @@ class NightlyCommand : public Command {
     add_output_folder(app, out_, "The run folder. Default: reports/runs/TIME-SEED of the source tree");
     add_positive_number(app, "--triage-minutes", triage_minutes_,
                         "The most time of the triage, a part of --minutes and at most half of it", "M", most_minutes);
+    profile_.declare(app);
     app.add_flag("--no-triage", no_triage_, "End without a triage and without a page")->excludes("--triage-minutes");
     app.add_option("--fuzz-targets", targets_, "Where the fuzz targets are. Default: the build's own folder")
         ->type_name("DIR")
@@ -297,28 +321,35 @@ class NightlyCommand : public Command {
         begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds - for_triage));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
+    std::optional<ChosenProfile> profile;
+    if (profile_.is_given()) profile.emplace(profile_.file);
+    const scenes::Scene* scene = profile ? &profile->scene() : nullptr;
+    const std::vector<const Query*> queries = profile ? profile->queries() : all.queries();
     foreign_subjects();  // refuses a bad name now rather than in the last third
     catch_interrupts();
     const FuzzTargets found =
-        find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), all.queries());
-    Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), all.queries(), all.subjects(),
-             seed, end});
+        find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), queries);
+    Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), queries,
+             profile ? profile->subjects() : all.subjects(), seed, end, false, scene});
+    if (scene != nullptr) run.note("scene", scene->name);
     fmt::print("seed {}, for {}, into {}\n{}\n", seed, duration_text(seconds), run.settings().folder.string(),
                targets_text(found));
     std::fflush(stdout);
     const std::vector<WrittenReport> earlier = run.kept().written();
-    run.ask_worst_cases();
+    if (!profile) run.ask_worst_cases();
     const std::set<std::string> again = ask_again(run, earlier);
-    const std::uint64_t unexpected = replay_stored(run);
+    const std::uint64_t unexpected = profile ? 0 : replay_stored(run);
     const double later = (found.targets.empty() ? 0 : fuzzing_share);
-    run.set_until(between(begin, end, 1 - later - properties_share - climbing_share));
+    const double testing = profile ? 0 : properties_share / 2, relating = properties_share / 2;
+    run.set_until(between(begin, end, 1 - later - testing - relating - (profile ? 0 : climbing_share)));
     run.set_activity("generated cases");
     run.generate(std::nullopt);
-    run.set_until(between(begin, end, 1 - later - properties_share));
-    climb(run);
+    run.set_until(between(begin, end, 1 - later - testing - relating));
+    if (!profile) climb(run);
     run.set_until(end);
-    const int related = relate(run, between(begin, end, 1 - later - properties_share / 2));
-    bool failed = ask_properties(run, between(begin, end, 1 - later)) || related > 0;
+    const int related = relate(run, between(begin, end, 1 - later - testing), scene);
+    bool failed = (!profile && ask_properties(run, between(begin, end, 1 - later))) || related > 0;
+    if (profile) put_seeds_of(*scene, found, run);
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     const NightChanges changes(earlier, run.written_now(), again);
     run.note("night", changes.to_json());
@@ -407,6 +438,7 @@ class NightlyCommand : public Command {
   bool no_triage_ = false;
   std::optional<std::uint64_t> seed_, jobs_;
   std::string out_, targets_;
+  ProfileOption profile_;
 };
 
 }  // namespace

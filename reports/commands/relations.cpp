@@ -3,6 +3,7 @@
 #include "corpus/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/commands/profile_option.hpp"
 #include "reports/engine/folder_lock.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/progress.hpp"
@@ -66,6 +67,7 @@ class RelationsCommand : public Command {
         });
     amount_.declare(app, "Cases of each query and scalar", "The folder");
     scene_.declare(app);
+    profile_.declare(app);
     app.add_flag("--bit-for-bit", bit_for_bit_,
                  "Every chosen subject claims to answer scaled cases alike bit for bit, as the tiers of collide do")
         ->disable_flag_override();
@@ -75,14 +77,17 @@ class RelationsCommand : public Command {
     const std::uint64_t seed = seed_or_random(amount_.seed);
     const std::optional<scenes::Scene> scene = scene_.load();
     if (scene) select_queries_of(*scene, selection_);
+    std::optional<ChosenProfile> profile;
+    if (profile_.is_given()) profile.emplace(profile_.file);
+    const scenes::Scene* world = profile ? &profile->scene() : scene ? &*scene : nullptr;
     catch_interrupts();
     std::vector<const Relation*> wanted;
     for (const Relation& r : relations()) {
       if (chosen_.empty() || std::find(chosen_.begin(), chosen_.end(), r.name) != chosen_.end()) wanted.push_back(&r);
     }
     const std::filesystem::path folder = amount_.folder(seed);
-    RelationsRun run({typed_command_line(), folder, selection_.queries(), selection_.subjects(), wanted, seed,
-                      bit_for_bit_, scene ? &*scene : nullptr});
+    RelationsRun run({typed_command_line(), folder, profile ? profile->queries() : selection_.queries(),
+                      profile ? profile->subjects() : selection_.subjects(), wanted, seed, bit_for_bit_, world});
     const FolderLock lock(folder);
     fmt::print("seed {}\n", seed);
     std::fflush(stdout);
@@ -111,6 +116,7 @@ class RelationsCommand : public Command {
   Amount amount_{1'000, {}, {}, {}, {}, {}};
   bool bit_for_bit_ = false;
   SceneOption scene_;
+  ProfileOption profile_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "corpus/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/commands/profile_option.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/text.hpp"
@@ -65,11 +66,11 @@ class RunCommand : public Command {
          "With --scene the cases are taken from a scene (docs/scenes.md): a world with its sizes, distances, speeds "
          "and "
          "mix of queries. --cases is then the number of cases of the mix for each subject. No stored worst cases are "
-         "asked first.",
+         "asked first. --profile does the same with the scene of a profile, and asks each query only of the subject "
+         "that the profile has answer it.",
          "A proof takes several times as long as the look that finds an answer right. Where a fifth of a subject's "
          "first 16,384 answers to a query is proved wrong, every sixteenth further answer is judged, and a line says "
-         "how "
-         "many were not. --every-answer judges all.",
+         "how many were not. --every-answer judges all.",
          "Every run first asks the stored worst cases (corpus/worst/) of the chosen queries and subjects, beyond the "
          "number of --cases. With --measure it does not."},
         judging_exit_status(),
@@ -80,7 +81,8 @@ class RunCommand : public Command {
          {"nearmiss run --seconds 60 --out night", "For a minute, into the folder night."},
          {"nearmiss run --climb --update-worst --seconds 600 --subject collide-fast-float",
           "Search for worse cases than the stored ones, and store them."},
-         {"nearmiss run --scene game-world --cases 100000", "Cases of the world of an online game."}}};
+         {"nearmiss run --scene game-world --cases 100000", "Cases of the world of an online game."},
+         {"nearmiss run --profile profile/profile.json --cases 1e6", "What this profile offers, and nothing else."}}};
   }
 
   void declare(CLI::App& app) override {
@@ -88,6 +90,7 @@ class RunCommand : public Command {
     selection_.declare_queries(app);
     amount_.declare(app, "Cases for each query and subject", "The run folder");
     scene_.declare(app);
+    profile_.declare(app);
     app.add_flag("--by-class", by_class_,
                  "Print also each subject's findings by the generator's mutators that made the cases")
         ->disable_flag_override();
@@ -103,32 +106,35 @@ class RunCommand : public Command {
         ->disable_flag_override()
         ->needs(climb)
         ->excludes("--measure");
-    climb->excludes("--scene");
+    climb->excludes("--scene")->excludes("--profile");
   }
 
   int run(const CLI::App&) override {
     if (amount_.measure) set_measure({*amount_.measure, true});
     const std::optional<scenes::Scene> scene = scene_.load();
     if (scene) select_queries_of(*scene, selection_);
+    std::optional<ChosenProfile> profile;
+    if (profile_.is_given()) profile.emplace(profile_.file);
+    const scenes::Scene* world = profile ? &profile->scene() : scene ? &*scene : nullptr;
     selection_.check_offered();
     if (update_worst_) check_own();
     const std::uint64_t seed = seed_or_random(amount_.seed);
     catch_interrupts();
     RunSettings settings{typed_command_line(),
                          amount_.folder(seed),
-                         selection_.queries(),
-                         selection_.subjects(),
+                         profile ? profile->queries() : selection_.queries(),
+                         profile ? profile->subjects() : selection_.subjects(),
                          seed,
                          amount_.until(),
                          by_class_,
-                         scene ? &*scene : nullptr,
+                         world,
                          every_answer_};
     Run run(std::move(settings));
-    if (scene) run.note("scene", scene->name);
+    if (world != nullptr) run.note("scene", world->name);
     fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
                measure_text(run.settings()));
     std::fflush(stdout);
-    if (!scene) run.ask_worst_cases();
+    if (world == nullptr) run.ask_worst_cases();
     const std::string climbs = climb_ ? climb(run) : "";
     if (!climb_) run.generate(amount_.number());
     run.finish();
@@ -142,9 +148,9 @@ class RunCommand : public Command {
  private:
   std::string amount_text() const {
     if (amount_.seconds) return fmt::format("{}for {} s", climb_ ? "climbing " : "", *amount_.seconds);
-    const std::string_view of = climb_                ? " cases for each climb"
-                                : scene_.name.empty() ? " cases for each query and subject"
-                                                      : " cases of the scene for each subject";
+    const std::string_view of = climb_                                        ? " cases for each climb"
+                                : scene_.name.empty() && !profile_.is_given() ? " cases for each query and subject"
+                                                                              : " cases of the scene for each subject";
     return count_text(*amount_.number()) + std::string(of);
   }
   void check_own() const {
@@ -166,6 +172,7 @@ class RunCommand : public Command {
   Selection selection_;
   Amount amount_{10'000, {}, {}, {}, {}, {}};
   SceneOption scene_;
+  ProfileOption profile_;
   bool by_class_ = false, climb_ = false, update_worst_ = false, every_answer_ = false;
 };
 

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "corpus/scenes/scene_file.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/commands/scene_advise.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -81,31 +83,50 @@ class SceneCommand : public Command {
   Manual manual() const override {
     return {
         "scene",
-        "list, show and check scenes: worlds that cases are taken from",
+        "scenes, worlds that cases are taken from: list, show and check them, and get advice for them",
         {"A scene is a JSON file (docs/scenes.md): the extent of a world and its distance from the origin, the sizes "
          "and speeds of its shapes, the mix of its queries, and what it requires of answers. Each number has its "
          "source. 'run', 'relations' and other commands take their cases from a scene with --scene.",
          "ACTION is list (the scenes of Nearmiss), show (every number of a scene, with its source) or check (reads "
-         "files; says nothing more than that they are valid, or states file, field, value and rule)."},
-        {{"0", "The scenes are valid."}, {"2", "A scene is unknown, or its file cannot be read or is invalid."}},
+         "files; says nothing more than that they are valid, or states file, field, value and rule).",
+         "advise finds for each query of a scene the cheapest tier of collide, or the cheapest of the chosen subjects, "
+         "that meets every requirement of the scene. All are timed and judged on the same cases; then the cheapest "
+         "ones answer fresh cases until one of them meets everything. Where that is not the cheapest of all, advise "
+         "tries to re-centre the origin, to split the step and to use another unit, each on changed cases of the "
+         "scene. The folder receives advice.json, trade.json, the worst case of each choice, and the profile: "
+         "profile.json, and collide_profile.hpp with collide_profile.cmake, which offer exactly the queries of the "
+         "scene to a program.",
+         "verify reads a profile, asks each of its subjects fresh cases, and says whether every requirement still "
+         "holds."},
+        {{"0", "The scenes are valid; each query has a subject that meets every requirement."},
+         {"1", "advise: no subject meets every requirement of some query. verify: a requirement failed."},
+         {"2", "A scene is unknown, its file cannot be read or is invalid, wrong arguments, or an interrupt."},
+         internal_error_status()},
         {{"nearmiss scene list", "The scenes of Nearmiss."},
          {"nearmiss scene show robot-cell", "One of them."},
-         {"nearmiss scene check my-world.json", "Is this file a valid scene?"}}};
+         {"nearmiss scene check my-world.json", "Is this file a valid scene?"},
+         {"nearmiss scene advise driving --cases 1e5 --out profile",
+          "The cheapest tier for each query, and a profile."},
+         {"nearmiss scene verify profile/profile.json", "Does it still hold on other cases?"}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("ACTION", action_, "What to do: list, show or check")
+    app.add_option("ACTION", action_, "What to do: list, show, check, advise or verify")
         ->required()
         ->type_name("")
         ->check(CLI::Validator(
             [](const std::string& t) {
-              return t == "list" || t == "show" || t == "check"
-                         ? ""
-                         : "unknown action '" + t + "'; known are list, show, check";
+              const auto known = {"list", "show", "check", "advise", "verify"};
+              if (std::find(known.begin(), known.end(), t) != known.end()) return std::string();
+              return "unknown action '" + t + "'; known are list, show, check, advise, verify";
             },
             ""));
-    app.add_option("SCENE", names_, "The name of a scene, or a file")->type_name("");
+    app.add_option("SCENE", names_, "The name of a scene, or a file; for verify a profile.json")->type_name("");
+    advise_.declare(app);
   }
   int run(const CLI::App&) override {
+    if (action_ == "advise" || action_ == "verify") return advise_or_verify();
+    if (const std::string option = advise_.given(); !option.empty())
+      throw BadInput(fmt::format("{}: scene {} does not take it", option, action_));
     if (action_ == "list") {
       if (!names_.empty()) throw BadInput(fmt::format("scene list: takes no scene, and {} is given", names_.front()));
       fmt::print("{}", list_of_scenes());
@@ -127,8 +148,16 @@ class SceneCommand : public Command {
   }
 
  private:
+  int advise_or_verify() const {
+    const bool advises = action_ == "advise";
+    if (names_.size() != 1)
+      throw BadInput(fmt::format("scene {}: give one {}", action_, advises ? "scene" : "file profile.json"));
+    return advises ? advise_scene(names_.front(), advise_) : verify_profile(names_.front(), advise_);
+  }
+
   std::string action_;
   std::vector<std::string> names_;
+  AdviseOptions advise_;
 };
 
 }  // namespace

@@ -83,6 +83,15 @@ std::string amount_text(double k, Scalar scalar) {
   return fmt::format("{} the largest number of its group, {} epsilon", share, epsilons_text(k));
 }
 
+std::string three_digits(const std::optional<double>& x) {
+  if (!x) return "-";
+  const double size = std::abs(*x);
+  if (*x != 0 && (size >= 1e6 || size < 1e-3)) return fmt::format("{:.1e}", *x);
+  if (size < 1000) return fmt::format("{:.3g}", *x);
+  const double unit = size < 1e4 ? 10 : size < 1e5 ? 100 : 1000;
+  return fmt::format("{:.0f}", std::round(*x / unit) * unit);
+}
+
 std::string count_text(std::uint64_t n) {
   const std::string digits = std::to_string(n);
   std::string text;

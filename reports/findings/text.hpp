@@ -1,6 +1,7 @@
 /// Formats numbers, lists and tables for readers.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ std::string bounds_text(const Bounds& b);
 std::string epsilons_text(double k);
 /// "0.78 % of the largest number of its group, 2^46 epsilon"; `k` in units of the scalar's epsilon.
 std::string amount_text(double k, Scalar scalar);
+/// Three digits: "12.3", "2880", "1.5e-07"; "-" without a number.
+std::string three_digits(const std::optional<double>& x);
 /// 1234567 as "1,234,567".
 std::string count_text(std::uint64_t n);
 /// "1 case", "1,234 cases", "2 misses", "3 queries".

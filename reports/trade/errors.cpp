@@ -43,6 +43,35 @@ TradeTolerance relative_tolerance(double error, const std::string& source) {
   return t;
 }
 
+Case asked_case(const Case& question, Scalar scalar) {
+  Case c = question;
+  if (scalar == Scalar::float64) return c;
+  c.scalar = scalar;
+  for (double& x : c.values) x = double(float(x));
+  return c;
+}
+
+Case judged_case(const Case& question, Scalar scalar) {
+  Case c = question;
+  if (scalar == Scalar::float64) c.scalar = scalar;
+  return c;
+}
+
+const Standard& unbounded_standard() {
+  static const Standard nothing{collide::Contract{}, true};
+  return nothing;
+}
+
+Preconditions all_required(std::span<const Subject* const> subjects, const Query& query) {
+  Preconditions all;
+  for (const Precondition p : all_preconditions) {
+    if (std::any_of(subjects.begin(), subjects.end(),
+                    [&](const Subject* s) { return s->offering(query.name).required.has(p); }))
+      all.add(p);
+  }
+  return all;
+}
+
 double largest_length(const Case& question) {
   double largest = 0;
   for (std::size_t i = 0; i < question.values.size(); ++i) {

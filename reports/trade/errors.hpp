@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -34,6 +36,16 @@ struct TradeAnswer {
   double distance = 0;  ///< of its places and depths, in the unit of the tolerance
   double time = 0;      ///< of its time of impact, in the time of the query
 };
+
+/// What the subject is asked: the case's numbers in the subject's scalar. The case is then one of float where either
+/// scalar is float, so that unit vectors of float count as unit vectors for a subject in double.
+Case asked_case(const Case& question, Scalar scalar);
+/// The judge measures in the wider of both scalars, which holds the case exactly.
+Case judged_case(const Case& question, Scalar scalar);
+/// Promises nothing, so that every answer is measured. Preconditions are checked before a subject is asked.
+const Standard& unbounded_standard();
+/// The preconditions of all of the subjects for this query.
+Preconditions all_required(std::span<const Subject* const> subjects, const Query& query);
 
 /// The largest coordinate, size or offset of the case.
 double largest_length(const Case& question);

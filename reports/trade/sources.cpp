@@ -45,6 +45,8 @@ TradeSource scene_cases(const std::shared_ptr<const scenes::Scene>& scene) {
   source.title = scene->title;
   source.scalar = scene->scalar;
   source.tolerance = tolerance_of(*scene);
+  source.step = scene->step.value;
+  source.queries_per_step = scene->queries_per_step.value;
   source.draw = [scene](Case& into, const Query& query, std::uint64_t seed, std::uint64_t index,
                         Preconditions required) {
     scenes::draw_case_inside(into, *scene, query, scene->scalar, seed, index, required);

@@ -21,6 +21,8 @@ struct TradeSource {
   std::function<void(Case& into, const Query&, std::uint64_t seed, std::uint64_t index, Preconditions)> draw;
   std::function<double(const Query&)> share;  ///< of the query among all queries of the scene
   TradeTolerance tolerance;
+  double step = 0;              ///< the time step of the scene, in seconds
+  double queries_per_step = 0;  ///< of the scene
 };
 
 /// The generator's cases without extreme numbers, in float, so that every subject gets the same numbers. All queries

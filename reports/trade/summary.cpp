@@ -1,7 +1,11 @@
 #include "reports/trade/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
@@ -91,23 +95,6 @@ MetRequirement rate_at_most(std::string name, const Rate& rate, double limit) {
 
 std::optional<double> largest_of(const std::optional<Quantiles>& q) { return q ? std::optional(q->max) : std::nullopt; }
 
-void add_requirements(TradeSummary& s, std::uint64_t useless, const TradeTolerance& t) {
-  s.requirements.push_back(
-      at_most("cases without an answer", double(s.no_answer + s.not_asked + s.broke.count), 0, ""));
-  const std::string unit = t.unit.empty() ? "of the largest length" : t.unit;
-  if (t.unit.empty()) {
-    s.requirements.push_back(at_most("error of the inputs", largest_of(s.shift), t.error, unit));
-  } else {
-    s.requirements.push_back(at_most("error of places and depths", largest_of(s.distance), t.error, unit));
-  }
-  s.requirements.push_back(at_most("answers that are not finite", double(useless), 0, ""));
-  s.requirements.push_back(rate_at_most("missed contacts", s.missed_deeper, t.missed_rate));
-  s.requirements.push_back(rate_at_most("phantom contacts", s.phantom_wider, t.phantom_rate));
-  if (t.time) s.requirements.push_back(at_most("error of times of impact", largest_of(s.time), *t.time, "s"));
-  if (t.nanoseconds && s.sequential)
-    s.requirements.push_back(at_most("time of a call", s.sequential->p50, *t.nanoseconds, "ns"));
-}
-
 }  // namespace
 
 std::string_view name_of(MetRequirement::State s) {
@@ -119,10 +106,32 @@ std::string_view name_of(MetRequirement::State s) {
   return "failed";
 }
 
-bool TradeSummary::meets_all() const {
-  return compared > 0 && std::none_of(requirements.begin(), requirements.end(),
-                                      [](const MetRequirement& r) { return r.state == MetState::failed; });
+std::vector<MetRequirement> requirements_of(const RequiredFigures& f, const TradeTolerance& t) {
+  std::vector<MetRequirement> all{at_most("cases without an answer", double(f.unanswered), 0, "")};
+  if (t.unit.empty()) {
+    all.push_back(at_most("error of the inputs", f.shift, t.error, "of the largest length"));
+  } else {
+    all.push_back(at_most("error of places and depths", f.distance, t.error, t.unit));
+  }
+  all.push_back(at_most("answers that are not finite", double(f.not_finite), 0, ""));
+  all.push_back(rate_at_most("missed contacts", f.missed_deeper, t.missed_rate));
+  all.push_back(rate_at_most("phantom contacts", f.phantom_wider, t.phantom_rate));
+  if (t.time) all.push_back(at_most("error of times of impact", f.time, *t.time, "s"));
+  if (t.nanoseconds && f.nanoseconds) all.push_back(at_most("time of a call", f.nanoseconds, *t.nanoseconds, "ns"));
+  return all;
 }
+
+std::string failure_text(const MetRequirement& r) {
+  const std::string unit = r.unit.empty() ? "" : " " + r.unit;
+  return fmt::format("{}: {}{}, at most {}", r.name, three_digits(r.worst), unit, three_digits(r.limit));
+}
+
+bool none_failed(std::span<const MetRequirement> requirements) {
+  return std::none_of(requirements.begin(), requirements.end(),
+                      [](const MetRequirement& r) { return r.state == MetState::failed; });
+}
+
+bool TradeSummary::meets_all() const { return compared > 0 && none_failed(requirements); }
 
 std::optional<double> TradeSummary::cost() const {
   return nanoseconds ? std::optional(nanoseconds->p50) : std::nullopt;
@@ -135,7 +144,11 @@ TradeSummary summarised(const Subject& subject, std::span<const TradeAnswer> ans
   add_counts(s, answers, tolerance);
   add_errors(s, answers);
   add_times(s, times);
-  add_requirements(s, count_of(answers, [](const TradeAnswer& a) { return a.not_finite; }), tolerance);
+  s.requirements = requirements_of(
+      {s.no_answer + s.not_asked + s.broke.count, count_of(answers, [](const TradeAnswer& a) { return a.not_finite; }),
+       largest_of(s.shift), largest_of(s.distance), largest_of(s.time), s.missed_deeper, s.phantom_wider,
+       s.sequential ? std::optional(s.sequential->p50) : std::nullopt},
+      tolerance);
   return s;
 }
 

@@ -28,6 +28,22 @@ struct MetRequirement {
 };
 std::string_view name_of(MetRequirement::State s);
 
+/// The figures of a subject that requirements are about.
+struct RequiredFigures {
+  std::uint64_t unanswered = 0;       ///< cases without an answer
+  std::uint64_t not_finite = 0;       ///< answers with NaN or infinity
+  std::optional<double> shift;        ///< the largest backward error of the inputs
+  std::optional<double> distance;     ///< the largest error of a place or depth
+  std::optional<double> time;         ///< the largest error of a time of impact
+  Rate missed_deeper, phantom_wider;  ///< beyond what is tolerable, of the contacts and of the reported contacts
+  std::optional<double> nanoseconds;  ///< of a call in sequence
+};
+std::vector<MetRequirement> requirements_of(const RequiredFigures& figures, const TradeTolerance& tolerance);
+/// "error of places and depths: 0.5 metre, at most 0.01".
+std::string failure_text(const MetRequirement& r);
+/// True if none failed.
+bool none_failed(std::span<const MetRequirement> requirements);
+
 /// One in 10^3 … 10^6 answers.
 inline constexpr std::array<std::uint64_t, 4> tail_sizes = {1000, 10'000, 100'000, 1'000'000};
 

@@ -22,36 +22,6 @@ namespace {
 constexpr std::size_t judged_at_once = 128;  ///< cases; few, so that an interrupt takes effect soon
 constexpr std::size_t most_timed = 2048;     ///< cases of a query
 
-/// Promises nothing, so that every answer is measured. Preconditions are checked before a subject is asked.
-const Standard no_promise_of_trade{collide::Contract{}, true};
-
-/// What the subject is asked: the case's numbers in the subject's scalar. The case is then one of float where either
-/// scalar is float, so that unit vectors of float count as unit vectors for a subject in double.
-Case asked_case(const Case& question, Scalar scalar) {
-  Case c = question;
-  if (scalar == Scalar::float64) return c;
-  c.scalar = scalar;
-  for (double& x : c.values) x = double(float(x));
-  return c;
-}
-
-/// The judge measures in the wider of both scalars, which holds the case exactly.
-Case judged_case(const Case& question, Scalar scalar) {
-  Case c = question;
-  if (scalar == Scalar::float64) c.scalar = scalar;
-  return c;
-}
-
-Preconditions all_required(std::span<const Subject* const> subjects, const Query& query) {
-  Preconditions all;
-  for (const Precondition p : all_preconditions) {
-    if (std::any_of(subjects.begin(), subjects.end(),
-                    [&](const Subject* s) { return s->offering(query.name).required.has(p); }))
-      all.add(p);
-  }
-  return all;
-}
-
 /// A fixed order for calls: neighbours in the stream of cases are no neighbours in time.
 std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> order(count);
@@ -169,7 +139,7 @@ TradeAnswer Trade::judged_answer(const Subject& subject, const Case& question, c
   const Preconditions required = subject.offering(question.query->name).required;
   if (answer.status == Answer::Status::cannot_answer && !unmet_by(asked, required).empty()) return {};
   const Case exact = judged_case(question, subject.scalar);
-  const auto finding = internal_errors_.judged(exact, subject, answer, no_promise_of_trade, Detail::full);
+  const auto finding = internal_errors_.judged(exact, subject, answer, unbounded_standard(), Detail::full);
   return finding ? trade_answer(exact, subject.scalar, answer, *finding, settings_.source.tolerance) : TradeAnswer{};
 }
 

@@ -9,6 +9,7 @@
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/trade/trade.hpp"
+#include "reports/trade/trade_json.hpp"
 
 namespace nearmiss {
 
@@ -16,18 +17,43 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+}  // namespace
+
+nlohmann::ordered_json optional_to_json(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
+}
+
+nlohmann::ordered_json rate_to_json(const Rate& r) {
+  return {{"count", r.count}, {"of", r.of}, {"share", r.share()}, {"low", r.low}, {"high", r.high}};
+}
+
+nlohmann::ordered_json requirement_to_json(const MetRequirement& r) {
+  return {{"name", r.name},
+          {"limit", r.limit},
+          {"worst", optional_to_json(r.worst)},
+          {"unit", r.unit},
+          {"state", name_of(r.state)}};
+}
+
+nlohmann::ordered_json tolerance_to_json(const TradeTolerance& t) {
+  return {{"unit", t.unit},
+          {"error", t.error},
+          {"missed_depth", t.missed_depth},
+          {"time", optional_to_json(t.time)},
+          {"missed_rate", t.missed_rate},
+          {"phantom_rate", t.phantom_rate},
+          {"nanoseconds", optional_to_json(t.nanoseconds)},
+          {"source", t.source}};
+}
+
+namespace {
+
 /// The ratios of a profile: powers of 2^(1/4) up to 2^10.
 constexpr int taus_per_doubling = 4, doublings = 10;
-
-Json optional_to_json(const std::optional<double>& x) { return x && std::isfinite(*x) ? Json(*x) : Json(nullptr); }
 
 Json quantiles_to_json(const std::optional<Quantiles>& q) {
   if (!q) return nullptr;
   return {{"p50", optional_to_json(q->p50)}, {"p99", optional_to_json(q->p99)}, {"max", optional_to_json(q->max)}};
-}
-
-Json rate_to_json(const Rate& r) {
-  return {{"count", r.count}, {"of", r.of}, {"share", r.share()}, {"low", r.low}, {"high", r.high}};
 }
 
 Json times_to_json(const TradeSummary& s) {
@@ -45,14 +71,6 @@ Json tails_to_json(const TradeSummary& s) {
   for (std::size_t i = 0; i < tail_sizes.size(); ++i)
     tails.push_back({{"one_in", tail_sizes[i]}, {"above", optional_to_json(s.tails[i])}});
   return tails;
-}
-
-Json requirement_to_json(const MetRequirement& r) {
-  return {{"name", r.name},
-          {"limit", r.limit},
-          {"worst", optional_to_json(r.worst)},
-          {"unit", r.unit},
-          {"state", name_of(r.state)}};
 }
 
 Json summary_to_json(const TradeSummary& s, const Query& query) {
@@ -93,17 +111,6 @@ Json query_to_json(const TradedQuery& t) {
           {"contacts", t.contacts},
           {"cheapest", best == nullptr ? Json(nullptr) : Json(best->subject->name)},
           {"subjects", std::move(subjects)}};
-}
-
-Json tolerance_to_json(const TradeTolerance& t) {
-  return {{"unit", t.unit},
-          {"error", t.error},
-          {"missed_depth", t.missed_depth},
-          {"time", optional_to_json(t.time)},
-          {"missed_rate", t.missed_rate},
-          {"phantom_rate", t.phantom_rate},
-          {"nanoseconds", optional_to_json(t.nanoseconds)},
-          {"source", t.source}};
 }
 
 std::string processor_name() {

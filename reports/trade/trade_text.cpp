@@ -14,16 +14,6 @@ namespace {
 
 constexpr std::size_t text_width = 100;
 
-/// Three digits: "12.3", "2880", "1.5e-07", "-" without a number.
-std::string three_digits(const std::optional<double>& x) {
-  if (!x) return "-";
-  const double size = std::abs(*x);
-  if (*x != 0 && (size >= 1e6 || size < 1e-3)) return fmt::format("{:.1e}", *x);
-  if (size < 1000) return fmt::format("{:.3g}", *x);
-  const double unit = size < 1e4 ? 10 : size < 1e5 ? 100 : 1000;
-  return fmt::format("{:.0f}", std::round(*x / unit) * unit);
-}
-
 /// "0", or the share in percent.
 std::string rate_text(const Rate& r) {
   if (r.of == 0) return "-";
