@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <string>
 
 #include "reports/triage/crossings.hpp"
 #include "reports/triage/ratios.hpp"
@@ -22,7 +24,7 @@ class RelativeTolerance {
   Tested result() {
     find_crossings();
     Tested tested;
-    if (crossings_.size() >= least_crossings) tested.named = named();
+    if (const auto found = best_candidate()) tested.named = named(*found);
     if (!tested.named)
       saw(fmt::format("Numbers of {} cases were moved alone until the answer jumps.", starts_.size()),
           fmt::format("It jumps at {} borders; no ratio has one value there.", crossings_.size()));
@@ -31,9 +33,12 @@ class RelativeTolerance {
   }
 
  private:
-  static constexpr std::size_t least_crossings = 4, least_cases = 3, most_cases = 7, most_numbers = 4;
-  static constexpr long double spread = 1.02L;                      ///< of one value
-  static constexpr long double largest = 0.2L;                      ///< a larger ratio is no tolerance
+  static constexpr std::size_t least_crossings = 4, least_cases = 3, enough_cases = 4, most_cases = 7, most_numbers = 4;
+  static constexpr long double spread = 1.02L;         ///< of one value
+  static constexpr long double least_spread = 1.002L;  ///< of one value at few borders, or of several ratios
+  static constexpr long double least_change = 1.001L;  ///< of a ratio that a move changes
+  static constexpr std::size_t largest_family = 9;     ///< the axes of one box with those of another
+  static constexpr long double largest = 0.02L;        ///< a larger ratio is no tolerance
   static constexpr double usual_error = 1.01, least_error = 1.001;  ///< of a written constant
   static constexpr long double variety = 1.5L;  ///< a length that differs by less in all cases is no part of a ratio
 
@@ -42,29 +47,34 @@ class RelativeTolerance {
     std::size_t of_case, number;
     Ratios border;
   };
+  using Family = std::vector<std::size_t>;  ///< ratios that an implementation may compare in one loop
   struct Candidate {
-    std::size_t ratio = 0, borders = 0;
+    Family ratios;
+    std::size_t borders = 0;
     long double low = 0, high = 0;
     bool wrong_below = true;
     WrittenConstant constant;
   };
 
   void find_crossings() {
-    std::vector<std::size_t> numbers = add(trials_.base().question, {});
+    std::vector<std::size_t> numbers = add(trials_.base(), {});
     for (std::size_t k = 0;
          k < similar_.size() && starts_.size() < most_cases && !trials_.is_over() && !numbers.empty(); ++k) {
       std::vector<std::size_t> some;
       for (std::size_t n = 0; n < std::min(most_numbers, numbers.size()); ++n)
         some.push_back(numbers[(k * most_numbers + n) % numbers.size()]);
-      add(similar_[k].question, some);
+      add(similar_[k], some);
+      if (starts_.size() == enough_cases && best_candidate()) return;
     }
   }
-  /// Returns the numbers that have a crossing.
-  std::vector<std::size_t> add(const Case& c, const std::vector<std::size_t>& numbers) {
+  /// Returns the numbers that have a crossing. A ratio of a false hit is told from the given contact: there is no exact
+  /// one.
+  std::vector<std::size_t> add(const Trial& t, const std::vector<std::size_t>& numbers) {
     std::vector<std::size_t> found;
-    starts_.emplace_back(c);
-    for (const Crossing& x : crossings_of(trials_, c, numbers)) {
-      crossings_.push_back({starts_.size() - 1, x.number, Ratios(x.at_right.question, &x.at_right.answer)});
+    starts_.emplace_back(t.question, t.finding.truth_yes ? nullptr : &t.answer);
+    for (const Crossing& x : crossings_of(trials_, t.question, numbers)) {
+      const Answer* hit = x.at_right.answer.yes ? &x.at_right.answer : &x.wrong;
+      crossings_.push_back({starts_.size() - 1, x.number, Ratios(x.at_right.question, hit)});
       if (found.empty() || found.back() != x.number) found.push_back(x.number);
     }
     return found;
@@ -79,72 +89,115 @@ class RelativeTolerance {
   std::optional<Passed> passed(const Measured& m, std::size_t i) const {
     const long double start = starts_[m.of_case].value(i), value = m.border.value(i);
     if (!(value > 0)) return std::nullopt;
-    if (start * spread < value) return Passed{value, true};
-    return start > spread * value ? std::optional(Passed{value, false}) : std::nullopt;
+    if (start * least_change < value) return Passed{value, true};
+    return start > least_change * value ? std::optional(Passed{value, false}) : std::nullopt;
   }
-  std::optional<Candidate> candidate(std::size_t i) const {
-    std::vector<std::pair<long double, std::size_t>> below, above;
+  /// A value of a ratio at a border.
+  struct At {
+    long double value;
+    std::size_t border, ratio;
+    friend bool operator<(const At& a, const At& b) { return a.value < b.value; }
+  };
+  using Window = std::span<const At>;
+
+  std::optional<Candidate> candidate(const Family& family) const {
+    std::vector<At> below, above;
     for (std::size_t k = 0; k < crossings_.size(); ++k) {
-      const auto p = passed(crossings_[k], i);
-      if (p && p->value < largest) (p->wrong_below ? below : above).emplace_back(p->value, k);
+      for (const std::size_t i : family) {
+        const auto p = passed(crossings_[k], i);
+        if (p && p->value < largest) (p->wrong_below ? below : above).push_back({p->value, k, i});
+      }
     }
-    auto best = widest_window(i, below, true);
-    const auto other = widest_window(i, above, false);
-    if (other && (!best || other->borders > best->borders)) best = other;
+    std::optional<Candidate> best;
+    for (auto* values : {&below, &above}) {
+      std::sort(values->begin(), values->end());
+      for (const long double widest : {spread, least_spread}) {
+        if (family.size() > 1 && widest > least_spread) continue;
+        const auto c = in_widest_window(family, *values, widest, values == &below);
+        if (c && (!best || is_better(*c, *best))) best = c;
+      }
+    }
     return best;
   }
-  /// The most borders at which the ratio has one value.
-  std::optional<Candidate> widest_window(std::size_t i, std::vector<std::pair<long double, std::size_t>>& values,
-                                         bool wrong_below) const {
-    if (!are_most(values.size())) return std::nullopt;
-    std::sort(values.begin(), values.end());
-    std::size_t begin = 0, best_begin = 0, best_end = 0;
-    for (std::size_t end = 1; end <= values.size(); ++end) {
-      while (values[end - 1].first > spread * values[begin].first) ++begin;
-      if (end - begin > best_end - best_begin) best_begin = begin, best_end = end;
+  /// The most borders at which a ratio of the family has one value.
+  std::optional<Candidate> in_widest_window(const Family& family, Window values, long double widest,
+                                            bool wrong_below) const {
+    if (!are_enough(values.size())) return std::nullopt;
+    std::vector<int> count(crossings_.size(), 0);
+    std::size_t begin = 0, borders = 0, best_begin = 0, best_end = 0, most = 0;
+    for (std::size_t end = 0; end < values.size(); ++end) {
+      borders += count[values[end].border]++ == 0;
+      for (; values[end].value > widest * values[begin].value; ++begin) borders -= --count[values[begin].border] == 0;
+      if (borders > most) most = borders, best_begin = begin, best_end = end + 1;
     }
-    const std::span window(values.data() + best_begin, best_end - best_begin);
-    if (!are_most(window.size()) || !is_of_several(window)) return std::nullopt;
-    Candidate c{i, window.size(), window.front().first, window.back().first, wrong_below, {}};
-    const auto constant =
-        written_constant(double(c.low), double(c.high), is_varied(i, window) ? usual_error : least_error);
-    if (!constant || (!is_varied(i, window) && constant->rank > 0)) return std::nullopt;
+    const Window window = values.subspan(best_begin, best_end - best_begin);
+    if (!are_enough(most) || !is_of_several(window)) return std::nullopt;
+    const bool varied = is_varied(window), usual = are_many(most) && widest > least_spread && varied;
+    Candidate c{family, most, window.front().value, window.back().value, wrong_below, {}};
+    const auto constant = written_constant(double(c.low), double(c.high), usual ? usual_error : least_error);
+    const bool may_be_any = are_many(most) && varied && written_constant(double(c.low), double(c.high), least_error);
+    if (!constant || constant->value < epsilon() || (constant->rank > 0 && !may_be_any)) return std::nullopt;
     c.constant = *constant;
     return c;
   }
-  bool are_most(std::size_t borders) const { return borders >= least_crossings && 3 * borders >= crossings_.size(); }
-  using Window = std::span<const std::pair<long double, std::size_t>>;
+  /// Of the scalar: a smaller ratio is a rounding error.
+  double epsilon() const { return 2 * unit_roundoff(trials_.base().question.scalar); }
+  /// A third of the borders.
+  bool are_many(std::size_t borders) const { return 3 * borders >= crossings_.size(); }
+  /// An eighth of the borders: at the others the answer jumps for its own reasons, such as the end of a false contact.
+  bool are_enough(std::size_t borders) const { return borders >= least_crossings && 8 * borders >= crossings_.size(); }
   /// The borders are of several cases and moved numbers.
   bool is_of_several(Window window) const {
     std::set<std::size_t> cases, numbers;
-    for (const auto& [value, k] : window) cases.insert(crossings_[k].of_case), numbers.insert(crossings_[k].number);
+    for (const At& a : window) cases.insert(crossings_[a.border].of_case), numbers.insert(crossings_[a.border].number);
     return cases.size() >= least_cases && numbers.size() >= 2;
   }
   /// No part of a quotient is the same at all of the borders. Where both are, only a close power of ten tells a ratio
   /// from others with the same numerator.
-  bool is_varied(std::size_t i, Window window) const {
+  bool is_varied(Window window) const {
     long double low = std::numeric_limits<long double>::infinity(), high = 0;
-    for (const auto& [value, k] : window) {
-      const long double part = crossings_[k].border.numerator(i);
+    for (const At& a : window) {
+      const long double part = crossings_[a.border].border.numerator(a.ratio);
       low = std::min(low, part), high = std::max(high, part);
     }
     const bool is_pure = high == 0;
     return is_pure || high >= variety * low;
   }
 
-  std::optional<Named> named() {
+  /// Of the ratios alone or, where none passes, of families of ratios.
+  std::optional<Candidate> best_candidate() {
+    if (crossings_.size() < least_crossings) return std::nullopt;
+    std::vector<Family> alone(crossings_.front().border.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = {i};
+    if (auto best = best_of(alone)) return best;
+    if (families_.empty()) find_families();
+    return best_of(families_);
+  }
+  std::optional<Candidate> best_of(const std::vector<Family>& families) const {
     std::optional<Candidate> best;
-    for (std::size_t i = 0; i < crossings_.front().border.size(); ++i) {
-      const auto c = candidate(i);
+    for (const Family& family : families) {
+      const auto c = candidate(family);
       if (c && (!best || is_better(*c, *best)) && divides_starts(*c)) best = c;
     }
-    if (!best) return std::nullopt;
-    const std::string name = crossings_.front().border.name(best->ratio), value = best->constant.text;
+    return best;
+  }
+  void find_families() {
+    const Ratios& ratios = crossings_.front().border;
+    std::map<std::string, Family> by_name;
+    for (std::size_t i = 0; i < ratios.size(); ++i) by_name[ratios.family(i)].push_back(i);
+    for (auto& [name, family] : by_name) {
+      if (family.size() > 1 && family.size() <= largest_family) families_.push_back(std::move(family));
+    }
+  }
+  Named named(const Candidate& c) {
+    const Ratios& ratios = crossings_.front().border;
+    const std::string value = c.constant.text, of_others = ", or that of another axis, corner or edge,";
+    const std::string name = ratios.name(c.ratios.front()) + (c.ratios.size() > 1 ? of_others : "");
     saw(fmt::format("Numbers of {} cases were moved alone until the answer jumps.", starts_.size()),
         fmt::format("At {} of {} borders, {} is between {:.5g} and {:.5g}, and the exact decision is the same on both "
                     "sides. The answers are wrong {} it.",
-                    best->borders, crossings_.size(), name, double(best->low), double(best->high),
-                    best->wrong_below ? "below" : "above"));
+                    c.borders, crossings_.size(), name, double(c.low), double(c.high),
+                    c.wrong_below ? "below" : "above"));
     return Named{
         CauseKind::relative_tolerance, value,
         fmt::format("The subject has a relative tolerance of {} (unit 1) that {} is compared with.", value, name)};
@@ -156,8 +209,9 @@ class RelativeTolerance {
   /// Nearly all cases with the finding lie on the wrong side of the value.
   bool divides_starts(const Candidate& c) const {
     const auto on_side = std::count_if(starts_.begin(), starts_.end(), [&](const Ratios& r) {
-      const long double value = r.value(c.ratio);
-      return c.wrong_below ? value <= c.high * spread : value * spread >= c.low;
+      return std::any_of(c.ratios.begin(), c.ratios.end(), [&](std::size_t i) {
+        return c.wrong_below ? r.value(i) <= c.high * spread : r.value(i) * spread >= c.low;
+      });
     });
     return nearly_all(std::size_t(on_side), starts_.size());
   }
@@ -167,6 +221,7 @@ class RelativeTolerance {
   std::span<const Trial> similar_;
   std::vector<Measured> crossings_;
   std::vector<Ratios> starts_;  ///< of the cases whose numbers were moved
+  std::vector<Family> families_;
   std::vector<Evidence> evidence_;
 };
 
