@@ -11,6 +11,7 @@
 
 #include "reports/triage/crossings.hpp"
 #include "reports/triage/ratios.hpp"
+#include "reports/triage/scales.hpp"
 #include "reports/triage/written_constant.hpp"
 
 namespace nearmiss {
@@ -46,6 +47,7 @@ class RelativeTolerance {
   struct Measured {
     std::size_t of_case, number;
     Ratios border;
+    Case at_wrong, at_right;
   };
   using Family = std::vector<std::size_t>;  ///< ratios that an implementation may compare in one loop
   struct Candidate {
@@ -53,7 +55,9 @@ class RelativeTolerance {
     std::size_t borders = 0;
     long double low = 0, high = 0;
     bool wrong_below = true;
-    WrittenConstant constant;
+    std::vector<std::size_t> at;                   ///< the borders
+    long double least_part = 0, largest_part = 0;  ///< the numerators at the borders
+    std::optional<WrittenConstant> constant;
   };
 
   void find_crossings() {
@@ -74,7 +78,8 @@ class RelativeTolerance {
     starts_.emplace_back(t.question, t.finding.truth_yes ? nullptr : &t.answer);
     for (const Crossing& x : crossings_of(trials_, t.question, numbers)) {
       const Answer* hit = x.at_right.answer.yes ? &x.at_right.answer : &x.wrong;
-      crossings_.push_back({starts_.size() - 1, x.number, Ratios(x.at_right.question, hit)});
+      crossings_.push_back(
+          {starts_.size() - 1, x.number, Ratios(x.at_right.question, hit), x.at_wrong, x.at_right.question});
       if (found.empty() || found.back() != x.number) found.push_back(x.number);
     }
     return found;
@@ -132,13 +137,26 @@ class RelativeTolerance {
     }
     const Window window = values.subspan(best_begin, best_end - best_begin);
     if (!are_enough(most) || !is_of_several(window)) return std::nullopt;
-    const bool varied = is_varied(window), usual = are_many(most) && widest > least_spread && varied;
-    Candidate c{family, most, window.front().value, window.back().value, wrong_below, {}};
+    Candidate c{family, most, window.front().value, window.back().value, wrong_below, {}, 0, 0, {}};
+    add_parts(window, c);
+    const bool varied = c.least_part == 0 || c.largest_part >= variety * c.least_part;
+    const bool usual = are_many(most) && widest > least_spread && varied;
     const auto constant = written_constant(double(c.low), double(c.high), usual ? usual_error : least_error);
     const bool may_be_any = are_many(most) && varied && written_constant(double(c.low), double(c.high), least_error);
-    if (!constant || constant->value < epsilon() || (constant->rank > 0 && !may_be_any)) return std::nullopt;
-    c.constant = *constant;
+    if (constant && constant->value >= epsilon() && (constant->rank == 0 || may_be_any)) c.constant = constant;
     return c;
+  }
+  /// Where no part of a quotient differs between the borders, only a close power of ten tells a ratio from others with
+  /// the same numerator.
+  void add_parts(Window window, Candidate& c) const {
+    std::set<std::size_t> borders;
+    c.least_part = std::numeric_limits<long double>::infinity();
+    for (const At& a : window) {
+      const long double part = crossings_[a.border].border.numerator(a.ratio);
+      c.least_part = std::min(c.least_part, part), c.largest_part = std::max(c.largest_part, part);
+      borders.insert(a.border);
+    }
+    c.at.assign(borders.begin(), borders.end());
   }
   /// Of the scalar: a smaller ratio is a rounding error.
   double epsilon() const { return 2 * unit_roundoff(trials_.base().question.scalar); }
@@ -152,34 +170,27 @@ class RelativeTolerance {
     for (const At& a : window) cases.insert(crossings_[a.border].of_case), numbers.insert(crossings_[a.border].number);
     return cases.size() >= least_cases && numbers.size() >= 2;
   }
-  /// No part of a quotient is the same at all of the borders. Where both are, only a close power of ten tells a ratio
-  /// from others with the same numerator.
-  bool is_varied(Window window) const {
-    long double low = std::numeric_limits<long double>::infinity(), high = 0;
-    for (const At& a : window) {
-      const long double part = crossings_[a.border].border.numerator(a.ratio);
-      low = std::min(low, part), high = std::max(high, part);
-    }
-    const bool is_pure = high == 0;
-    return is_pure || high >= variety * low;
-  }
-
   /// Of the ratios alone or, where none passes, of families of ratios.
   std::optional<Candidate> best_candidate() {
     if (crossings_.size() < least_crossings) return std::nullopt;
     std::vector<Family> alone(crossings_.front().border.size());
     for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = {i};
-    if (auto best = best_of(alone)) return best;
+    std::size_t most = 0;
+    if (auto best = best_of(alone, most)) return best;
     if (families_.empty()) find_families();
-    return best_of(families_);
+    return best_of(families_, most);
   }
-  std::optional<Candidate> best_of(const std::vector<Family>& families) const {
+  /// None where more than twice as many borders have one value of another ratio: the constant is one by chance then.
+  /// `most` becomes the most borders with one value.
+  std::optional<Candidate> best_of(const std::vector<Family>& families, std::size_t& most) const {
     std::optional<Candidate> best;
     for (const Family& family : families) {
       const auto c = candidate(family);
-      if (c && (!best || is_better(*c, *best)) && divides_starts(*c)) best = c;
+      if (!c) continue;
+      most = std::max(most, c->borders);
+      if (c->constant && (!best || is_better(*c, *best)) && divides_starts(*c)) best = c;
     }
-    return best;
+    return best && most <= 2 * best->borders ? best : std::nullopt;
   }
   void find_families() {
     const Ratios& ratios = crossings_.front().border;
@@ -189,22 +200,58 @@ class RelativeTolerance {
       if (family.size() > 1 && family.size() <= largest_family) families_.push_back(std::move(family));
     }
   }
-  Named named(const Candidate& c) {
+  std::optional<Named> named(const Candidate& c) {
     const Ratios& ratios = crossings_.front().border;
-    const std::string value = c.constant.text, of_others = ", or that of another axis, corner or edge,";
+    const std::string value = c.constant->text, of_others = ", or that of another axis, corner or edge,";
     const std::string name = ratios.name(c.ratios.front()) + (c.ratios.size() > 1 ? of_others : "");
     saw(fmt::format("Numbers of {} cases were moved alone until the answer jumps.", starts_.size()),
         fmt::format("At {} of {} borders, {} is between {:.5g} and {:.5g}, and the exact decision is the same on both "
                     "sides. The answers are wrong {} it.",
                     c.borders, crossings_.size(), name, double(c.low), double(c.high),
                     c.wrong_below ? "below" : "above"));
+    if (!follows_scales(c)) return absolute(c);
     return Named{
         CauseKind::relative_tolerance, value,
         fmt::format("The subject has a relative tolerance of {} (unit 1) that {} is compared with.", value, name)};
   }
+  /// The numerator alone, where it has one value at the borders that is a power of ten.
+  std::optional<Named> absolute(const Candidate& c) {
+    if (!(c.least_part > 0) || c.largest_part > spread * c.least_part) return std::nullopt;
+    const auto constant = written_constant(double(c.least_part), double(c.largest_part), usual_error);
+    if (!constant || constant->rank > 0) return std::nullopt;
+    const std::string name = crossings_.front().border.numerator_name(c.ratios.front());
+    return Named{CauseKind::absolute_tolerance, constant->text + " length",
+                 fmt::format("The subject has an absolute tolerance of {} (length) that {} is compared with.",
+                             constant->text, name)};
+  }
   static bool is_better(const Candidate& a, const Candidate& b) {
-    if (a.constant.rank != b.constant.rank) return a.constant.rank < b.constant.rank;
+    if (!a.constant || !b.constant) return a.constant.has_value() || (!b.constant && a.borders > b.borders);
+    if (a.constant->rank != b.constant->rank) return a.constant->rank < b.constant->rank;
     return a.borders > b.borders;
+  }
+  /// Whether both sides of the borders keep their outcomes at other scales of lengths and of velocities, as they do for
+  /// a ratio. Directions have a scale of their own: they may have to be of unit length.
+  bool follows_scales(const Candidate& c) {
+    constexpr std::size_t most_borders = 4;
+    std::vector<Case> cases;
+    std::vector<Outcome> expected;
+    for (std::size_t k = 0; k < std::min(most_borders, c.at.size()); ++k) {
+      const Measured& m = crossings_[c.at[k]];
+      for (const ScaleGroup& group : scale_groups().first(2)) {
+        for (const int by : {-6, 6}) {
+          const auto wrong = scaled(m.at_wrong, group, by), right = scaled(m.at_right, group, by);
+          if (!wrong || !right) continue;
+          cases.insert(cases.end(), {*wrong, *right});
+          expected.insert(expected.end(), {Outcome::same, Outcome::right});
+        }
+      }
+    }
+    const std::vector<Trial> asked = trials_.ask(cases);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) kept += asked[i].outcome == expected[i];
+    saw("The cases at the borders were multiplied by powers of two.",
+        fmt::format("{} of {} keep their outcomes.", kept, asked.size()));
+    return asked.empty() || nearly_all(kept, asked.size());
   }
   /// Nearly all cases with the finding lie on the wrong side of the value.
   bool divides_starts(const Candidate& c) const {

@@ -38,15 +38,15 @@ class RoundingErrors : public TestOfCause {
   std::optional<Named> rounding() {
     const std::vector<Trial>& near = asked_.neighbours();
     const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
-    const bool is_of_one_size = has_error_of_one_size();
-    if (auto named = by_roundings(is_of_one_size)) return named;
+    const bool may_round = has_varying_errors();
+    if (auto named = by_roundings(may_round)) return named;
     saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
         fmt::format("{} have the finding, and {} are right.", count(near, Outcome::same), right));
     if (asked_.is_exact()) {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
       return std::nullopt;
     }
-    if (is_mixed(right, all) && others_depend_ && !is_of_one_size) {
+    if (is_mixed(right, all) && others_depend_ && may_round) {
       if (!are_on_two_sides(question(), near))
         return Named{CauseKind::rounding, "",
                      "The answer is unstable: it is right or wrong by the last bits of the inputs."};
@@ -60,8 +60,9 @@ class RoundingErrors : public TestOfCause {
   static constexpr double least_moved =
       0.25;  ///< of a number that consists of rounding errors, as a share of its error
 
-  /// Whether the error is nearly the same for all cases a few ulps away with the finding: rounding errors differ.
-  bool has_error_of_one_size() {
+  /// Whether the errors differ of the cases a few ulps away with the finding, as rounding errors do. True for a wrong
+  /// decision, which has no error.
+  bool has_varying_errors() {
     constexpr std::size_t least = 4, enough = 8;
     constexpr double spread = 1.25;
     double low = INFINITY, high = 0;
@@ -70,13 +71,13 @@ class RoundingErrors : public TestOfCause {
       if (t.outcome != Outcome::same || seen == enough) continue;
       const Finding full = trials().in_full(t);
       const MemberFinding* member = full.headline_member();
-      if (member == nullptr || member->worst < 0 || !(member->forward_absolute > 0)) return false;
+      if (member == nullptr || member->worst < 0 || !(member->forward_absolute > 0)) return true;
       low = std::min(low, member->forward_absolute), high = std::max(high, member->forward_absolute), ++seen;
     }
-    if (seen < least || !(high < spread * low)) return false;
+    if (seen == 0) return asked_.is_wrong_decision();
     saw(fmt::format("The errors of {} cases were compared whose numbers are a few ulps away.", seen),
-        fmt::format("They are between {:.4g} and {:.4g}: no rounding errors.", low, high));
-    return true;
+        fmt::format("They are between {:.4g} and {:.4g}.", low, high));
+    return seen >= least && high >= spread * low;
   }
   /// How far the worst number of the answer moves between the roundings, as a share of its error.
   double moved_by_rounding(const Trial& base, std::span<const Trial> roundings) const {
@@ -93,7 +94,7 @@ class RoundingErrors : public TestOfCause {
     }
     return furthest / worst->forward_absolute;
   }
-  std::optional<Named> by_roundings(bool is_of_one_size) {
+  std::optional<Named> by_roundings(bool may_round) {
     if (asked_.roundings().empty()) {
       saw("The subject answers behind pipes.", "It cannot be asked in other rounding modes.");
       return std::nullopt;
@@ -106,9 +107,9 @@ class RoundingErrors : public TestOfCause {
             "The finding is there in {}, and the answer is right in {}. The worst number moves by {:.2g} % of its "
             "error.",
             same, right, 100 * moved));
-    const bool depends = (right > 0 && !is_of_one_size) || moved >= least_moved;
+    const bool depends = (right > 0 && may_round) || moved >= least_moved;
     others_depend_ = holds_for_others(depends);
-    const bool may_be_named = depends || (asked_.is_wrong_decision() && !is_of_one_size);
+    const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
     if (!others_depend_ || !may_be_named) return std::nullopt;
     if (moved >= least_moved)
       return Named{CauseKind::rounding, "",
