@@ -201,7 +201,7 @@ class Tolerance {
     return best;
   }
   std::optional<Named> named_tolerance(const Constant& q, std::size_t cases) {
-    constexpr double error_of_estimates = 1.05, widest = 1.1, widest_round = 1.3;
+    constexpr double error_of_estimates = 1.05, widest = 1.1, widest_round = 1.6;
     const double middle = std::sqrt(q.low * q.high);
     const int decade = int(std::lround(std::log10(middle)));
     const double round = std::pow(10.0, decade);
