@@ -201,12 +201,11 @@ class Tolerance {
     return best;
   }
   std::optional<Named> named_tolerance(const Constant& q, std::size_t cases) {
-    constexpr double error_of_estimates = 1.05, widest = 1.1, widest_round = 1.6;
+    constexpr double error_of_estimates = 1.05, widest = 1.1;
     const double middle = std::sqrt(q.low * q.high);
     const int decade = int(std::lround(std::log10(middle)));
     const double round = std::pow(10.0, decade);
-    const bool is_round =
-        q.high <= widest_round * q.low && q.low <= round * error_of_estimates && round <= q.high * error_of_estimates;
+    const bool is_round = q.low <= round * error_of_estimates && round <= q.high * error_of_estimates;
     const bool is_written =
         is_round || (q.high <= widest * q.low && written_constant(q.low, q.high, error_of_estimates));
     const double value = is_round ? round : middle;
