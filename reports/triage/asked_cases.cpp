@@ -64,6 +64,14 @@ bool AskedCases::is_exact() {
   });
 }
 
+bool AskedCases::errs_to_both_sides() {
+  constexpr std::ptrdiff_t least = 4;
+  const auto with = [&](Disagreement d) {
+    return std::count_if(sample().begin(), sample().end(), [d](const Trial& t) { return t.finding.disagreement == d; });
+  };
+  return std::min(with(Disagreement::false_hit), with(Disagreement::false_miss)) >= least;
+}
+
 bool AskedCases::is_wrong_decision() const {
   const Disagreement d = trials_.base().finding.disagreement;
   return d == Disagreement::false_hit || d == Disagreement::false_miss;

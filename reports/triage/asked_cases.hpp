@@ -38,6 +38,8 @@ class AskedCases {
   bool same_in_all_roundings();
   /// The subject's arithmetic on the case was exact: no exception, not even an inexact result.
   bool is_exact();
+  /// Generated cases have false hits and false misses: a tolerance errs to one side.
+  bool errs_to_both_sides();
   /// The finding is a false hit or a false miss.
   bool is_wrong_decision() const;
 

@@ -1,5 +1,7 @@
 #include "reports/triage/cause.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <iterator>
 
 #include "reports/triage/convention.hpp"
@@ -16,13 +18,16 @@ namespace nearmiss {
 namespace {
 
 Tested constant_error_test(AskedCases& a) { return constant_error_of(a.trials(), a.scans()); }
-Tested tolerance_test(AskedCases& a) { return tolerance_of(a.trials(), a.scans(), a.similar()); }
+Tested tolerance_test(AskedCases& a) {
+  const bool flips = std::any_of(a.scans().begin(), a.scans().end(), std::mem_fn(&ScaleScan::has_clean_flip));
+  return tolerance_of(a.trials(), a.scans(), a.similar(), flips && a.errs_to_both_sides());
+}
 Tested relative_tolerance_test(AskedCases& a) { return relative_tolerance_of(a.trials(), a.similar()); }
 
 /// In the order of the hypotheses.
 constexpr Tested (*tests_of_causes[])(AskedCases&) = {
-    number_range_of,         convention_of, unsupported_of,    constant_error_test, tolerance_test, certified_of,
-    relative_tolerance_test, rounding_of,   times_of_steps_of, starts_of_motion_of, logic_of};
+    number_range_of,         convention_of, unsupported_of,    constant_error_test, tolerance_test,      certified_of,
+    relative_tolerance_test, rounding_of,   times_of_steps_of, errors_of_steps_of,  starts_of_motion_of, logic_of};
 
 std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evidence) {
   if (!is_bad(asked.trials().base().finding)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "corpus/case_builder.hpp"
@@ -73,15 +74,32 @@ class CrossingSearch {
   void ask_all_moves() {
     for (std::size_t i = 0; i < wrong_.values.size(); ++i) {
       if (!may_move(i)) continue;
-      for (const double sign : {1.0, -1.0}) {
-        std::vector<Case> cases;
-        for (const double x : values_of(i, sign)) {
-          Case c = with_value(i, x);
-          if (c.values != (cases.empty() ? wrong_ : cases.back()).values) cases.push_back(std::move(c));
-        }
-        rows_.push_back({i, trials_.ask(cases)});
-      }
+      for (const double sign : {1.0, -1.0}) rows_.push_back({i, asked_row(moves_of(i, sign))});
     }
+  }
+  std::vector<Case> moves_of(std::size_t number, double sign) const {
+    std::vector<Case> cases;
+    for (const double x : values_of(number, sign)) {
+      Case c = with_value(number, x);
+      if (c.values != (cases.empty() ? wrong_ : cases.back()).values) cases.push_back(std::move(c));
+    }
+    return cases;
+  }
+  /// Asks every third case, and those before the first of them without the finding: most numbers play no part.
+  std::vector<Trial> asked_row(const std::vector<Case>& cases) {
+    constexpr std::size_t stride = 3;
+    std::vector<Case> some;
+    for (std::size_t end = stride; end < cases.size() + stride; end += stride)
+      some.push_back(cases[std::min(end, cases.size()) - 1]);
+    std::vector<Trial> row = trials_.ask(some);
+    const auto first = std::find_if(row.begin(), row.end(), [](const Trial& t) { return t.outcome != Outcome::same; });
+    if (first == row.end()) return row;
+    const std::size_t begin = std::size_t(first - row.begin()) * stride;
+    const std::size_t end = std::min(begin + stride, cases.size()) - 1;
+    std::vector<Trial> before = trials_.ask(std::span(cases).subspan(begin, end - begin));
+    row.erase(first + 1, row.end());
+    row.insert(row.end() - 1, std::make_move_iterator(before.begin()), std::make_move_iterator(before.end()));
+    return row;
   }
 
   /// Whether the exact decision is that of the case.
@@ -94,7 +112,7 @@ class CrossingSearch {
     Trial wrong = first == row.trials.begin() ? trials_.ask({&wrong_, 1}).front() : *(first - 1), right = *first;
     if (wrong.outcome != Outcome::same || !bisect(row.number, wrong, right) || !jumps(wrong, right))
       return std::nullopt;
-    return Crossing{wrong_, row.number, wrong.question, std::move(right)};
+    return Crossing{wrong_, row.number, wrong.question, wrong.answer, std::move(right)};
   }
   /// False where an answer between is neither.
   bool bisect(std::size_t number, Trial& wrong, Trial& right) {

@@ -13,6 +13,7 @@ struct Crossing {
   Case start;              ///< with the finding; the move began here
   std::size_t number = 0;  ///< the moved number
   Case at_wrong;           ///< with the finding, as near to `at_right` as bisection led
+  Answer wrong;            ///< the answer to `at_wrong`
   Trial at_right;
 };
 

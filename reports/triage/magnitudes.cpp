@@ -269,6 +269,10 @@ class MagnitudeList {
   void add_triangles() {
     for (const auto& t : g_.triangles) {
       const LongVector n = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+      const long double longest = std::max({length(t.corners[1] - t.corners[0]), length(t.corners[2] - t.corners[1]),
+                                            length(t.corners[0] - t.corners[2])});
+      add_length("the longest edge of " + t.operand, longest);
+      add_length("the least height of " + t.operand, length(n) / longest, longest > 0);
       for (const Place& p : g_.places) {
         if (p.operand == t.operand) continue;
         add_distance(p.name, p.operand, t.operand, dot(n, p.at - t.corners[0]) / length(n), p.known);

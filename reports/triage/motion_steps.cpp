@@ -35,6 +35,26 @@ class MotionSteps : public TestOfCause {
                  "The time is one of a few: the subject looks at few steps along the motion."};
   }
 
+  /// The motion begins a little later each time. The error of the time then falls slowly and jumps back by the same
+  /// amount again and again, where an interval is halved, or a step is made, a fixed number of times.
+  std::optional<Named> errors_of_steps() {
+    if (trials().query().kind != Kind::impact || !has_wrong_time()) return std::nullopt;
+    const auto own = error_of_time(trials().base());
+    if (!own || *own == 0) return std::nullopt;
+    constexpr double far = 256, samples_in_jump = 4, longer = 4;
+    double largest = 0;
+    for (const double e : errors_from(far * std::abs(*own))) largest = std::max(largest, std::abs(e));
+    std::optional<double> jump;
+    double latest = largest / samples_in_jump * samples;
+    for (int tries = 0; !jump && tries < 3; ++tries, latest *= longer) jump = equal_jumps(errors_from(latest));
+    saw("The motion began later by different short times.",
+        jump ? fmt::format("The error of the time falls and jumps back, by {:.3g} each time.", *jump)
+             : "The errors of the time form no steps of one size.");
+    if (!jump || !follows_scales()) return std::nullopt;
+    return Named{CauseKind::iteration_limit, "steps of the time",
+                 "The error of the time is that of a search in steps of one size, at every scale: it ends too early."};
+  }
+
   /// The same motion begins later and later: the contact stays, and less and less of the way to it is left.
   std::optional<Named> starts_of_motion() {
     const std::vector<Case> cases = later_starts();
@@ -60,6 +80,83 @@ class MotionSteps : public TestOfCause {
   }
 
  private:
+  static constexpr std::size_t samples = 64;
+
+  bool has_wrong_time() const {
+    const Finding full = trials().in_full(trials().base());
+    const MemberFinding* member = full.headline_member();
+    return member != nullptr && member->worst == 0 && trials().base().answer.yes && !asked_.is_wrong_decision();
+  }
+  /// The given time less the exact one; empty where one of them is no contact.
+  static std::optional<double> error_of_time(const Trial& t) {
+    if (t.answer.status != Answer::Status::answered || !t.answer.yes) return std::nullopt;
+    for (const Alternative& right : truth_of(t.question).alternatives) {
+      if (right.yes) return t.answer.values[0] - (right.values[0].low + right.values[0].high) / 2;
+    }
+    return std::nullopt;
+  }
+  /// The errors of the time of motions that begin later, evenly up to `latest`; none where one of them has no contact.
+  std::vector<double> errors_from(double latest) {
+    std::vector<Case> cases;
+    for (std::size_t m = 0; m < samples; ++m) {
+      if (auto later = begun_later(latest * double(m) / samples)) cases.push_back(std::move(*later));
+    }
+    std::vector<double> errors;
+    for (const Trial& t : trials().ask(cases)) {
+      const auto error = error_of_time(t);
+      if (!error || *error == t.answer.values[0]) return {};
+      errors.push_back(*error);
+    }
+    return errors;
+  }
+  /// The size of the jumps of a sawtooth: all differences of neighbours are nearly one small value, but for at least
+  /// four, which are larger by nearly one amount.
+  static std::optional<double> equal_jumps(const std::vector<double>& errors) {
+    constexpr std::size_t least = 4;
+    constexpr double tolerated = 0.1;  // of the sawtooth's height
+    if (errors.size() < samples) return std::nullopt;
+    const auto [low, high] = std::minmax_element(errors.begin(), errors.end());
+    const double height = *high - *low;
+    std::vector<double> changes;
+    for (std::size_t i = 1; i < errors.size(); ++i) changes.push_back(errors[i] - errors[i - 1]);
+    std::vector<double> sorted = changes;
+    std::sort(sorted.begin(), sorted.end());
+    const double usual = sorted[sorted.size() / 2];
+    std::vector<double> jumps;
+    for (const double c : changes) {
+      if (std::abs(c - usual) > tolerated * height) jumps.push_back(c - usual);
+    }
+    if (!(height > 0) || jumps.size() < least || 2 * jumps.size() > changes.size()) return std::nullopt;
+    const auto [least_jump, most_jump] = std::minmax_element(jumps.begin(), jumps.end());
+    const bool are_equal = *most_jump - *least_jump <= tolerated * height;
+    return are_equal ? std::optional(std::abs(*least_jump + *most_jump) / 2) : std::nullopt;
+  }
+  /// Whether the error, as a share of the time, is the same at each near scale: the steps are no absolute tolerance.
+  bool follows_scales() {
+    constexpr int nearest = 8;
+    constexpr double tolerated = 0.01;
+    const double own = trials().base().answer.values[0], error = error_of_time(trials().base()).value_or(0);
+    return std::all_of(asked_.scans().begin(), asked_.scans().end(), [&](const ScaleScan& s) {
+      return std::all_of(s.trials.begin(), s.trials.end(), [&](const ScaleScan::At& a) {
+        if (std::abs(a.k) > nearest || a.trial.outcome == Outcome::none) return true;
+        const auto e = error_of_time(a.trial);
+        return e && std::abs(*e / a.trial.answer.values[0] - error / own) <= tolerated * std::abs(error / own);
+      });
+    });
+  }
+  /// The motion that begins where this one is after a time; empty where the numbers leave the range.
+  std::optional<Case> begun_later(double passed) const {
+    const auto& start = parts_of(trials().query()).start;
+    const auto& velocities = parts_of(trials().query()).velocities;
+    if (!start || velocities.empty()) return std::nullopt;
+    Case c = question();
+    for (std::size_t k = 0; k < 3; ++k) c.values[start->place + k] += passed * c.values[velocities[0] + k];
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      if (c.query->inputs[i].role == Role::time) c.values[i] = std::max(0.0, c.values[i] - passed);
+      if (c.scalar == Scalar::float32) c.values[i] = double(float(c.values[i]));
+    }
+    return c;
+  }
   std::vector<Case> with_moved_starts() const {
     std::vector<Case> cases;
     const auto& start = parts_of(trials().query()).start;
@@ -85,22 +182,14 @@ class MotionSteps : public TestOfCause {
   }
   std::vector<Case> later_starts() const {
     std::vector<Case> cases;
-    const auto& start = parts_of(trials().query()).start;
-    const auto& velocities = parts_of(trials().query()).velocities;
     const double time = contact_time();
-    if (!start || velocities.empty() || !(time > 0)) return cases;
-    constexpr int starts = 32;
-    for (int m = 1; m <= starts; ++m) {
-      Case c = question();
-      const double passed = time * m / (starts + 1);
-      for (std::size_t k = 0; k < 3; ++k) c.values[start->place + k] += passed * c.values[velocities[0] + k];
-      for (std::size_t i = 0; i < c.values.size(); ++i) {
-        const Role role = c.query->inputs[i].role;
-        if (role == Role::time) c.values[i] = std::max(0.0, c.values[i] - passed);
-        if (c.scalar == Scalar::float32) c.values[i] = double(float(c.values[i]));
-      }
-      cases.push_back(std::move(c));
-    }
+    if (!(time > 0)) return cases;
+    constexpr int starts = 32, halvings = 36;
+    const auto add = [&](double passed) {
+      if (auto later = begun_later(passed)) cases.push_back(std::move(*later));
+    };
+    for (int m = 1; m <= starts; ++m) add(time * m / (starts + 1));
+    for (int m = 6; m <= halvings; ++m) add(time * (1 - std::ldexp(1.0, -m)));
     return cases;
   }
   /// Of the exact answer, or else of the given one; 0 where there is none.
@@ -119,6 +208,11 @@ class MotionSteps : public TestOfCause {
 Tested times_of_steps_of(AskedCases& asked) {
   MotionSteps test(asked);
   return test.finished(test.times_of_steps());
+}
+
+Tested errors_of_steps_of(AskedCases& asked) {
+  MotionSteps test(asked);
+  return test.finished(test.errors_of_steps());
 }
 
 Tested starts_of_motion_of(AskedCases& asked) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
@@ -125,14 +126,13 @@ void add_vectors(const Case& c, std::vector<Quantity>& all) {
     all.push_back({fmt::format("the distance of {} from the origin", vector_name(q, i)), length(vector_at(c, i))});
 }
 
-/// The radius of the operand of a position; 0 where it has none.
-double radius_beside(const Case& c, std::size_t place) {
-  const auto& fields = c.query->inputs;
-  const std::string operand = fields[place].name.substr(0, fields[place].name.find('.'));
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (fields[i].name == operand + ".radius") return c.values[i];
+/// The input that is the radius of the operand of a position; none where it has none.
+std::optional<std::size_t> radius_beside(const Query& q, std::size_t place) {
+  const std::string operand = q.inputs[place].name.substr(0, q.inputs[place].name.find('.'));
+  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
+    if (q.inputs[i].name == operand + ".radius") return i;
   }
-  return 0;
+  return std::nullopt;
 }
 
 /// What tests of spheres, rays and triangles compare in squares: d^2 - R^2 for two centers and the sum of their radii,
@@ -143,7 +143,9 @@ void add_forms(const Case& c, std::vector<Quantity>& all) {
   const bool moves = parts.start.has_value() && !parts.velocities.empty();
   for (std::size_t b = 3; b < q.inputs.size(); ++b) {
     if (q.inputs[b].role != Role::position || !begins_vector(q, b) || !begins_vector(q, 0)) continue;
-    const double reach = radius_beside(c, 0) + radius_beside(c, b);
+    const auto r = radius_beside(q, 0), s = radius_beside(q, b);
+    if (!r && !s) continue;  // a square of a distance, which is listed
+    const double reach = (r ? c.values[*r] : 0) + (s ? c.values[*s] : 0);
     const Vector m = minus(vector_at(c, 0), vector_at(c, b));
     const std::string centers = fmt::format("{} and {}", vector_name(q, 0), vector_name(q, b));
     const double outside = dot(m, m) - reach * reach;

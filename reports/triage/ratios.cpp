@@ -1,6 +1,27 @@
 #include "reports/triage/ratios.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
 namespace nearmiss {
+
+namespace {
+
+bool is_decimal_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// The word without what numbers an axis, a corner or an edge: "x", "2", the end of "triangle.v1" and of "weights.y".
+std::string_view without_number(std::string_view word) {
+  const bool is_number = std::all_of(word.begin(), word.end(), is_decimal_digit);
+  const auto is_axis = [](char c) { return c == 'x' || c == 'y' || c == 'z'; };
+  const std::size_t n = word.size();
+  if (is_number || (n == 1 && is_axis(word[0]))) return {};
+  if (n > 2 && word[n - 2] == '.' && is_axis(word[n - 1])) return word.substr(0, n - 1);
+  const bool is_corner = n >= 2 && word[n - 2] == 'v' && is_decimal_digit(word[n - 1]);
+  return is_corner && (n == 2 || word[n - 3] == '.') ? word.substr(0, n - 1) : word;
+}
+
+}  // namespace
 
 /// Every ordered pair of different lengths, by its first.
 std::pair<std::size_t, std::size_t> Ratios::pair(std::size_t i) const {
@@ -19,6 +40,18 @@ std::string Ratios::name(std::size_t i) const {
   if (i < pure()) return magnitudes_.pure[i].name;
   const auto [a, b] = pair(i);
   return magnitudes_.lengths[a].name + " over " + magnitudes_.lengths[b].name;
+}
+
+std::string Ratios::family(std::size_t i) const {
+  const std::string all = name(i);
+  std::string family;
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = std::min(all.find(' ', begin), all.size());
+    family += without_number(std::string_view(all).substr(begin, end - begin));
+    family += ' ';
+    begin = end + 1;
+  }
+  return family;
 }
 
 }  // namespace nearmiss

@@ -19,7 +19,11 @@ class Ratios {
   long double value(std::size_t i) const;
   /// "the sine of the angle between a and b", "the length of a over the radius of b".
   std::string name(std::size_t i) const;
-  /// Of a quotient; 0 for a pure number.
+  /// The name without the numbers of axes, corners and edges: the same for ratios that an implementation compares in
+  /// one loop.
+  std::string family(std::size_t i) const;
+  /// Of a quotient; empty, and 0, for a pure number.
+  std::string numerator_name(std::size_t i) const { return i < pure() ? "" : magnitudes_.lengths[pair(i).first].name; }
   long double numerator(std::size_t i) const { return i < pure() ? 0 : magnitudes_.lengths[pair(i).first].value; }
 
  private:

@@ -78,9 +78,23 @@ Fits time_over_speed(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_output(c, a, Role::time, is_right, [&](double t) { return t * speed; });
 }
 
+/// Whether the answer gives a number other than 0 that is no depth: a contact.
+bool gives_contact(const Case& c, const Answer& a) {
+  for (const Layout::Part& p : c.query->layout.parts) {
+    if (p.role != Role::normal && p.role != Role::position) continue;
+    for (std::size_t i = p.begin; i < p.end; ++i) {
+      if (a.gives(i) && a.values[i] != 0) return true;
+    }
+  }
+  return false;
+}
+
+/// A subject whose decision follows from the sign of its depth calls an overlap a miss, and yet gives a contact.
 Fits negative_depth(const Case& c, const Answer& a, const IsRight& is_right) {
   if (c.query->kind != Kind::depth || a.status != Answer::Status::answered) return std::nullopt;
+  if (!a.yes && !gives_contact(c, a)) return std::nullopt;
   Answer other = a;
+  other.yes = true;
   for (const Layout::Part& p : c.query->layout.parts) {
     if (p.role == Role::depth && a.gives(p.begin)) other.values[p.begin] = -a.values[p.begin];
   }
@@ -174,10 +188,12 @@ Fits start_inside_is_a_hit(const Case& c, const Answer& a, const IsRight&) {
 }
 
 Fits ends_at_time_one(const Case& c, const Answer& a, const IsRight&) {
-  if (a.status != Answer::Status::answered || c.query->kind != Kind::impact) return std::nullopt;
-  const Truth truth = truth_of(c);
-  for (const Alternative& right : truth.alternatives) {
-    if (!right.yes || !(right.values[0].low > 1)) return std::nullopt;
+  const auto time = std::find_if(c.query->outputs.begin(), c.query->outputs.end(),
+                                 [](const Field& f) { return f.role == Role::time; });
+  if (a.status != Answer::Status::answered || !decides(c.query->kind) || time == c.query->outputs.end())
+    return std::nullopt;
+  for (const Alternative& right : truth_of(c).alternatives) {
+    if (!right.yes || !(right.values[std::size_t(time - c.query->outputs.begin())].low > 1)) return std::nullopt;
   }
   return !a.yes;
 }
@@ -273,6 +289,11 @@ Fits reversed_velocity(const Case& c, const Answer& a, const IsRight& is_right) 
 Fits other_flag(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_input(c, a, Role::flag, is_right, [](std::size_t, double x) { return 1 - x; });
 }
+/// A case whose flag has this value already makes no difference.
+template <int value>
+Fits fixed_flag(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::flag, is_right, [](std::size_t, double) { return double(value); });
+}
 Fits counted_from_one(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_output(c, a, Role::index, is_right, [](double x) { return x - 1; });
 }
@@ -313,10 +334,12 @@ constexpr Reading table[] = {
     {"offset of the other sign", "the plane's offset has the other sign", CauseKind::convention, false,
      negative_offset},
     {"velocity reversed", "the velocity has the other sign", CauseKind::convention, false, reversed_velocity},
+    {"flag inverted", "the flag has the other value", CauseKind::convention, false, other_flag},
     {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
     {"rotation ignored", "rotations are ignored", CauseKind::unsupported, false, no_rotation},
     {"radius ignored", "radii are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, false>},
-    {"flag ignored", "the flag has the other value", CauseKind::unsupported, false, other_flag},
+    {"flag ignored", "the flag is taken for true", CauseKind::unsupported, false, fixed_flag<1>},
+    {"flag ignored", "the flag is taken for false", CauseKind::unsupported, false, fixed_flag<0>},
 };
 
 }  // namespace

@@ -44,6 +44,21 @@ std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Qu
   return pairs;
 }
 
+/// Where the vectors along which something moves begin: velocities, and directions of rays and lines.
+std::vector<std::size_t> ways_of(const Query& q) {
+  std::vector<std::size_t> ways = parts_of(q).velocities;
+  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
+    if (q.inputs[i].role == Role::direction && q.inputs[i].name.ends_with("direction.x")) ways.push_back(i);
+  }
+  return ways;
+}
+
+/// It is parallel to a plane of coordinates, but not zero.
+bool is_along_axes(const Case& c, std::size_t way) {
+  const auto zeros = std::count(&c.values[way], &c.values[way] + 3, 0.0);
+  return zeros == 1 || zeros == 2;
+}
+
 bool is_turned(const Case& c) {
   const auto& all = parts_of(*c.query).quaternions;
   return std::any_of(all.begin(), all.end(),
@@ -63,6 +78,11 @@ std::vector<Region> regions_of(const Query& query) {
   }
   for (const auto& [a, b] : places_of_two_operands(query))
     regions.push_back({"two equal points", [a = a, b = b](const Case& c) { return are_equal(c, a, b); }});
+  for (const std::size_t i : ways_of(query)) {
+    const std::string vector = query.inputs[i].name.substr(0, query.inputs[i].name.rfind('.'));
+    regions.push_back(
+        {fmt::format("{} with a component of zero", vector), [i](const Case& c) { return is_along_axes(c, i); }});
+  }
   for (const auto& t : parts_of(query).triangles)
     regions.push_back({"a triangle with two equal corners", [t](const Case& c) {
                          return are_equal(c, t[0], t[1]) || are_equal(c, t[1], t[2]) || are_equal(c, t[0], t[2]);

@@ -38,14 +38,15 @@ class RoundingErrors : public TestOfCause {
   std::optional<Named> rounding() {
     const std::vector<Trial>& near = asked_.neighbours();
     const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
-    if (auto named = by_roundings()) return named;
+    const bool may_round = has_varying_errors();
+    if (auto named = by_roundings(may_round)) return named;
     saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
         fmt::format("{} have the finding, and {} are right.", count(near, Outcome::same), right));
     if (asked_.is_exact()) {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
       return std::nullopt;
     }
-    if (is_mixed(right, all)) {
+    if (is_mixed(right, all) && others_depend_ && may_round) {
       if (!are_on_two_sides(question(), near))
         return Named{CauseKind::rounding, "",
                      "The answer is unstable: it is right or wrong by the last bits of the inputs."};
@@ -56,39 +57,85 @@ class RoundingErrors : public TestOfCause {
   }
 
  private:
+  static constexpr double least_moved =
+      0.25;  ///< of a number that consists of rounding errors, as a share of its error
+
+  /// Whether the errors differ of the cases a few ulps away with the finding, as rounding errors do. True for a wrong
+  /// decision, which has no error.
+  bool has_varying_errors() {
+    constexpr std::size_t least = 4, enough = 8;
+    constexpr double spread = 1.25;
+    double low = INFINITY, high = 0;
+    std::size_t seen = 0;
+    for (const Trial& t : asked_.neighbours()) {
+      if (t.outcome != Outcome::same || seen == enough) continue;
+      const Finding full = trials().in_full(t);
+      const MemberFinding* member = full.headline_member();
+      if (member == nullptr || member->worst < 0 || !(member->forward_absolute > 0)) return true;
+      low = std::min(low, member->forward_absolute), high = std::max(high, member->forward_absolute), ++seen;
+    }
+    if (seen == 0) return asked_.is_wrong_decision();
+    saw(fmt::format("The errors of {} cases were compared whose numbers are a few ulps away.", seen),
+        fmt::format("They are between {:.4g} and {:.4g}.", low, high));
+    return seen >= least && high >= spread * low;
+  }
   /// How far the worst number of the answer moves between the roundings, as a share of its error.
-  double moved_by_rounding() const {
-    const Trial& base = trials().base();
+  double moved_by_rounding(const Trial& base, std::span<const Trial> roundings) const {
     const Finding full = trials().in_full(base);
     const MemberFinding* worst = full.headline_member();
     if (worst == nullptr || worst->worst < 0 || !(worst->forward_absolute > 0)) return 0;
     double furthest = 0;
-    for (const Trial& t : asked_.roundings()) {
-      const bool comparable = t.answer.status == Answer::Status::answered && t.answer.yes == base.answer.yes;
+    for (const Trial& t : roundings) {
+      const bool is_wrong = t.outcome == Outcome::same || t.outcome == Outcome::other;
+      const bool comparable =
+          is_wrong && t.answer.status == Answer::Status::answered && t.answer.yes == base.answer.yes;
       const double by = t.answer.values[std::size_t(worst->worst)] - base.answer.values[std::size_t(worst->worst)];
       if (comparable && std::isfinite(by)) furthest = std::max(furthest, std::abs(by));
     }
     return furthest / worst->forward_absolute;
   }
-  std::optional<Named> by_roundings() {
+  std::optional<Named> by_roundings(bool may_round) {
     if (asked_.roundings().empty()) {
       saw("The subject answers behind pipes.", "It cannot be asked in other rounding modes.");
       return std::nullopt;
     }
     const std::size_t right = count(asked_.roundings(), Outcome::right),
                       same = count(asked_.roundings(), Outcome::same);
-    const double moved = moved_by_rounding();
+    const double moved = moved_by_rounding(trials().base(), asked_.roundings());
     saw("The case was asked in the four rounding modes.",
         fmt::format(
             "The finding is there in {}, and the answer is right in {}. The worst number moves by {:.2g} % of its "
             "error.",
             same, right, 100 * moved));
-    constexpr double least_moved = 0.25;
-    if (right > 0) return Named{CauseKind::rounding, "", "The answer is right in another rounding mode."};
+    const bool depends = (right > 0 && may_round) || moved >= least_moved;
+    others_depend_ = holds_for_others(depends);
+    const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
+    if (!others_depend_ || !may_be_named) return std::nullopt;
     if (moved >= least_moved)
       return Named{CauseKind::rounding, "",
                    "The error changes with the rounding mode: it consists of rounding errors."};
-    return std::nullopt;
+    return Named{CauseKind::rounding, "",
+                 depends ? "The answer is right in another rounding mode."
+                         : "Other answers with the finding are right in another rounding mode."};
+  }
+  /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
+  /// by chance.
+  bool holds_for_others(bool case_depends) {
+    constexpr std::size_t least = 4;
+    std::size_t all = 0, depend = 0;
+    for (const Trial& t : asked_.similar()) {
+      if (trials().is_over()) break;
+      all += 1, depend += depends_on_rounding(t);
+    }
+    saw("The other cases with the finding were asked in the four rounding modes.",
+        fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
+    return all < least ? case_depends : 2 * depend >= all;
+  }
+  bool depends_on_rounding(const Trial& base) const {
+    std::vector<Trial> asked;
+    for (const Rounding r : {Rounding::to_nearest, Rounding::downward, Rounding::upward, Rounding::toward_zero})
+      asked.push_back(trials().ask({&base.question, 1}, r).front());
+    return count(asked, Outcome::right) > 0 || moved_by_rounding(base, asked) >= least_moved;
   }
 
   /// Exactly moved toward the origin, in steps that halve the distance.
@@ -109,6 +156,8 @@ class RoundingErrors : public TestOfCause {
         CauseKind::rounding, "far from the origin",
         "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances."};
   }
+  bool others_depend_ = true;  ///< on the rounding mode, where the subject can be asked in another
+
   std::vector<Case> moved_to_the_origin() const {
     const Query& q = trials().query();
     std::vector<Case> cases;

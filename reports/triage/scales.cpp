@@ -123,6 +123,14 @@ std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k) {
   return other;
 }
 
+bool ScaleScan::has_clean_flip() const {
+  if (!flip) return false;
+  const auto [low, high] = std::minmax(flip->wrong, flip->right);
+  return std::none_of(trials.begin(), trials.end(), [low = low, high = high](const At& a) {
+    return a.k >= low && a.k <= high && (a.trial.raised & (raised_overflow | raised_underflow)) != 0;
+  });
+}
+
 bool ScaleScan::explained_by(Raised exception) const {
   if (!flip) return false;
   const int direction = flip->right > 0 ? 1 : -1;

@@ -41,6 +41,8 @@ struct ScaleScan {
   std::vector<At> trials;  ///< by k; k = 0 is among them
   std::optional<Flip> flip;
 
+  /// There is a flip, and no overflow and no underflow from its one side to the other.
+  bool has_clean_flip() const;
   /// Every answer with the finding from scale 1 to the flip raised the exception, and a right answer beyond did not.
   /// The first answer in the other direction is not right.
   bool explained_by(Raised exception) const;

@@ -8,6 +8,7 @@
 
 #include "oracles/requirements.hpp"
 #include "reports/triage/quantities.hpp"
+#include "reports/triage/written_constant.hpp"
 
 namespace nearmiss {
 
@@ -79,8 +80,8 @@ class ConstantError {
 
 class Tolerance {
  public:
-  Tolerance(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar)
-      : trials_(trials), scans_(scans), similar_(similar) {}
+  Tolerance(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar, bool errs_to_both_sides)
+      : trials_(trials), scans_(scans), similar_(similar), errs_to_both_sides_(errs_to_both_sides) {}
 
   Tested result() {
     Tested tested;
@@ -97,7 +98,7 @@ class Tolerance {
 
   std::optional<Named> named() {
     for (const ScaleScan& s : scans_) {
-      if (!s.flip || !is_clean(s)) continue;
+      if (!s.has_clean_flip()) continue;
       if (auto named = tolerance_in(s)) return named;
     }
     if (std::none_of(scans_.begin(), scans_.end(), [](const ScaleScan& s) { return s.flip.has_value(); }))
@@ -105,13 +106,6 @@ class Tolerance {
           "rounding.",
           "The answer is right at no scale.");
     return std::nullopt;
-  }
-  /// No overflow and no underflow from the one side of the flip to the other.
-  bool is_clean(const ScaleScan& s) const {
-    const auto [low, high] = std::minmax(s.flip->wrong, s.flip->right);
-    return std::none_of(s.trials.begin(), s.trials.end(), [low = low, high = high](const ScaleScan::At& a) {
-      return a.k >= low && a.k <= high && (a.trial.raised & (raised_overflow | raised_underflow)) != 0;
-    });
   }
   std::vector<Flipped> flips_of(const ScaleScan& s) {
     std::vector<Flipped> all;
@@ -137,6 +131,10 @@ class Tolerance {
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
     if (best) return named_tolerance(*best, flips.size());
+    if (errs_to_both_sides_) {
+      saw("Generated cases were asked.", "There are false hits and false misses: a tolerance errs to one side.");
+      return std::nullopt;
+    }
     double low = INFINITY, high = 0;
     for (const Flipped& f : flips) {
       const double largest = largest_of(f.at_wrong, *s.group);
@@ -203,15 +201,21 @@ class Tolerance {
     return best;
   }
   std::optional<Named> named_tolerance(const Constant& q, std::size_t cases) {
+    constexpr double error_of_estimates = 1.05, widest = 1.1;
     const double middle = std::sqrt(q.low * q.high);
     const int decade = int(std::lround(std::log10(middle)));
     const double round = std::pow(10.0, decade);
-    const bool is_round = q.low <= round * 1.05 && round <= q.high * 1.05;
+    const bool is_round = q.low <= round * error_of_estimates && round <= q.high * error_of_estimates;
+    const bool is_written =
+        is_round || (q.high <= widest * q.low && written_constant(q.low, q.high, error_of_estimates));
     const double value = is_round ? round : middle;
     saw(fmt::format("The flips of {} cases were compared with sizes, distances, gaps, areas and times.", cases),
         fmt::format("At each flip {} is between {:.3g} and {:.3g}, while it differs by a factor of {:.3g} between the "
                     "cases.",
                     q.name, q.low, q.high, q.spread));
+    if (!is_written)
+      return Named{CauseKind::absolute_tolerance, "",
+                   "The subject compares something with a constant: no quantity is a round number at every flip."};
     return Named{CauseKind::absolute_tolerance, fmt::format("1e{} {}", decade, q.unit),
                  fmt::format("The subject has an absolute tolerance of about {:.2g} ({}) that {} is compared with.",
                              value, q.unit, q.name)};
@@ -222,6 +226,7 @@ class Tolerance {
   Trials& trials_;
   std::span<const ScaleScan> scans_;
   std::span<const Trial> similar_;
+  bool errs_to_both_sides_;
   std::vector<Evidence> evidence_;
 };
 
@@ -231,8 +236,9 @@ Tested constant_error_of(const Trials& trials, std::span<const ScaleScan> scans)
   return ConstantError(trials, scans).result();
 }
 
-Tested tolerance_of(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar) {
-  return Tolerance(trials, scans, similar).result();
+Tested tolerance_of(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar,
+                    bool errs_to_both_sides) {
+  return Tolerance(trials, scans, similar, errs_to_both_sides).result();
 }
 
 }  // namespace nearmiss

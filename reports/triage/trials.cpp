@@ -150,6 +150,29 @@ std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int orde
   return cases;
 }
 
+std::vector<Case> with_moved_zeros(const Case& c, std::size_t count, int order, std::uint64_t seed) {
+  const auto role = [&](std::size_t i) { return c.query->inputs[i].role; };
+  std::vector<std::size_t> zeros;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (may_move(role(i)) && c.values[i] == 0) zeros.push_back(i);
+  }
+  if (zeros.empty()) return {};
+  Random random(seed);
+  std::vector<Case> cases(count, c);
+  for (Case& other : cases) {
+    for (const std::size_t i : zeros) {
+      double largest = 0;
+      for (std::size_t k = 0; k < c.values.size(); ++k) {
+        if (role(k) == role(i)) largest = std::max(largest, std::abs(c.values[k]));
+      }
+      const bool stays_positive = role(i) == Role::size || role(i) == Role::time || role(i) == Role::weight;
+      const double by = random.uniform(stays_positive ? 0 : -1, 1);
+      if (random.one_in(2)) other.values[i] = rounded_to(c.scalar, std::ldexp(largest * by, -order));
+    }
+  }
+  return cases;
+}
+
 std::vector<Trial> variants(Trials& trials, std::size_t most, std::uint64_t seed) {
   const Case& c = trials.base().question;
   const int digits = c.scalar == Scalar::float32 ? 24 : 53;

@@ -75,6 +75,9 @@ std::size_t count(std::span<const Trial> trials, Outcome outcome);
 std::vector<Case> ulp_neighbours(const Case& c, std::size_t count, int ulps, std::uint64_t seed);
 /// `count` cases in which each number is, at random, as it is or multiplied by a factor in 1 +- 2^-order.
 std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int order, std::uint64_t seed);
+/// `count` cases in which each zero is, at random, as it is or a number of up to 2^-order of the largest of its role.
+/// None where no number that may move is 0.
+std::vector<Case> with_moved_zeros(const Case& c, std::size_t count, int order, std::uint64_t seed);
 /// At most `most` cases around that of `trials` with the same finding, as different from it as possible.
 std::vector<Trial> variants(Trials& trials, std::size_t most, std::uint64_t seed);
 

@@ -46,7 +46,9 @@ class Unsupported : public TestOfCause {
         fmt::format("Wrong are {} with it, and {} without it.", of_text(in_all - in_right, in_all),
                     of_text(out_all - out_right, out_all)));
     if (in_all < least || out_all < least) return std::nullopt;
-    if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all))
+    constexpr std::size_t most_outside = 1;  // with the same finding: it does not need the region
+    if (nearly_all(in_all - in_right, in_all) && nearly_all(out_right, out_all) &&
+        count(out, Outcome::same) <= most_outside)
       return Named{CauseKind::unsupported, region.name,
                    fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
     constexpr std::size_t least_outside = of_each_side / 2;
