@@ -307,7 +307,8 @@ TEST_F(Triaged, ASubjectThatIsAlwaysWrongFillsNoDisk) {
   const std::string of = run("r", "w", "30000");
   const json index = json::parse(read_file(fs::path(of) / "index.json"));
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
-  EXPECT_GT(index["findings"], 25000);
+  EXPECT_GT(index["findings"], 15000) << "of the answers that were judged, a sample";
+  EXPECT_GT(index["tallies"][0]["not_judged"], 10000);
   EXPECT_LT(index["reports"].size(), 2 * (32 + 52u)) << "two kinds, and the much worse ones";
   std::uint64_t findings = 0, kept = 0, without = 0, variants = 0;
   for (const json& v : index["variants"]) {
