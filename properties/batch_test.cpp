@@ -13,7 +13,7 @@
 #include "impl/adapters/collide_batch.hpp"
 #include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"
-
+#if !defined(__clang_analyzer__)  // which does not end within five minutes
 namespace nearmiss {
 namespace {
 
@@ -222,3 +222,4 @@ TEST(StructureOfArrays, KeepsEveryLeaf) {
 
 }  // namespace
 }  // namespace nearmiss
+#endif
