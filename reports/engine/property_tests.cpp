@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view with_seeds =
     "*EveryTier.AnswersKeepTheirContract*:*EveryTierRelated*:*CertifiedPostconditions*:*CertifiedTier*:*Watch*";
 
-/// With at least this many seconds, the tests that watch the judge use ten times as many answers for each query.
+/// With at least this many seconds, the tests that watch the judge use twenty times as many answers for each query.
 constexpr double time_for_long_watch = 3 * 3600;
 constexpr std::string_view long_watch = "NEARMISS_WATCH_ANSWERS=1000000";
 

@@ -18,7 +18,7 @@ namespace nearmiss {
 /// "X was late 8 times of QUERY, and was not asked 142 more cases".
 std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases);
 
-/// "X: of QUERY, 142 more answers were not judged, since too many are wrong (--every-answer)".
+/// "X is often wrong of QUERY: only a sample was judged, and 142 answers were not (--every-answer judges all)".
 std::string not_judged_text(std::string_view subject, std::string_view query, std::uint64_t answers);
 
 /// The counts of one subject on one query. Different kinds of disagreement are never added together.
