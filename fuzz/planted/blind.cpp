@@ -169,16 +169,6 @@ NEARMISS_MISTAKE(box_plane_penetration) {
 }  // namespace
 }  // namespace nearmiss::planted
 
+#define NEARMISS_PLANTED_NAME "planted-blind"
+#define NEARMISS_PLANTED_TABLE "fuzz/planted/blind.def"
 #include "fuzz/planted/planted_offers.hpp"
-
-extern "C" const nearmiss_plugin* nearmiss_plugin_entry() {
-  using namespace nearmiss;
-  static const nearmiss_offer offers[] = {
-#define NEARMISS_PLANTED(query, where, mistake) planted::offer<inputs::query<double>>(#query),
-#include "fuzz/planted/blind.def"
-#undef NEARMISS_PLANTED
-  };
-  static const nearmiss_plugin plugin{NEARMISS_PLUGIN_VERSION, "planted-blind",   "1",
-                                      NEARMISS_DOUBLE,         std::size(offers), offers};
-  return &plugin;
-}

@@ -1,4 +1,6 @@
-/// Offers of a plugin with planted mistakes: each query by its overload of mistake(), which is declared before.
+/// The offers and the entry of a plugin with planted mistakes: each query by its overload of mistake(), which is
+/// declared before. NEARMISS_PLANTED_NAME is the plugin's name, NEARMISS_PLANTED_TABLE the file with its table of
+/// mistakes.
 #pragma once
 
 #include <algorithm>
@@ -39,3 +41,15 @@ nearmiss_offer offer(const char* query) {
 
 }  // namespace
 }  // namespace nearmiss::planted
+
+extern "C" const nearmiss_plugin* nearmiss_plugin_entry() {
+  using namespace nearmiss;
+  static const nearmiss_offer offers[] = {
+#define NEARMISS_PLANTED(query, where, mistake) planted::offer<inputs::query<double>>(#query),
+#include NEARMISS_PLANTED_TABLE
+#undef NEARMISS_PLANTED
+  };
+  static const nearmiss_plugin plugin{NEARMISS_PLUGIN_VERSION, NEARMISS_PLANTED_NAME, "1",
+                                      NEARMISS_DOUBLE,         std::size(offers),     offers};
+  return &plugin;
+}
