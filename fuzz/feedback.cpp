@@ -54,7 +54,8 @@ void note_case(const Case& question, const Finding& f) {
   set(Feature::stage, {std::uint64_t(question.scalar), std::uint64_t(f.decided_by), std::uint64_t(f.truth_yes), ties});
   set(Feature::branches, {f.branches, std::uint64_t(f.truth_yes), ties});
   if (!decides(question.query->kind)) return;
-  const double margin = decision_margin(question);
+  static double margin = 0;  // of the last case, to which most cases are near
+  margin = decision_margin(question, margin);
   const std::uint64_t rung = margin < 0 ? 0 : margin == 0 ? 1 : std::uint64_t(2 + std::ilogb(margin));
   set(Feature::margin, {std::uint64_t(question.scalar), rung, std::uint64_t(f.truth_yes)});
 }

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "impl/subject/floating_point.hpp"
+#include "oracles/exact/number_memory.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
 
@@ -41,6 +42,9 @@ Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   }
   return largest;
 }
+
+/// The number of the rung.
+int rung_of(const Backward& b) { return b.above > 0 ? std::ilogb(b.above) + 1 : 0; }
 
 /// The oracle and the case, so that each step below is one line. Caches the result of each rung.
 class Examination {
@@ -78,8 +82,8 @@ class Examination {
     return highest_rung(about, [&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; });
   }
   /// The highest rung up to which every input has the same decision.
-  std::optional<Backward> margin() const {
-    return highest_rung(0, [](const Rung& r) { return r.may_be_yes != r.may_be_no; });
+  std::optional<Backward> margin(int about = 0) const {
+    return highest_rung(about, [](const Rung& r) { return r.may_be_yes != r.may_be_no; });
   }
   bool in_domain(const collide::Contract& contract) const {
     for (std::size_t role = 0; role < largest_.size(); ++role) {
@@ -111,7 +115,7 @@ class Examination {
     widen(k);
     return !oracle.may_be_on_surface(question_.values, widening_, answer_, std::size_t(worst), ulps, question_.scalar);
   }
-  const std::vector<double>& last_widening() const { return widening_; }
+  const NumberVector<double>& last_widening() const { return widening_; }
 
  private:
   /// What the enclosure of one rung allows.
@@ -151,7 +155,7 @@ class Examination {
   const Case& question_;
   const Answer& answer_;
   Magnitudes largest_;
-  mutable std::vector<double> widening_;
+  mutable NumberVector<double> widening_;
   mutable std::array<Rung, rungs> remembered_{};
 };
 
@@ -249,7 +253,7 @@ class Judgement {
     return std::clamp(std::ilogb(std::max(here_.ulps, 1.0)) - 1, 0, wrong_by_as_much_as_the_inputs);
   }
   /// The rung of the bound of the whole answer: no member has a higher one.
-  int rung_of_whole() const { return f_.backward && f_.backward->above > 0 ? std::ilogb(f_.backward->above) + 1 : 0; }
+  int rung_of_whole() const { return f_.backward ? rung_of(*f_.backward) : 0; }
   void judge_decision() {
     if (!decision_differs_) return;
     MemberFinding m;
@@ -492,7 +496,7 @@ std::vector<double> widening(const Query& query, std::span<const double> values,
   const Answer none{};
   const Examination x(question, none);
   x.widen(k);
-  return x.last_widening();
+  return {x.last_widening().begin(), x.last_widening().end()};
 }
 
 bool Finding::has(Disagreement d) const {
@@ -550,10 +554,10 @@ double estimated_backward(const Case& question, const Answer& answer, double for
   return slope > 0 && std::isfinite(slope) ? forward_ulps / slope : 0;
 }
 
-double decision_margin(const Case& question) {
+double decision_margin(const Case& question, double guess) {
   const FloatingPointScope standard_modes;
   const Answer none{};
-  return Examination(question, none).margin().value_or(Backward{-1}).above;
+  return Examination(question, none).margin(rung_of({guess})).value_or(Backward{-1}).above;
 }
 
 bool exact_decision(const Case& question) {

@@ -137,8 +137,8 @@ double estimated_backward(const Case& question, const Answer& answer, double for
 
 /// The margin to the nearest flip of the decision, a lower bound on the ladder: every input within so many epsilon has
 /// the same decision. Negative where the intervals cannot decide even the case itself. As in Truth, without the
-/// answers.
-double decision_margin(const Case& question);
+/// answers. A good `guess` at the result lowers the cost; no guess changes the result.
+double decision_margin(const Case& question, double guess = 0);
 
 /// The exact decision alone, at the least cost. Thread-safe.
 bool exact_decision(const Case& question);

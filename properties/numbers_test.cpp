@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <collide/certified.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -213,6 +215,56 @@ TEST_F(RealNumbers, AgreeWithRationals) {
     if (b == R(0)) continue;
     const Q quotient = left / right;
     ASSERT_LE(Q(abs(Q((a / b).rounded()) - quotient)), abs(quotient) * Q(0x1p-52));
+  }
+}
+
+TEST_F(RealNumbers, StartAnewInMemoryThatWasUsedBefore) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 300; ++i) {
+    const double x = draw(random), y = draw(random);
+    const double n = 10 + double(random() % 1000);
+    ASSERT_EQ(R(x) * R(x) + R(y) < R(y) * R(y) + R(x), Q(x) * Q(x) + Q(y) < Q(y) * Q(y) + Q(x));
+    ASSERT_TRUE(sqrt(R(n + 1)) + sqrt(R(n - 1)) < R(2) * sqrt(R(n))) << n;
+    ASSERT_TRUE((R(0x1p1023) + R(n)) - R(0x1p1023) == R(n));
+    ASSERT_TRUE(sqrt(R(n)) * sqrt(R(n)) == R(n));
+    detail::Expressions::of_this_thread().clear();
+  }
+}
+
+/// [low, high] of few bits, at a precision that holds them.
+void set(detail::BigInterval& to, double low, double high) {
+  to.set_precision(64);
+  mpfr_set_d(to.low, low, MPFR_RNDD);
+  mpfr_set_d(to.high, high, MPFR_RNDU);
+}
+/// The least and the largest of the results at the ends of two intervals, rounded outward to `precision` bits.
+void expect_ends(const detail::BigInterval& given, std::array<Q, 4> results, mpfr_prec_t precision) {
+  const auto [least, largest] = std::minmax_element(results.begin(), results.end());
+  mpfr_t end;
+  mpfr_init2(end, precision);
+  mpfr_set_q(end, least->get_mpq_t(), MPFR_RNDD);
+  ASSERT_TRUE(mpfr_equal_p(given.low, end));
+  mpfr_set_q(end, largest->get_mpq_t(), MPFR_RNDU);
+  ASSERT_TRUE(mpfr_equal_p(given.high, end));
+  mpfr_clear(end);
+}
+
+TEST(BigIntervals, HaveTheEndsOfProductsAndQuotients) {
+  constexpr mpfr_prec_t precision = 8;  // rounds most results
+  std::mt19937_64 random(8);
+  detail::BigInterval x, y, result;
+  for (int i = 0; i < 5000; ++i) {
+    const auto pair = [&] { return std::minmax({double(random() % 33) - 16, double(random() % 33) - 16}); };
+    const auto [a, b] = pair();
+    const auto [c, d] = pair();
+    set(x, a, b);
+    set(y, c, d);
+    result.set_precision(precision);
+    detail::multiply(result, x, y);
+    expect_ends(result, {Q(a) * Q(c), Q(a) * Q(d), Q(b) * Q(c), Q(b) * Q(d)}, precision);
+    if (c <= 0 && d >= 0) continue;
+    detail::divide(result, x, y);
+    expect_ends(result, {Q(a) / Q(c), Q(a) / Q(d), Q(b) / Q(c), Q(b) / Q(d)}, precision);
   }
 }
 

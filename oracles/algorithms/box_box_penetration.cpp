@@ -137,7 +137,7 @@ class Penetration {
         place[l] = may_be_zero(furthest.along[l]) ? join(furthest.half[l], N(-furthest.half[l])) : furthest.end(l);
       }
       const Vector<N> middle = plus(furthest.center, shift);
-      std::vector<Form> forms;
+      NumberVector<Form> forms;
       for (int l = 0; l < 3; ++l) forms.push_back({furthest.axes[l], middle, place[l]});
       yes_to_all_on(forms, contact, out_, answer(plus(middle, out_of(furthest.axes, place))));
     } else {

@@ -13,7 +13,7 @@ void closest_point_rectangle(const inputs::closest_point_rectangle<N>& q, Out& o
   const std::array<Vector<N>, 4> corner{vector(r.v0), vector(r.v1), vector(r.v2), vector(r.v3)};
   const Vector<N> p = vector(q.point);
   const FacePiece<N> face1 = face_piece(corner, {0, 2, 1}, true, p), face2 = face_piece(corner, {0, 2, 3}, true, p);
-  std::vector<Piece<N>> pieces{face1.piece, face2.piece};
+  NumberVector<Piece<N>> pieces{face1.piece, face2.piece};
   const auto edge = [&](int i, int j) { pieces.push_back(edge_piece(corner, i, j, p)); };
   if (!face1.surely_within) edge(0, 1), edge(1, 2);
   if (!face2.surely_within) edge(2, 3), edge(3, 0);

@@ -8,8 +8,8 @@ namespace nearmiss::oracle {
 
 /// Equations that every point of the line satisfies: perpendicular to the line's direction it has the line's
 /// coordinates.
-std::vector<Form> forms_of(const collide::Line<Interval>& line) {
-  std::vector<Form> forms;
+NumberVector<Form> forms_of(const collide::Line<Interval>& line) {
+  NumberVector<Form> forms;
   for (int i = 0; i < 3; ++i) {
     Vector<Interval> axis{Interval(0), Interval(0), Interval(0)};
     axis[i] = Interval(1);

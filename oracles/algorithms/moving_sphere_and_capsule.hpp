@@ -172,7 +172,7 @@ struct CapsuleContacts {
 
   /// The contacts that may be the first, and a time by which the ball certainly reaches the fixed set.
   struct Roots {
-    std::vector<CapsuleContact<N>> list;
+    NumberVector<CapsuleContact<N>> list;
     double surely_by = std::numeric_limits<double>::infinity();
   };
 
@@ -275,7 +275,7 @@ struct CapsuleContacts {
   }
 
   template <class Belongs>
-  void add(CapsuleContact<N> c, const Vector<N>& step, std::vector<CapsuleContact<N>>& roots, Belongs belongs) const {
+  void add(CapsuleContact<N> c, const Vector<N>& step, NumberVector<CapsuleContact<N>>& roots, Belongs belongs) const {
     if constexpr (is_enclosure<N>) {
       if (c.time.sup() < std::numeric_limits<double>::infinity()) {
         c.away = plus(c.away, times(step, c.time));

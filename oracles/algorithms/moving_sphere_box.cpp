@@ -78,7 +78,7 @@ bool narrow_about_middle(const Motion<N>& m, const Sides& sides, N& time) {
 /// Appends the earlier root of the region's quadratic if the center is in that region at that time; `w` encloses the
 /// times at which it is.
 template <class N>
-void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::vector<Contact<N>>& roots) {
+void first_root(const Motion<N>& m, const Sides& sides, const Window& w, NumberVector<Contact<N>>& roots) {
   Vector<N> e{N(0), N(0), N(0)}, v{N(0), N(0), N(0)};
   int axis = 0;
   for (int i = 0; i < 3; ++i) {
@@ -129,7 +129,7 @@ void first_root(const Motion<N>& m, const Sides& sides, const Window& w, std::ve
 
 /// The least of the exact roots. Of enclosures, each root may be the least.
 template <class N, class Out>
-void report_first(const std::vector<Contact<N>>& roots, Out& out) {
+void report_first(const NumberVector<Contact<N>>& roots, Out& out) {
   const auto later_than_another = [&](const Contact<N>& c) {
     return std::any_of(roots.begin(), roots.end(),
                        [&](const Contact<N>& other) { return may_be_less(other.impact.time, c.impact.time); });
@@ -291,7 +291,7 @@ void moving_sphere_box(const inputs::moving_sphere_box<N>& q, Out& out) {
     }
   }
   if (near.empty()) return out.no();
-  std::vector<Contact<N>> roots;
+  NumberVector<Contact<N>> roots;
   for_each_region([&](const Sides& sides) {
     Window w = near;
     for (int i = 0; i < 3; ++i) w.clip(on_side[i][sides[i] + 1]);

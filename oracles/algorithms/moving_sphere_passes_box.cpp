@@ -64,7 +64,7 @@ bool passes(const Path<Exact>& path, const Exact& radius2, const std::optional<E
 double time_of_least_distance(const Path<Interval>& path, double limit) {
   double at[3], step[3], half[3];
   const auto middle = [](const Interval& x) { return 0.5 * x.inf() + 0.5 * x.sup(); };
-  std::vector<double> crossings;
+  NumberVector<double> crossings;
   for (int i = 0; i < 3; ++i) {
     at[i] = middle(path.start[i]), step[i] = middle(path.step[i]), half[i] = middle(path.half[i]);
     for (const int side : {-1, 1}) {

@@ -32,7 +32,7 @@ template <class N>
 struct Piece {
   unsigned seen_from = 0;  ///< bit s: the gain over s is known
   bool surely = true;      ///< one of the places exists for certain; a face may have none
-  std::vector<Place<N>> places;
+  NumberVector<Place<N>> places;
   Place<N> all;  ///< encloses distance and gains of every place
 
   bool is_seen_from(int s) const { return (seen_from >> s & 1u) != 0; }
@@ -176,7 +176,7 @@ FacePiece<N> face_piece(const std::array<Vector<N>, n>& corner, const std::array
 
 /// Calls f(piece, place) for each place that may be the nearest of all.
 template <class N, class F>
-void for_each_nearest(const std::vector<Piece<N>>& pieces, F&& f) {
+void for_each_nearest(const NumberVector<Piece<N>>& pieces, F&& f) {
   const auto may_be_as_near = [](const Piece<N>& piece, const Place<N>& place, const Piece<N>& other) {
     if (!may_be_at_most(place.distance2, other.all.distance2)) return false;
     for (int s = 0; s < 5; ++s) {
@@ -198,7 +198,7 @@ void for_each_nearest(const std::vector<Piece<N>>& pieces, F&& f) {
 
 /// The squared distance of the point from the union of the pieces.
 template <class N>
-N least_distance2(const std::vector<Piece<N>>& pieces) {
+N least_distance2(const NumberVector<Piece<N>>& pieces) {
   bool any = false;
   N least(0);
   for (const Piece<N>& piece : pieces) {
@@ -214,8 +214,8 @@ N least_distance2(const std::vector<Piece<N>>& pieces) {
 
 /// The pieces of a closed chain of edges; edge i goes from corner i to the next one.
 template <class N, std::size_t n>
-std::vector<Piece<N>> perimeter(const std::array<Vector<N>, n>& corner, const Vector<N>& p) {
-  std::vector<Piece<N>> pieces;
+NumberVector<Piece<N>> perimeter(const std::array<Vector<N>, n>& corner, const Vector<N>& p) {
+  NumberVector<Piece<N>> pieces;
   for (int i = 0; i < int(n); ++i) pieces.push_back(edge_piece(corner, i, (i + 1) % int(n), p));
   return pieces;
 }

@@ -48,7 +48,7 @@ void for_each_possible_region(const Vector<N>& local, const Vector<N>& half, F&&
 /// The outward normals of the box at the feature of that region.
 template <class N>
 Normals<N> normal_cone(const std::array<Vector<N>, 3>& axes, const Sides& sides) {
-  std::vector<Facing<N>> facing;
+  NumberVector<Facing<N>> facing;
   for (int i = 0; i < 3; ++i) facing.push_back({axes[i], sides[i] < 0 ? -1 : 0, sides[i] > 0 ? 1 : 0});
   return Normals<N>::cone(std::move(facing));
 }

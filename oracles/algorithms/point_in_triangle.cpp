@@ -58,7 +58,7 @@ template <class Out, class Make>
 void yes_to_any_weights(const FlatTriangle<Interval>& t, Out& out, Make make) {
   const Interval any(0, 1), zero(0);
   const Vector<Interval> origin{zero, zero, zero};
-  std::vector<Form> forms{{{Interval(1), Interval(1), Interval(1)}, origin, Interval(1)}};
+  NumberVector<Form> forms{{{Interval(1), Interval(1), Interval(1)}, origin, Interval(1)}};
   for (int i = 0; i < 3; ++i) {
     Form weight{origin, origin, any};
     weight.direction[i] = Interval(1);

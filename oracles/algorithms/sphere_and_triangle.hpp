@@ -22,7 +22,7 @@ struct TriangleContact {
 
 template <class N>
 struct TriangleContacts {
-  std::vector<TriangleContact<N>> list;
+  NumberVector<TriangleContact<N>> list;
   bool may_miss = false;
   /// An upper bound of the time of contact, if the sphere touches at all.
   double surely_by = std::numeric_limits<double>::infinity();
@@ -526,13 +526,13 @@ class SphereAndTriangle {
   /// The least of the exact roots. Of enclosures, each root may be the least, except those after a contact that is
   /// certain.
   void keep_first(std::size_t at_start) {
-    std::vector<Contact>& list = all_.list;
+    NumberVector<Contact>& list = all_.list;
     if constexpr (is_enclosure<N>) {
       const bool hits =
           surely_by_ < std::numeric_limits<double>::infinity() || center_surely_crosses() || surely_overlaps();
       if (!hits) all_.may_miss = true;
       if (surely_passes_) all_.surely_by = surely_by_;
-      std::vector<Contact> kept(list.begin(), list.begin() + std::ptrdiff_t(at_start));
+      NumberVector<Contact> kept(list.begin(), list.begin() + std::ptrdiff_t(at_start));
       for (std::size_t i = at_start; i < list.size(); ++i) {
         if (list[i].impact.time.inf() > surely_by_) continue;
         list[i].impact.time = at_most(list[i].impact.time, surely_by_);
@@ -541,7 +541,7 @@ class SphereAndTriangle {
       list = std::move(kept);
     } else {
       if (list.empty()) all_.may_miss = true;
-      const std::vector<Contact> before = list;
+      const NumberVector<Contact> before = list;
       list.clear();
       for (const Contact& c : before) {
         const bool first = std::none_of(before.begin(), before.end(), [&](const Contact& other) {

@@ -9,7 +9,7 @@ template <class N, class Out>
 void sphere_triangle_overlap(const inputs::sphere_triangle_overlap<N>& q, Out& out) {
   const std::array<Vector<N>, 3> corner{vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)};
   const Vector<N> center = vector(q.sphere.center);
-  std::vector<Piece<N>> pieces = perimeter(corner, center);
+  NumberVector<Piece<N>> pieces = perimeter(corner, center);
   pieces.push_back(face_piece(corner, {0, 1, 2}, false, center).piece);
   const N outside = least_distance2(pieces) - square(q.sphere.radius);
   if (may_be_positive(outside)) out.no();

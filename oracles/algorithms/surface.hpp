@@ -31,7 +31,7 @@ bool may_be_on_perimeter(const GivenPlace<N>& g, const std::array<Vector<N>, n>&
 }
 template <class N>
 bool may_be_on_corners(const GivenPlace<N>& g, const std::array<Vector<N>, 3>& corner) {
-  std::vector<Piece<N>> pieces = perimeter(corner, g.at);
+  NumberVector<Piece<N>> pieces = perimeter(corner, g.at);
   pieces.push_back(face_piece(corner, {0, 1, 2}, false, g.at).piece);
   return within_slack(g, least_distance2(pieces));
 }

@@ -18,7 +18,7 @@ struct NormalWithPlace {
 };
 
 /// The nearest of the given normal's forms, with normal and place compared together.
-inline NearestNormal nearest_together(const std::vector<GivenVector>& normal, const Cone& cone,
+inline NearestNormal nearest_together(const NumberVector<GivenVector>& normal, const Cone& cone,
                                       const NormalOffset& lever) {
   NearestNormal nearest = nearest_normal(normal.front(), cone, lever);
   for (std::size_t i = 1; i < normal.size() && nearest.ulps.low > 0; ++i) {
@@ -40,7 +40,7 @@ void yes_to_any(const NormalWithPlace<Exact>& set, Out& out, Make make) {
   const Vector<Exact> of_cone;
   if (surely_zero(set.reach)) return out.yes(make(of_cone, set.base), set.normals);
   if (!out.compares_yes()) return out.yes(answer(some_normal(cone)), set.normals);
-  const std::vector<GivenVector> normal = out.given_vector(set.normal);
+  const NumberVector<GivenVector> normal = out.given_vector(set.normal);
   const NormalOffset lever{out.given_vector(set.place).front(), rational(set.base), rational(set.reach)};
   const NearestNormal both = nearest_together(normal, cone, lever);
   SetDistance from{{{set.normal, {0, both.ulps.high}}, {set.place, {0, both.ulps.high}}}, both.ulps};
@@ -58,7 +58,7 @@ void yes_to_any(const NormalWithPlace<Interval>& set, Out& out, Make make) {
   const Interval any(-1, 1);
   const Vector<Interval> normal{any, any, any};
   if (surely_zero(set.reach)) return out.yes(make(normal, set.base), set.normals);
-  const std::vector<GivenVector> given = out.given_vector(set.normal);
+  const NumberVector<GivenVector> given = out.given_vector(set.normal);
   const GivenVector place = out.given_vector(set.place).front();
   double both = HUGE_VAL;
   for (const GivenVector& g : given) both = std::min(both, least_ulps_together(g, place, set.base, set.reach));
@@ -82,14 +82,14 @@ void yes_to_any_of(const std::vector<Vector<Exact>>& corners, std::size_t point,
 }
 /// A lower bound of the given point's distance from every point that satisfies all forms, in ulps.
 template <class Out>
-Bounds ulps_from(const std::vector<Form>& forms, std::size_t point, const Out& out) {
+Bounds ulps_from(const NumberVector<Form>& forms, std::size_t point, const Out& out) {
   double least = 0;
   for (const Form& form : forms) least = std::max(least, least_ulps(out.given_vector(point).front(), form));
   return {least, HUGE_VAL};
 }
 /// Reports that every point that satisfies all forms is right; `a` encloses their answers.
 template <class Out, class A>
-void yes_to_all_on(const std::vector<Form>& forms, std::size_t point, Out& out, const A& a) {
+void yes_to_all_on(const NumberVector<Form>& forms, std::size_t point, Out& out, const A& a) {
   const Bounds ulps = ulps_from(forms, point, out);
   out.yes(a, SetDistance{{{point, ulps}}, ulps});
 }

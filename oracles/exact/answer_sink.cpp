@@ -188,7 +188,7 @@ EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::P
   return {ulps.low, ulps.high, ulps.low * least_unit, int(furthest)};
 }
 
-std::vector<GivenVector> EnclosureAccumulator::given_vector(std::size_t begin) const {
+NumberVector<GivenVector> EnclosureAccumulator::given_vector(std::size_t begin) const {
   GivenVector g;
   g.scalar = scalar_;
   for (std::size_t k = 0; k < 3; ++k) g.high[k] = about_.values[begin + k], g.given[k] = about_.gives(begin + k);

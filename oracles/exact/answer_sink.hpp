@@ -35,7 +35,7 @@ struct SetDistance {
     std::size_t begin;
     Bounds ulps;
   };
-  std::vector<Part> vectors;
+  NumberVector<Part> vectors;
   Bounds together{0, 0};  ///< all vectors, each compared with the same member of the set
 };
 
@@ -49,7 +49,7 @@ class EnclosureAccumulator {
   bool compares_yes() const { return about_.yes; }
   /// Three numbers of the given answer from `begin` on, in the units of the input. For a normal whose length is near 1
   /// also the normal divided by its length. The distance of the normal is that of the nearer form.
-  std::vector<GivenVector> given_vector(std::size_t begin) const;
+  NumberVector<GivenVector> given_vector(std::size_t begin) const;
   void list_in(std::vector<Alternative>* list) { list_ = list; }
   /// The units in which the oracle reports. `scaling` must outlive this object.
   void measure_in(const Scaling& scaling) { scaling_ = scaling.any() ? &scaling : nullptr; }

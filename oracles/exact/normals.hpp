@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 #include "oracles/exact/nearest_member.hpp"
 
@@ -23,11 +22,11 @@ struct Facing {
 template <class N>
 struct Normals {
   bool many = false;
-  std::vector<Facing<N>> facing;
+  NumberVector<Facing<N>> facing;
 
   static Normals as_given() { return {}; }
   static Normals any() { return {true, {}}; }
-  static Normals cone(std::vector<Facing<N>> f) { return {true, std::move(f)}; }
+  static Normals cone(NumberVector<Facing<N>> f) { return {true, std::move(f)}; }
   /// Those of them that do not point along a motion: n . velocity <= 0.
   Normals against(const Vector<N>& velocity) const {
     Normals n = *this;
@@ -54,7 +53,7 @@ inline Cone cone_of(const Normals<Exact>& normals) {
 inline Bounds nearer(const Bounds& a, const Bounds& b) { return {std::min(a.low, b.low), std::min(a.high, b.high)}; }
 
 /// The distance, in ulps, of the given normal from the nearest right one, in whichever form of the normal is nearest.
-inline Bounds ulps_from(const std::vector<GivenVector>& given, const Normals<Exact>& normals) {
+inline Bounds ulps_from(const NumberVector<GivenVector>& given, const Normals<Exact>& normals) {
   const Cone cone = cone_of(normals);
   Bounds least{HUGE_VAL, HUGE_VAL};
   for (const GivenVector& g : given) {
@@ -63,7 +62,7 @@ inline Bounds ulps_from(const std::vector<GivenVector>& given, const Normals<Exa
   }
   return least;
 }
-inline Bounds ulps_from(const std::vector<GivenVector>& given, const Normals<Interval>& normals) {
+inline Bounds ulps_from(const NumberVector<GivenVector>& given, const Normals<Interval>& normals) {
   const Vector<Interval> origin{Interval(0), Interval(0), Interval(0)};
   double least = HUGE_VAL;
   for (const GivenVector& g : given) {

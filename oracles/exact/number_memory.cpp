@@ -19,7 +19,7 @@ namespace {
 /// The address space of the pool. The system provides a page at its first use.
 constexpr std::size_t pool_size = std::size_t{1} << 30;
 /// Blocks have whole multiples of this size; larger numbers than the largest block come from malloc.
-constexpr std::size_t grain = 16, largest_block = 512;
+constexpr std::size_t grain = 16, largest_block = 2048;
 
 char* pool = nullptr;  // nullptr: the system gave no address space, and everything comes from malloc
 std::atomic<std::size_t> pool_used{0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace nearmiss {
 
@@ -28,5 +29,9 @@ struct NumberAllocator {
   void deallocate(T* p, std::size_t n) { release_number(p, n * sizeof(T)); }
   friend bool operator==(const NumberAllocator&, const NumberAllocator&) { return true; }
 };
+
+/// A vector with its elements there.
+template <class T>
+using NumberVector = std::vector<T, NumberAllocator<T>>;
 
 }  // namespace nearmiss

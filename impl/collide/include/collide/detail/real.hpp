@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <collide/detail/constructible.hpp>
 #include <collide/detail/number.hpp>
@@ -22,23 +24,28 @@ namespace collide::detail {
 class BigInterval {
  public:
   BigInterval() = default;
-  ~BigInterval() {
-    if (precision_ != 0) mpfr_clears(low, high, static_cast<mpfr_ptr>(nullptr));
-  }
+  ~BigInterval() { release(); }
   BigInterval(const BigInterval&) = delete;
   BigInterval& operator=(const BigInterval&) = delete;
 
   /// Sets the precision; the value is lost.
   void set_precision(mpfr_prec_t precision) {
-    if (precision_ == 0) {
+    if (most_ == 0) {
       mpfr_inits2(precision, low, high, static_cast<mpfr_ptr>(nullptr));
     } else {
       mpfr_set_prec(low, precision);
       mpfr_set_prec(high, precision);
     }
     precision_ = precision;
+    most_ = std::max(most_, precision);
   }
+  /// 0: no value.
   mpfr_prec_t precision() const { return precision_; }
+  /// The value is lost. The memory of the bounds stays for the next value, unless it is for more than `kept` bits.
+  void forget(mpfr_prec_t kept) {
+    if (most_ > kept) release();
+    precision_ = 0;
+  }
   /// -1 or 1 if all numbers of the interval have that sign; 0 for [0, 0]; 2 if the sign is not known.
   int sign() const {
     const int l = mpfr_sgn(low), h = mpfr_sgn(high);
@@ -48,8 +55,43 @@ class BigInterval {
   mpfr_t low, high;
 
  private:
+  void release() {
+    if (most_ != 0) mpfr_clears(low, high, static_cast<mpfr_ptr>(nullptr));
+    most_ = 0;
+  }
+
   mpfr_prec_t precision_ = 0;
+  mpfr_prec_t most_ = 0;  // the largest precision since the bounds have memory; 0: they have none
 };
+
+/// result = x y, rounded outward to the precision of `result`, which is neither x nor y.
+inline void multiply(BigInterval& result, const BigInterval& x, const BigInterval& y) {
+  const auto of_one_sign = [](const BigInterval& z) { return mpfr_sgn(z.low) >= 0 || mpfr_sgn(z.high) <= 0; };
+  if (!of_one_sign(y) && of_one_sign(x)) return multiply(result, y, x);
+  if (!of_one_sign(y)) {  // each bound is the extreme one of two products
+    static thread_local BigInterval other;
+    other.set_precision(result.precision());
+    mpfr_mul(result.low, x.low, y.high, MPFR_RNDD);
+    mpfr_mul(other.low, x.high, y.low, MPFR_RNDD);
+    mpfr_min(result.low, result.low, other.low, MPFR_RNDD);
+    mpfr_mul(result.high, x.low, y.low, MPFR_RNDU);
+    mpfr_mul(other.high, x.high, y.high, MPFR_RNDU);
+    mpfr_max(result.high, result.high, other.high, MPFR_RNDU);
+    return;
+  }
+  const bool positive = mpfr_sgn(y.low) >= 0;
+  const mpfr_t &least = positive ? x.low : x.high, &largest = positive ? x.high : x.low;
+  mpfr_mul(result.low, least, mpfr_sgn(least) >= 0 ? y.low : y.high, MPFR_RNDD);
+  mpfr_mul(result.high, largest, mpfr_sgn(largest) >= 0 ? y.high : y.low, MPFR_RNDU);
+}
+
+/// result = x / y, rounded outward; y does not contain 0, and `result` is neither x nor y.
+inline void divide(BigInterval& result, const BigInterval& x, const BigInterval& y) {
+  const bool positive = mpfr_sgn(y.low) > 0;
+  const mpfr_t &least = positive ? x.low : x.high, &largest = positive ? x.high : x.low;
+  mpfr_div(result.low, least, mpfr_sgn(least) >= 0 ? y.high : y.low, MPFR_RNDD);
+  mpfr_div(result.high, largest, mpfr_sgn(largest) >= 0 ? y.low : y.high, MPFR_RNDU);
+}
 
 /// A node of an expression. Its sign is found by interval evaluation in increasing precision; if the interval still
 /// contains zero at the highest one, the value is computed exactly, in a tower of square roots (constructible.hpp).
@@ -64,8 +106,11 @@ struct Expression {
   std::optional<Constructible> exact;
 };
 
+/// The precision, in bits, of the first and the last interval evaluation of a sign before the exact computation.
+inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
+
 /// The expressions of one evaluation, and the square roots of its exact values. They live until the evaluation clears
-/// them.
+/// them. Their memory stays for the next evaluation, up to `most_kept` expressions.
 class Expressions {
  public:
   static Expressions& of_this_thread() {
@@ -73,27 +118,35 @@ class Expressions {
     return all;
   }
   Expression& make(Expression::Kind kind, Expression* a = nullptr, Expression* b = nullptr) {
-    Expression& e = nodes_.emplace_back();
+    if (used_ == blocks_.size() * block) blocks_.push_back(std::make_unique<Expression[]>(block));
+    Expression& e = at(used_++);
     e.kind = kind;
+    e.known_sign = 2;
     e.a = a;
     e.b = b;
     return e;
   }
   Roots& roots() { return roots_; }
   void clear() {
-    nodes_.clear();
+    for (std::size_t i = 0; i < used_; ++i) {
+      at(i).value.forget(most_precision);
+      at(i).exact.reset();
+    }
+    used_ = 0;
+    if (blocks_.size() > most_kept / block) blocks_.resize(most_kept / block);
     roots_.clear();
   }
 
  private:
-  std::deque<Expression> nodes_;
+  static constexpr std::size_t block = 64, most_kept = 4096;
+  Expression& at(std::size_t i) { return blocks_[i / block][i % block]; }
+
+  std::vector<std::unique_ptr<Expression[]>> blocks_;
+  std::size_t used_ = 0;
   Roots roots_;
 };
 
 using ExpressionKind = Expression::Kind;
-
-/// The precision, in bits, of the first and the last interval evaluation of a sign before the exact computation.
-inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
 
 inline bool is_number(const Expression& e) {
   return e.kind != ExpressionKind::invalid && e.kind != ExpressionKind::infinite;
@@ -172,25 +225,8 @@ inline void evaluate(Expression& e, mpfr_prec_t precision) {
       mpfr_sub(low, e.a->value.low, e.b->value.high, MPFR_RNDD);
       mpfr_sub(high, e.a->value.high, e.b->value.low, MPFR_RNDU);
       break;
-    case ExpressionKind::product:
-    case ExpressionKind::quotient: {
-      const auto apply = e.kind == ExpressionKind::product ? mpfr_mul : mpfr_div;
-      const BigInterval &x = e.a->value, &y = e.b->value;
-      mpfr_t corner;
-      mpfr_init2(corner, precision);
-      bool first = true;
-      for (const auto* p : {&x.low, &x.high}) {
-        for (const auto* q : {&y.low, &y.high}) {
-          apply(corner, *p, *q, MPFR_RNDD);
-          if (first || mpfr_less_p(corner, low)) mpfr_set(low, corner, MPFR_RNDD);
-          apply(corner, *p, *q, MPFR_RNDU);
-          if (first || mpfr_greater_p(corner, high)) mpfr_set(high, corner, MPFR_RNDU);
-          first = false;
-        }
-      }
-      mpfr_clear(corner);
-      break;
-    }
+    case ExpressionKind::product: multiply(e.value, e.a->value, e.b->value); break;
+    case ExpressionKind::quotient: divide(e.value, e.a->value, e.b->value); break;
     case ExpressionKind::root:
       if (mpfr_sgn(e.a->value.low) > 0) {
         mpfr_sqrt(low, e.a->value.low, MPFR_RNDD);
@@ -285,8 +321,9 @@ class Real {
     if (e_->kind == ExpressionKind::invalid) return std::numeric_limits<Scalar>::quiet_NaN();
     constexpr int digits = std::numeric_limits<Scalar>::digits;
     constexpr double least = std::numeric_limits<Scalar>::min_exponent - digits - 3;  // log2
-    mpfr_t middle, width;
-    mpfr_inits2(64, middle, width, static_cast<mpfr_ptr>(nullptr));
+    static thread_local detail::BigInterval memory;
+    memory.set_precision(64);
+    mpfr_t &middle = memory.low, &width = memory.high;
     double result = 0;
     for (mpfr_prec_t precision = 128;; precision *= 2) {
       detail::evaluate(*e_, precision);
@@ -300,7 +337,6 @@ class Real {
       result = mpfr_get_d(middle, MPFR_RNDN);
       break;
     }
-    mpfr_clears(middle, width, static_cast<mpfr_ptr>(nullptr));
     return Scalar(result);
   }
 
