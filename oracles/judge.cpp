@@ -534,6 +534,11 @@ std::vector<Alternative> each_once(std::vector<Alternative> all) {
 
 }  // namespace
 
+Enclosure enclosure_of(const Case& question, const Answer& answer) {
+  const FloatingPointScope standard_modes;
+  return Examination(question, answer).within(0);
+}
+
 double finer_backward(const Case& question, const Answer& answer, const Backward& proved) {
   constexpr int halvings = 4;  // to 1/16
   const FloatingPointScope standard_modes;

@@ -125,6 +125,10 @@ enum class Detail {
 /// of the oracle.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
 
+/// The exact answers to the case, enclosed by intervals and compared with the answer: the cheapest of all judgements,
+/// without a verdict. Thread-safe. For an answer with the status answered.
+Enclosure enclosure_of(const Case& question, const Answer& answer);
+
 /// A lower bound of the backward error of the whole answer that is finer than the ladder: at least `proved`, the bound
 /// of judge(), and below its next rung, in steps of 1/16 of the rung (of 1 on rung 0). Like a rung it is proved by
 /// itself: no input within so many epsilon has an exact answer that matches. For an answer with the status answered.

@@ -37,6 +37,32 @@ double error_at_most(const Case& question, const Answer& answer, const Finding& 
   return most;
 }
 
+/// True where every number that the answer gives has a value to compare: a miss gives an infinite time and no other.
+bool is_regular(const Query& query, const Answer& answer) {
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (!answer.gives(i)) continue;
+    if (query.kind == Kind::impact && !answer.yes) {
+      if (query.outputs[i].role == Role::time && answer.values[i] != HUGE_VAL) return false;
+    } else if (!std::isfinite(answer.values[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Both bounds of the largest error of the given numbers with this role, by intervals.
+template <class Is>
+LargestError enclosed_error(const Query& query, const Answer& answer, const Enclosure& e, Is is) {
+  LargestError largest;
+  if (query.kind == Kind::impact && !answer.yes) return largest;
+  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
+    if (!is(query.outputs[i].role) || !answer.gives(i) || e.error[i].empty()) continue;
+    largest.proved = std::max(largest.proved, e.error[i].nearest_to_zero());
+    largest.at_most = std::max(largest.at_most, e.error[i].furthest_from_zero());
+  }
+  return largest;
+}
+
 /// The share of the tolerance that the proved error uses up.
 double use_of(const TradeAnswer& a, const TradeTolerance& t) {
   const auto share = [](double error, double limit) { return error == 0 ? 0 : error / limit; };
@@ -101,7 +127,26 @@ class EvidenceMeasurement {
     }
   }
 
+  /// Empty: one enclosure leaves open whether the answer is good enough.
+  std::optional<BoundedAnswer> good_by_enclosure(const Case& exact, const Answer& answer) const {
+    if (answer.status != Answer::Status::answered || !is_regular(*exact.query, answer)) return std::nullopt;
+    const Enclosure e = enclosure_of(exact, answer);
+    if (!e.decided() || e.may_be_yes != answer.yes) return std::nullopt;
+    const LargestError distance = enclosed_error(*exact.query, answer, e, holds_length);
+    const LargestError time = enclosed_error(*exact.query, answer, e, [](Role r) { return r == Role::time; });
+    BoundedAnswer a;
+    a.answer.state = TradeAnswer::State::compared;
+    a.answer.truth_yes = a.answer.yes = answer.yes;
+    a.answer.distance = distance.proved;
+    a.answer.time = time.proved;
+    a.distance_at_most = distance.at_most;
+    a.time_at_most = time.at_most;
+    a.by_intervals = is_good(a);
+    return a.by_intervals ? std::optional(a) : std::nullopt;
+  }
+
   std::optional<BoundedAnswer> judged(const Case& exact, const Answer& answer) {
+    if (const auto good = good_by_enclosure(exact, answer)) return good;
     const Subject& subject = *settings_.subject;
     const auto first = internal_errors_.judged(exact, subject, answer, unbounded_standard(), Detail::verdict);
     if (!first) return std::nullopt;
