@@ -20,7 +20,10 @@
 
 namespace collide::detail {
 
-/// A closed interval with multiple-precision bounds.
+/// The precision, in bits, of the first and the last interval evaluation of a sign before the exact computation.
+inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
+
+/// A closed interval with multiple-precision bounds. Up to `most_precision` bits it needs no memory but its own.
 class BigInterval {
  public:
   BigInterval() = default;
@@ -30,20 +33,20 @@ class BigInterval {
 
   /// Sets the precision; the value is lost.
   void set_precision(mpfr_prec_t precision) {
-    if (most_ == 0) {
-      mpfr_inits2(precision, low, high, static_cast<mpfr_ptr>(nullptr));
+    release();
+    if (precision <= most_precision) {
+      (mpfr_custom_init_set)(low, MPFR_NAN_KIND, 0, precision, limbs_[0]);
+      (mpfr_custom_init_set)(high, MPFR_NAN_KIND, 0, precision, limbs_[1]);
     } else {
-      mpfr_set_prec(low, precision);
-      mpfr_set_prec(high, precision);
+      mpfr_inits2(precision, low, high, static_cast<mpfr_ptr>(nullptr));
     }
     precision_ = precision;
-    most_ = std::max(most_, precision);
   }
   /// 0: no value.
   mpfr_prec_t precision() const { return precision_; }
-  /// The value is lost. The memory of the bounds stays for the next value, unless it is for more than `kept` bits.
-  void forget(mpfr_prec_t kept) {
-    if (most_ > kept) release();
+  /// Gives back the value and its memory.
+  void release() {
+    if (precision_ > most_precision) mpfr_clears(low, high, static_cast<mpfr_ptr>(nullptr));
     precision_ = 0;
   }
   /// -1 or 1 if all numbers of the interval have that sign; 0 for [0, 0]; 2 if the sign is not known.
@@ -55,13 +58,8 @@ class BigInterval {
   mpfr_t low, high;
 
  private:
-  void release() {
-    if (most_ != 0) mpfr_clears(low, high, static_cast<mpfr_ptr>(nullptr));
-    most_ = 0;
-  }
-
   mpfr_prec_t precision_ = 0;
-  mpfr_prec_t most_ = 0;  // the largest precision since the bounds have memory; 0: they have none
+  mp_limb_t limbs_[2][(most_precision + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS];
 };
 
 /// result = x y, rounded outward to the precision of `result`, which is neither x nor y.
@@ -69,7 +67,7 @@ inline void multiply(BigInterval& result, const BigInterval& x, const BigInterva
   const auto of_one_sign = [](const BigInterval& z) { return mpfr_sgn(z.low) >= 0 || mpfr_sgn(z.high) <= 0; };
   if (!of_one_sign(y) && of_one_sign(x)) return multiply(result, y, x);
   if (!of_one_sign(y)) {  // each bound is the extreme one of two products
-    static thread_local BigInterval other;
+    BigInterval other;
     other.set_precision(result.precision());
     mpfr_mul(result.low, x.low, y.high, MPFR_RNDD);
     mpfr_mul(other.low, x.high, y.low, MPFR_RNDD);
@@ -106,9 +104,6 @@ struct Expression {
   std::optional<Constructible> exact;
 };
 
-/// The precision, in bits, of the first and the last interval evaluation of a sign before the exact computation.
-inline constexpr mpfr_prec_t least_precision = 128, most_precision = 512;
-
 /// The expressions of one evaluation, and the square roots of its exact values. They live until the evaluation clears
 /// them. Their memory stays for the next evaluation, up to `most_kept` expressions.
 class Expressions {
@@ -129,7 +124,7 @@ class Expressions {
   Roots& roots() { return roots_; }
   void clear() {
     for (std::size_t i = 0; i < used_; ++i) {
-      at(i).value.forget(most_precision);
+      at(i).value.release();
       at(i).exact.reset();
     }
     used_ = 0;
@@ -321,7 +316,7 @@ class Real {
     if (e_->kind == ExpressionKind::invalid) return std::numeric_limits<Scalar>::quiet_NaN();
     constexpr int digits = std::numeric_limits<Scalar>::digits;
     constexpr double least = std::numeric_limits<Scalar>::min_exponent - digits - 3;  // log2
-    static thread_local detail::BigInterval memory;
+    detail::BigInterval memory;
     memory.set_precision(64);
     mpfr_t &middle = memory.low, &width = memory.high;
     double result = 0;
