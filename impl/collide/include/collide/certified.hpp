@@ -22,6 +22,7 @@
 #include <collide/contract.hpp>
 #include <collide/detail/bounded.hpp>
 #include <collide/detail/real.hpp>
+#include <collide/detail/wide_filters.hpp>
 #include <collide/tiers.hpp>
 
 // Arithmetic with bounds is fast only if the whole kernel is inlined into one function: the compiler then sees which
@@ -203,9 +204,6 @@ double allowed_error(double largest) {
   constexpr double least = std::numeric_limits<T>::min();
   return std::max(largest, least) * (double(std::numeric_limits<T>::epsilon()) / 4);
 }
-
-inline double leading_part(double value) { return value; }
-inline double leading_part(const DoubleWord<double>& value) { return value.high; }
 
 /// Whether the numbers of a quantity or an answer are accurate enough: as computed, or after a second computation in
 /// long double or in double-words, or not even then.

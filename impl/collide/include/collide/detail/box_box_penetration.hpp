@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/box_pair.hpp>
+#include <collide/detail/box_penetration_filter.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -211,6 +212,9 @@ inline BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& b
         return detail::contact_of_boxes<Plain>(box1, box2, detail::BoxPair<T>(pair), at);
       }
     }
+  }
+  if constexpr (uses_filter<Tier, T>) {
+    if (const auto answer = detail::filtered_penetration(box1, box2)) return Tier::decided_by_filter(*answer);
   }
 #endif
   if constexpr (Tier::template lifts<T>) {

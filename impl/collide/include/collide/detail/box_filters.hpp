@@ -13,6 +13,7 @@
 #include <collide/answers.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/detail/wide_filters.hpp>
+#include <collide/detail/wide_lanes.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -26,52 +27,177 @@ Axes<Wider<T>> axes_in_wider(const Quaternion<T>& q) {
   return axes_of(Quaternion<W>{W(q.x), W(q.y), W(q.z), W(q.w)});
 }
 
-/// Filter: the penetration of a sphere and a box, or nullopt.
+/// The image of a coordinate axis i under the rotation of a quaternion q, times |q|^2. Number k of `along` is that of
+/// the coordinate (i + k) mod 3, so that the compiler knows the places of all numbers.
 ///
-/// Let D be the sum of the magnitudes of the vector between the centers. Its numbers in the box's frame have an error
-/// of 23 u D, those of the vector `away` from the nearest place of the box one of 25 u D, and its length 47 u D.
-/// Outside, the normal has an error of 44 u D of this length and 42 u more; the nearest place one of 80 u D and 1 u of
-/// itself. With D <= half_ulp / 128 of the length and of the contact, and half of that of the depth, all are accurate.
-/// Inside, the distances from the faces have an error of 24 u D and 1 u of themselves; the nearest face is certain if
-/// all others are farther by more than 64 u D and 4 u of their distance. The contact then has an error of 21 u of the
-/// radius and 1 u of itself.
+/// The magnitudes of the terms of a number sum to at most |q|^2, so the first number has an error of 3 u |q|^2, the
+/// others of 2 u |q|^2. As a vector, the axis has an error of less than 4.2 u |q|^2. |q|^2 has one of 3 u of itself.
+template <class W>
+struct ScaledAxis {
+  std::array<W, 3> along;
+  W norm2;  ///< |q|^2
+};
+
+/// v[i], v[i + 1], v[i + 2], cyclically.
+template <class W, class T>
+std::array<W, 3> in_cyclic_order(const Vec3<T>& v, std::size_t i) {
+  const std::array<T, 3> all = components(v);
+  return {W(all[i]), W(all[(i + 1) % 3]), W(all[(i + 2) % 3])};
+}
+template <class T, class W>
+Vec3<T> from_cyclic_order(const std::array<W, 3>& numbers, std::size_t i) {
+  std::array<T, 3> all;
+  for (std::size_t k = 0; k < 3; ++k) all[(i + k) % 3] = T(leading_part(numbers[k]));
+  return {all[0], all[1], all[2]};
+}
+
+template <class W, class T>
+ScaledAxis<W> scaled_axis(const Quaternion<T>& q, std::size_t i) {
+  const std::array<W, 3> v = in_cyclic_order<W>(Vec3<T>{q.x, q.y, q.z}, i);
+  const W w = W(q.w), xx = v[0] * v[0], yy = v[1] * v[1], zz = v[2] * v[2], ww = w * w, x = v[0] + v[0], twice = w + w;
+  return {{(ww - zz) + (xx - yy), x * v[1] + twice * v[2], x * v[2] - twice * v[1]}, (ww + zz) + (xx + yy)};
+}
+
+#if defined(COLLIDE_LANES)
+
+/// Where the center of a sphere certainly lies: beyond the faces of a box (bit i of `outside`: beyond one of those
+/// across axis i), or inside, with a certain nearest face. `nearest` is the axis of that face or of the only face that
+/// the center is beyond; 3 if there is none.
+struct CenterAndBox {
+  bool certain = false;
+  int outside = 0;
+  std::size_t nearest = 3;
+};
+
+/// Let u = 2^-53, N = |q|^2, and S the sum of the magnitudes of the vector between the centers and of the half extents.
+/// A number of the rotation matrix times N has an error of 3 u N, one of the vector in the box's frame, times N, of
+/// 7 u N S, and N times a half extent of 4 u N S. So the differences of the two have an error of less than 13 u N S.
+/// The filter uses a bound of 16 u N S, and two of them to compare two differences.
 template <class T>
-std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere, const Box<T>& box) {
-  if constexpr (has_wider<T>) {
-    using W = Wider<T>;
-    constexpr W u = std::numeric_limits<W>::epsilon() / 2, most = half_ulp<T> / 64;
-    if (!(magnitudes(box.half) <= std::numeric_limits<T>::max())) return std::nullopt;
-    const Axes<W> axes = axes_in_wider(box.orientation);
-    const Vec3<W> middle = in_wider(box.center), center = in_wider(sphere.center), between = center - middle;
-    const std::array<W, 3> half = components(in_wider(box.half)), local = into_frame<Plain>(axes, between);
-    const W size = magnitudes(between), radius = W(sphere.radius);
-    std::array<W, 3> to_face, away, nearest;
-    for (std::size_t i = 0; i < 3; ++i) {
-      to_face[i] = half[i] - detail::abs(local[i]);
-      nearest[i] = clamped(local[i], -half[i], half[i]);
-      away[i] = local[i] - nearest[i];
-    }
-    const W distance2 = away[0] * away[0] + away[1] * away[1] + away[2] * away[2];
-    if (distance2 > W(0)) {
-      const W distance = detail::sqrt(distance2), depth = radius - distance;
-      if (!(2 * size <= most * distance)) return std::nullopt;
-      if (depth < W(0)) return accurate_penetration<T>(depth, {}, {}, size, W(0));
-      const W inverse = W(-1) / distance;
-      return accurate_penetration<T>(depth, out_of_frame(axes, away) * inverse, middle + out_of_frame(axes, nearest),
-                                     size, 2 * size);
-    }
-    std::size_t face = 0;
-    for (std::size_t i = 1; i < 3; ++i) face = to_face[i] < to_face[face] ? i : face;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const W beyond = i == face ? W(0) : to_face[face];
-      if (!(to_face[i] - beyond > 64 * u * size + 4 * u * to_face[i])) return std::nullopt;
-    }
-    if (!(detail::abs(local[face]) > 32 * u * size)) return std::nullopt;  // which of two opposite faces?
-    const Vec3<W> normal = axes[face] * (local[face] < W(0) ? W(1) : W(-1));
-    return accurate_penetration<T>(radius + to_face[face], normal, center + normal * radius, size, radius);
+CenterAndBox certain_side(const Sphere<T>& sphere, const Box<T>& box) {
+  using L = Lanes<double>;
+  const L between = wide_lanes(sphere.center) - wide_lanes(box.center), half = wide_lanes(box.half);
+  const L q = wide_lanes(box.orientation), norm2 = sum_of_four(q * q), zero = L::splat(0.0);
+  const L local = FrameInLanes<double>::scaled(q).into(between);
+  const L to_face = half * norm2 - absolute(local), size = sum_of_three(absolute(between) + absolute(half));
+  const L bound = L::splat(0x1p-49) * norm2 * size;
+  const bool in_range = is_in_safe_range(norm2.first()) && size.first() >= 0x1p-900 && size.first() <= 0x1p900;
+  if (!(in_range && all_three(bound < absolute(to_face)))) return {};
+  CenterAndBox place{true, (to_face < zero).bits() & 7, 3};
+  const L most = smallest_of_three(to_face) + bound + bound;
+  const int axes = place.outside != 0 ? place.outside : (to_face <= most).bits() & 7;
+  const bool one_axis = (axes & (axes - 1)) == 0 && ((bound < absolute(local)).bits() & axes) != 0;
+  if (one_axis) place.nearest = std::size_t(axes >> 1);
+  place.certain = one_axis || place.outside != 0;
+  return place;
+}
+
+/// The penetration of a sphere and a box for a center beyond one face alone (`outside`), or inside and nearest to it.
+///
+/// Let D be the sum of the magnitudes of the vector between the centers. Its component along the axis has an error of
+/// 7 u D, and after the division by |q|^2 of 12 u D. The excess over the half extent has one of 1 u of itself more: it
+/// is at most D outside, and at most the depth inside. So the depth has an error of 13 u D and 2 u of itself, the
+/// normal one of 8 u, and the contact one of 22 u D and 1 u of itself outside, of 9 u of the radius and 1 u of itself
+/// inside.
+template <class T>
+std::optional<Penetration<T>> penetration_along_axis(const Sphere<T>& sphere, const Box<T>& box, std::size_t i,
+                                                     bool outside, Wider<T> size) {
+  using W = Wider<T>;
+  const ScaledAxis<W> axis = scaled_axis<W>(box.orientation, i);
+  const std::array<W, 3> center = in_cyclic_order<W>(sphere.center, i), middle = in_cyclic_order<W>(box.center, i);
+  W along = axis.along[0] * (center[0] - middle[0]);
+  for (std::size_t k = 1; k < 3; ++k) along = along + axis.along[k] * (center[k] - middle[k]);
+  const W inverse = W(along < W(0) ? 1 : -1) / axis.norm2, radius = W(sphere.radius);
+  const W excess = -(along * inverse) - W(components(box.half)[i]), depth = radius - excess;
+  if (depth < W(0)) return accurate_penetration<T>(depth, {}, {}, size / 4, W(0));
+  const W way = outside ? excess : radius;
+  std::array<W, 3> normal, contact;
+  for (std::size_t k = 0; k < 3; ++k) {
+    normal[k] = axis.along[k] * inverse;
+    contact[k] = center[k] + normal[k] * way;
+  }
+  return accurate_penetration<T>(depth, from_cyclic_order<T>(normal, i), from_cyclic_order<T>(contact, i), size / 4,
+                                 outside ? size / 2 : radius / 4);
+}
+
+/// The penetration of a sphere and a box for a center beyond two or three faces.
+///
+/// As above, each excess has an error of 13 u D; as a vector they have one of 23 u D. Turned into the world it has one
+/// of 41 u D, and its length one of 26 u D. So the depth has an error of 26 u D and 1 u of itself, the contact one of
+/// 41 u D and 1 u of itself, and the normal one of less than 69 u D by the length. That is accurate where D is at most
+/// half_ulp / 128 of the length: the largest number of a unit vector is at least 0.57.
+template <class T>
+std::optional<Penetration<T>> penetration_beyond_edge(const Sphere<T>& sphere, const Box<T>& box, int outside,
+                                                      Wider<T> size) {
+  using W = Wider<T>;
+  std::array<W, 3> away{};
+  W distance2 = W(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((outside >> i & 1) == 0) continue;
+    const ScaledAxis<W> axis = scaled_axis<W>(box.orientation, i);
+    const std::array<W, 3> center = in_cyclic_order<W>(sphere.center, i), middle = in_cyclic_order<W>(box.center, i);
+    W along = axis.along[0] * (center[0] - middle[0]);
+    for (std::size_t k = 1; k < 3; ++k) along = along + axis.along[k] * (center[k] - middle[k]);
+    const W inverse = W(along < W(0) ? -1 : 1) / axis.norm2;
+    const W excess = along * inverse - W(components(box.half)[i]), step = excess * inverse;
+    distance2 = distance2 + excess * excess;
+    for (std::size_t k = 0; k < 3; ++k) away[(i + k) % 3] = away[(i + k) % 3] + axis.along[k] * step;
+  }
+  const W distance = detail::sqrt(distance2), depth = W(sphere.radius) - distance;
+  if (depth < W(0)) return accurate_penetration<T>(depth, {}, {}, size / 2, W(0));
+  if (!(size <= half_ulp<T> / 128 * distance)) return std::nullopt;
+  const Vec3<W> to_center{away[0], away[1], away[2]};
+  return accurate_penetration<T>(depth, rounded_to<T>(to_center * (W(-1) / distance)),
+                                 rounded_to<T>(in_wider(sphere.center) - to_center), size / 2, size);
+}
+
+/// Filter: the penetration of a sphere and a box, or nullopt. In double.
+inline std::optional<Penetration<double>> filtered_penetration(const Sphere<double>& sphere, const Box<double>& box) {
+  if constexpr (has_wider<double>) {
+    const CenterAndBox place = certain_side(sphere, box);
+    if (!place.certain) return std::nullopt;
+    const Wider<double> size = magnitudes(in_wider(sphere.center) - in_wider(box.center));
+    if (place.nearest < 3) return penetration_along_axis(sphere, box, place.nearest, place.outside != 0, size);
+    return penetration_beyond_edge(sphere, box, place.outside, size);
   }
   return std::nullopt;
 }
+
+/// The same in float, where doubles have digits enough for every case at once. The errors are those of
+/// penetration_beyond_edge. Inside, the distances from the faces have an error of 12 u D and 1 u of themselves: the
+/// nearest face is certain if all others are farther by more than 64 u D and 4 u of their distance.
+inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float>& sphere, const Box<float>& box) {
+  using L = Lanes<double>;
+  constexpr double u = std::numeric_limits<double>::epsilon() / 2, most = half_ulp<float> / 128;
+  const L center = wide_lanes(sphere.center), between = center - wide_lanes(box.center), half = wide_lanes(box.half);
+  const L q = wide_lanes(box.orientation), norm2 = sum_of_four(q * q);
+  if (!(is_in_safe_range(norm2.first()) && all_three(are_finite(half)))) return std::nullopt;
+  const auto frame = FrameInLanes<double>::scaled(q);
+  const L inverse = broadcast_first(TwoDoubles::splat(1.0) / first_pair(norm2));
+  const L local = frame.into(between) * inverse, away = excess(local, half);
+  const double size = sum_of_three(absolute(between)).first(), radius = sphere.radius;
+  const double distance2 = sum_of_three(away * away).first();
+  if (distance2 > 0) {
+    const double distance = detail::sqrt(distance2), depth = radius - distance;
+    if (!(size <= most * distance)) return std::nullopt;
+    if (depth < 0) return accurate_penetration<float>(depth, {}, {}, size / 2, 0.0);
+    const L to_center = frame.out_of(away) * inverse;
+    return accurate_penetration<float>(depth, to_vec3(in_floats(to_center * L::splat(-1 / distance))),
+                                       to_vec3(in_floats(center - to_center)), size / 2, size);
+  }
+  const L to_face = half - absolute(local), nearest = smallest_of_three(to_face);
+  const L is_near = to_face * L::splat(1 - 4 * u) <= nearest + L::splat(64 * u * size);
+  const L certain_sign = L::splat(32 * u * size) < absolute(local);
+  const int axes = is_near.bits() & 7;
+  const bool certainly_inside = nearest.first() > 64 * u * size;
+  if (!(certainly_inside && (axes & (axes - 1)) == 0 && (certain_sign.bits() & axes) != 0)) return std::nullopt;
+  const L side = L::splat(-1.0) ^ (local & L::splat(-0.0));
+  const L normal = frame.out_of(side & is_near & L::mask_of_three()) * inverse;
+  return accurate_penetration<float>(radius + nearest.first(), to_vec3(in_floats(normal)),
+                                     to_vec3(in_floats(center + normal * L::splat(radius))), size, radius / 4);
+}
+
+#endif
 
 /// Filter: the depth of a box behind a plane and its contacts, or nullopt.
 ///

@@ -104,17 +104,18 @@ std::array<T, 4> rescaled(const Quaternion<T>& q) {
   return {q.x, q.y, q.z, q.w};
 }
 
+/// Whether a quaternion with this squared length needs no rescaling; false for NaN.
+template <class T>
+bool is_in_safe_range(T norm2) {
+  return norm2 >= T(0.00390625) && norm2 <= T(1024);
+}
+
 }  // namespace detail
 
 #if defined(COLLIDE_LANES)
 
 namespace detail {
 
-/// Whether a quaternion with this squared length needs no rescaling; false for NaN.
-template <class T>
-bool is_in_safe_range(T norm2) {
-  return norm2 >= T(0.00390625) && norm2 <= T(1024);
-}
 /// `rescaled` in lanes.
 template <class T>
 Lanes<T> rescaled_lanes(const Quaternion<T>& q) {

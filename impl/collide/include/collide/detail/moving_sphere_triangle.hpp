@@ -8,6 +8,7 @@
 #include <collide/detail/edges.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/detail/lanes.hpp>
+#include <collide/detail/sphere_triangle_filter.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -519,6 +520,11 @@ inline TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const V
       return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(fallback));
     }
 #endif
+    if constexpr (uses_filter<Tier, T>) {
+      const auto estimate = [&] { return kernels::moving_sphere_triangle<Fast>(sphere, velocity, triangle); };
+      if (const auto answer = detail::filtered_impact(sphere, velocity, triangle, estimate))
+        return Tier::decided_by_filter(*answer);
+    }
     return fallback(sphere, velocity, triangle);
   } else {
     return detail::SpherePastTriangle<Tier, T>(sphere, velocity, triangle).impact();

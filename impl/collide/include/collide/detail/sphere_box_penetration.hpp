@@ -77,10 +77,10 @@ inline Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<
     if constexpr (in_lanes<Tier, T>) {
       return detail::sphere_box_penetration_in_lanes(sphere, box, detail::out_of_line(fallback));
     }
-#endif
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_penetration(sphere, box)) return Tier::decided_by_filter(*answer);
     }
+#endif
     return fallback(sphere, box);
   } else {
     const Axes<T> axes = axes_of(box.orientation);

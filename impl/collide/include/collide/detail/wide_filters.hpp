@@ -7,11 +7,13 @@
 /// most half_ulp u of its largest number.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 #include <collide/answers.hpp>
+#include <collide/detail/double_word.hpp>
 #include <collide/detail/number.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -27,6 +29,15 @@ inline constexpr int spare_digits = std::numeric_limits<Wider<T>>::digits - std:
 /// A quarter of the epsilon of T, in units of u.
 template <class T>
 inline constexpr Wider<T> half_ulp = Wider<T>(std::uint64_t{1} << (spare_digits<T> - 1));
+
+/// The same for double-words, in units of 2^-99, the error of an operation on them.
+template <class T, class W>
+inline constexpr double half_ulp_in =
+    std::same_as<W, DoubleWord<double>> ? 0x1p99 * double(std::numeric_limits<T>::epsilon() / 4) : double(half_ulp<T>);
+
+inline double leading_part(double value) { return value; }
+inline long double leading_part(long double value) { return value; }
+inline double leading_part(const DoubleWord<double>& value) { return value.high; }
 
 template <class T>
 Vec3<Wider<T>> in_wider(const Vec3<T>& a) {
@@ -239,7 +250,7 @@ std::optional<ClosestPoints<T>> filtered_closest_points(const Line<T>& line1, co
 /// A penetration, or nullopt where it is not accurate: where `of_depth` is more than half_ulp / 64 of the depth, or
 /// `of_contact` more than that of the contact's largest number, or one of them is not finite.
 template <class T, class W>
-std::optional<Penetration<T>> accurate_penetration(W depth, const Vec3<W>& normal, const Vec3<W>& contact, W of_depth,
+std::optional<Penetration<T>> accurate_penetration(W depth, const Vec3<T>& normal, const Vec3<T>& contact, W of_depth,
                                                    W of_contact) {
   constexpr W most = half_ulp<T> / 64;
   const T magnitude = detail::abs(T(depth));
@@ -247,8 +258,8 @@ std::optional<Penetration<T>> accurate_penetration(W depth, const Vec3<W>& norma
         magnitude <= std::numeric_limits<T>::max() && of_contact <= W(std::numeric_limits<T>::max())))
     return std::nullopt;
   if (depth < W(0)) return Penetration<T>{T(depth), {}, {}};
-  const Penetration<T> answer{T(depth), rounded_to<T>(normal), rounded_to<T>(contact)};
-  if (of_contact <= most * W(largest_magnitude(answer.contact))) return answer;
+  const Penetration<T> answer{T(depth), normal, contact};
+  if (of_contact <= most * W(largest_magnitude(contact))) return answer;
   return std::nullopt;
 }
 
@@ -265,8 +276,8 @@ std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere1, con
     const W radii = radius + W(sphere2.radius);
     if (!(distance > W(0))) return std::nullopt;
     const Vec3<W> normal = between * (W(1) / distance);
-    return accurate_penetration<T>(radii - distance, normal, center + normal * radius, (radii + distance) / 8,
-                                   radius / 8);
+    return accurate_penetration<T>(radii - distance, rounded_to<T>(normal), rounded_to<T>(center + normal * radius),
+                                   (radii + distance) / 8, radius / 8);
   }
   return std::nullopt;
 }
@@ -288,7 +299,8 @@ std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere, cons
     const W height = (above.x + above.y + above.z + offset) * inverse;
     const W terms = radius + (magnitudes(above) + detail::abs(offset)) * inverse;
     const Vec3<W> normal = n * inverse;
-    return accurate_penetration<T>(radius - height, normal, center - normal * radius, terms / 4, radius / 8);
+    return accurate_penetration<T>(radius - height, rounded_to<T>(normal), rounded_to<T>(center - normal * radius),
+                                   terms / 4, radius / 8);
   }
   return std::nullopt;
 }
