@@ -5,9 +5,6 @@
 namespace nearmiss::planted {
 namespace {
 
-double in_float(double x) { return double(float(x)); }
-Vector in_float(const Vector& a) { return {in_float(a.x), in_float(a.y), in_float(a.z)}; }
-
 NEARMISS_MISTAKE(closest_point_segment) {
   const Vector along = q.segment.v1 - q.segment.v0;
   if (dot(along, along) < 1e-10) return {q.segment.v0};

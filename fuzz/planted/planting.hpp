@@ -19,6 +19,9 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline Vector normal_of(const collide::Triangle<double>& t) { return cross(t.v1 - t.v0, t.v2 - t.v0); }
+/// Rounded to float.
+inline double in_float(double x) { return double(float(x)); }
+inline Vector in_float(const Vector& a) { return {in_float(a.x), in_float(a.y), in_float(a.z)}; }
 /// Whether the angle between the vector and the plane with this unit normal has a sine below `sine`.
 inline bool grazes(const Vector& normal, const Vector& vector, double sine) {
   return std::abs(dot(normal, vector)) < sine * length(vector);

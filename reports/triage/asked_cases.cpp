@@ -4,16 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "corpus/feature_regions.hpp"
 #include "corpus/fit.hpp"
 #include "corpus/generator.hpp"
+#include "reports/triage/quantities.hpp"
+#include "reports/triage/touch_cases.hpp"
 
 namespace nearmiss {
 
 const std::vector<Trial>& AskedCases::similar() {
   constexpr std::size_t most = 16;
-  if (!similar_) similar_ = variants(trials_, most, seed_);
+  constexpr std::size_t most_at_touches = 6;
+  if (similar_) return *similar_;
+  similar_ = is_wrong_decision() ? cases_at_touches(trials_, sample(), most_at_touches) : std::vector<Trial>{};
+  std::vector<Trial> around = variants(trials_, most - similar_->size(), seed_);
+  similar_->insert(similar_->end(), std::make_move_iterator(around.begin()), std::make_move_iterator(around.end()));
   return *similar_;
+}
+
+const Trial* AskedCases::plainest() {
+  const Trial* best = nullptr;
+  double least = INFINITY;
+  const auto see = [&](const Trial& t) {
+    if (t.outcome != Outcome::same || t.question.values == question().values) return;
+    const auto regions = double(feature_regions_of(t.question).names().size());
+    const double size = std::ldexp(1.0, largest_exponent_of(t.question));
+    const double rank = is_wrong_decision() ? -gap_of(t.question) / size : regions;
+    if (rank < least) least = rank, best = &t;
+  };
+  for (const Trial& t : similar()) see(t);
+  if (!is_wrong_decision()) std::for_each(sample().begin(), sample().end(), see);
+  return best;
 }
 
 const std::vector<Trial>& AskedCases::sample() {

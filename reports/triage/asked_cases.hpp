@@ -24,8 +24,11 @@ class AskedCases {
   /// Whether nothing is proved against an answer.
   const IsRight& is_right() const { return is_right_; }
 
-  /// At most 16 other cases with the finding.
+  /// At most 16 other cases with the finding; for a wrong decision, some are generated cases moved to a touch.
   const std::vector<Trial>& similar();
+  /// Another case with the finding, of as few regions as there is; nullptr if there is none. For a wrong decision, the
+  /// case furthest from a change of the exact decision.
+  const Trial* plainest();
   /// 256 generated cases, of ordinary numbers.
   const std::vector<Trial>& sample();
   /// 64 cases a few ulps away.
@@ -42,6 +45,16 @@ class AskedCases {
   bool errs_to_both_sides();
   /// The finding is a false hit or a false miss.
   bool is_wrong_decision() const;
+  /// What the test of the rounding modes saw, for the tests behind it.
+  struct RoundingSeen {
+    bool may_round = true;      ///< the errors differ of cases a few ulps away, as rounding errors do
+    bool others_depend = true;  ///< half of the other cases with the finding depend on the rounding mode
+  };
+  const RoundingSeen& rounding_seen() const { return rounding_seen_; }
+  /// All errors are small shares of the numbers: set by the test of small errors, for that of logic.
+  bool has_small_errors() const { return has_small_errors_; }
+  void set_small_errors() { has_small_errors_ = true; }
+  void set_rounding_seen(RoundingSeen seen) { rounding_seen_ = seen; }
 
  private:
   Trials& trials_;
@@ -49,6 +62,8 @@ class AskedCases {
   IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
   std::optional<std::vector<Trial>> similar_, sample_, neighbours_, roundings_;
   std::optional<std::vector<ScaleScan>> scans_;
+  RoundingSeen rounding_seen_;
+  bool has_small_errors_ = false;
 };
 
 /// The binary exponent of the largest position or size; 0 where all are zero.

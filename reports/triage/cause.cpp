@@ -5,6 +5,8 @@
 #include <iterator>
 
 #include "reports/triage/convention.hpp"
+#include "reports/triage/error_share.hpp"
+#include "reports/triage/few_answers.hpp"
 #include "reports/triage/logic.hpp"
 #include "reports/triage/motion_steps.hpp"
 #include "reports/triage/number_range.hpp"
@@ -26,8 +28,10 @@ Tested relative_tolerance_test(AskedCases& a) { return relative_tolerance_of(a.t
 
 /// In the order of the hypotheses.
 constexpr Tested (*tests_of_causes[])(AskedCases&) = {
-    number_range_of,         convention_of, unsupported_of,    constant_error_test, tolerance_test,      certified_of,
-    relative_tolerance_test, rounding_of,   times_of_steps_of, errors_of_steps_of,  starts_of_motion_of, logic_of};
+    number_range_of,     convention_of,  unsupported_of,    constant_error_test,
+    tolerance_test,      certified_of,   rounding_mode_of,  relative_tolerance_test,
+    error_share_of,      rounding_of,    times_of_steps_of, errors_of_steps_of,
+    starts_of_motion_of, few_answers_of, small_errors_of,   logic_of};
 
 std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evidence) {
   if (!is_bad(asked.trials().base().finding)) {
@@ -51,13 +55,26 @@ std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evide
 }  // namespace
 
 Cause cause_of(const Report& report, const Subject& subject, const CauseLimits& limits, Workers& workers) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
   Trials trials(report.question, subject, limits, workers);
   AskedCases asked(trials);
   Cause cause;
   cause.text = "No hypothesis passed its test.";
-  if (const auto named = first_named(asked, cause.evidence))
-    cause.kind = named->kind, cause.key = named->key, cause.text = named->text;
+  auto named = first_named(asked, cause.evidence);
   cause.questions = trials.questions();
+  const bool goes_on = !named && !trials.is_over() && is_bad(trials.base().finding);
+  if (const Trial* other = goes_on ? asked.plainest() : nullptr) {
+    cause.evidence.push_back(
+        {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
+         "The tests were made again, as follows."});
+    Trials more(other->question, subject, {limits.questions - trials.questions(), limits.time - (Clock::now() - begin)},
+                workers);
+    AskedCases asked_more(more);
+    named = first_named(asked_more, cause.evidence);
+    cause.questions += more.questions();
+  }
+  if (named) cause.kind = named->kind, cause.key = named->key, cause.text = named->text;
   return cause;
 }
 

@@ -18,9 +18,11 @@ class Convention : public TestOfCause {
     std::vector<std::string> by_chance;
     for (const Reading& reading : readings()) {
       if (reading.decides && !asked_.is_wrong_decision()) continue;
-      if (!reading.right(question(), trials().base().answer, asked_.is_right()).value_or(false)) continue;
+      const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
+      if (!fits.value_or(is_undefined())) continue;
       const Support s = support_of(reading);
-      if (s.holds()) return named_reading(reading, s);
+      if (fits ? s.holds() : s.holds_without_case()) return named_reading(reading, s);
+      if (!fits) continue;
       by_chance.emplace_back(reading.name);
     }
     const std::string which =
@@ -31,10 +33,13 @@ class Convention : public TestOfCause {
   }
 
  private:
+  /// A number of the answer is not finite, as that of 0 / 0: readings say nothing about it.
+  bool is_undefined() const { return trials().base().finding.disagreement == Disagreement::not_finite; }
   /// How the subject's answers fit a reading.
   struct Support {
     std::size_t with_finding = 0, explained = 0;  ///< cases with the finding, and those that the reading explains
     std::size_t for_it = 0;      ///< generated cases with a wrong answer that is right under the reading
+    std::size_t wrong = 0;       ///< generated cases with a wrong answer, of which the reading says something
     std::size_t against_it = 0;  ///< generated cases with a right answer that is wrong under the reading
 
     /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
@@ -42,6 +47,11 @@ class Convention : public TestOfCause {
       constexpr std::size_t least = 4, least_generated = 2;
       return explained >= least && nearly_all(explained, with_finding) && for_it >= least_generated &&
              nearly_all(for_it, for_it + against_it);
+    }
+    /// Where the reading says nothing about the case, it must explain nearly all wrong answers, and make none wrong.
+    bool holds_without_case() const {
+      constexpr std::size_t least = 16;
+      return for_it >= least && nearly_all(for_it, wrong) && against_it == 0;
     }
   };
   /// The answer would be wrong under the reading if the reading made a difference.
@@ -58,11 +68,15 @@ class Convention : public TestOfCause {
     Support s;
     for (const Trial& t : asked_.similar())
       count_finding(reading, reading.right(t.question, t.answer, asked_.is_right()), s);
+    const bool touches_later = !starts_in_contact(question());
     for (const Trial& t : asked_.sample()) {
       if (t.outcome == Outcome::none) continue;
+      const bool is_apart = touches_later && t.outcome == Outcome::right && starts_in_contact(t.question);
+      if (is_apart) continue;  // a start in contact is a branch of its own
       const std::optional<bool> fits = reading.right(t.question, t.answer, asked_.is_right());
       s.against_it += contradicts(reading, t) && !fits.value_or(true);
       s.for_it += t.outcome != Outcome::right && fits.value_or(false);
+      s.wrong += t.outcome != Outcome::right && fits.has_value();
       if (t.outcome == Outcome::same) count_finding(reading, fits, s);
     }
     return s;

@@ -16,7 +16,7 @@ class Logic : public TestOfCause {
   std::optional<Named> named() {
     const bool no_flip = std::none_of(asked_.scans().begin(), asked_.scans().end(),
                                       [](const ScaleScan& s) { return s.has_clean_flip(); });
-    if (!stays_beside_zeros()) return std::nullopt;
+    if (asked_.has_small_errors() || !stays_beside_zeros()) return std::nullopt;
     if (asked_.is_exact() && no_flip)
       return Named{CauseKind::logic, "",
                    "The subject's arithmetic is exact here, and its answer is wrong at every scale."};

@@ -7,6 +7,7 @@
 
 #include "oracles/judge.hpp"
 #include "reports/triage/case_geometry.hpp"
+#include "reports/triage/quantities.hpp"
 
 namespace nearmiss {
 
@@ -14,7 +15,9 @@ namespace {
 
 class MagnitudeList {
  public:
-  MagnitudeList(const Case& c, const Answer* right) : c_(c), g_(geometry_of(c, right)) {}
+  MagnitudeList(const Case& c, const Answer* right, bool with_gap) : c_(c), g_(geometry_of(c, right)) {
+    if (with_gap) add_length("the gap or overlap", gap_of(c));
+  }
 
   Magnitudes result() {
     add_angles();
@@ -177,7 +180,9 @@ class MagnitudeList {
       add_length("the largest half extent of " + b.operand, largest);
       add_length("the least half extent of " + b.operand, least);
       for (int k = 0; k < 3; ++k) add_length(fmt::format("half extent {} of {}", "xyz"[k], b.operand), b.half[k]);
+      for (int k = 0; k < 3; ++k) add_length(fmt::format("extent {} of {}", "xyz"[k], b.operand), 2 * b.half[k]);
       add_length("half the diagonal of " + b.operand, length(b.half));
+      add_length("the sum of the half extents of " + b.operand, b.half.x + b.half.y + b.half.z);
       for (const Place& p : g_.places) {
         if (p.operand != b.operand) add_in_block(b, p);
       }
@@ -308,8 +313,10 @@ class MagnitudeList {
     }
     for (std::size_t k = 0; k < axes.size(); ++k) {
       const long double unit = length(axes[k]), between = std::abs(dot(b.center - a.center, axes[k]));
-      add_length(fmt::format("the gap along axis {}", k),
-                 (between - reach_of(a, axes[k]) - reach_of(b, axes[k])) / unit, unit > 0);
+      const long double of_a = reach_of(a, axes[k]), of_b = reach_of(b, axes[k]);
+      add_length(fmt::format("the gap along axis {}", k), (between - of_a - of_b) / unit, unit > 0);
+      add_length(fmt::format("the reach of {} along axis {}", a.operand, k), of_a / unit, unit > 0);
+      add_length(fmt::format("the reach of {} along axis {}", b.operand, k), of_b / unit, unit > 0);
     }
   }
   void add_triangle_separations(const Block& b, const CaseGeometry::Triangle& t) {
@@ -334,6 +341,8 @@ class MagnitudeList {
 
 }  // namespace
 
-Magnitudes magnitudes_of(const Case& c, const Answer* right) { return MagnitudeList(c, right).result(); }
+Magnitudes magnitudes_of(const Case& c, const Answer* right, bool with_gap) {
+  return MagnitudeList(c, right, with_gap).result();
+}
 
 }  // namespace nearmiss

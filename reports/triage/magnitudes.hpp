@@ -19,8 +19,9 @@ struct Magnitudes {
   std::vector<Magnitude> pure;     ///< sines, shares of a vector, weights, parameters along edges, shares of a time
 };
 
-/// From the inputs and, where the decision is yes, from a right answer, or the exact one where none is given. In
-/// extended precision: a gap of 1e-12 of the numbers keeps six digits.
-Magnitudes magnitudes_of(const Case& c, const Answer* right = nullptr);
+/// With the distance to the nearest change of the exact decision where `with_gap` is set. From the inputs and, where
+/// the decision is yes, from a right answer, or the exact one where none is given. In extended precision: a gap of
+/// 1e-12 of the numbers keeps six digits.
+Magnitudes magnitudes_of(const Case& c, const Answer* right = nullptr, bool with_gap = false);
 
 }  // namespace nearmiss

@@ -57,6 +57,7 @@ class MotionSteps : public TestOfCause {
 
   /// The same motion begins later and later: the contact stays, and less and less of the way to it is left.
   std::optional<Named> starts_of_motion() {
+    if (auto named = limits_of_time()) return named;
     const std::vector<Case> cases = later_starts();
     if (cases.empty() || (!asked_.roundings().empty() && !asked_.same_in_all_roundings())) return std::nullopt;
     const std::vector<Trial> later = trials().ask(cases);
@@ -71,9 +72,9 @@ class MotionSteps : public TestOfCause {
     saw("The same motion began later, at points that come nearer and nearer to the contact.",
         fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
                     of_text(right, later.size()), changes));
-    constexpr std::size_t least_changes = 3;
+    constexpr std::size_t least_changes = 3, least_in_all = 4;
     const bool ends = changes == 1 && last_wrong + 1 < later.size();
-    if (!ends && changes < least_changes) return std::nullopt;
+    if (!ends && changes < least_changes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
     return Named{CauseKind::iteration_limit, "steps along the motion",
                  "The answer depends on where the same motion begins, in every rounding mode and at every scale: the "
                  "steps along the motion are too few."};
@@ -81,6 +82,52 @@ class MotionSteps : public TestOfCause {
 
  private:
   static constexpr std::size_t samples = 64;
+
+  /// A contact within a time is one within each longer time.
+  std::optional<Named> limits_of_time() {
+    constexpr std::size_t least = 2;
+    if (!asked_.is_wrong_decision() || !trials().base().finding.truth_yes) return std::nullopt;
+    const std::vector<Trial> shorter = trials().ask(with_shorter_limits());
+    if (shorter.empty()) return std::nullopt;
+    const std::size_t right = count(shorter, Outcome::right);
+    saw("The time was limited to shorter times after the contact.",
+        fmt::format("{} answers are right.", of_text(right, shorter.size())));
+    if (right < least) return std::nullopt;
+    return Named{CauseKind::iteration_limit, "steps along the motion",
+                 "A contact is found within a shorter time, and missed within a longer one: the steps along the motion "
+                 "are too few."};
+  }
+  /// The index of the limit of time of a decision about a motion.
+  std::optional<std::size_t> limit_of_time() const {
+    const Query& q = trials().query();
+    if (q.kind != Kind::decision || parts_of(q).velocities.empty()) return std::nullopt;
+    const auto found =
+        std::find_if(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::time; });
+    return found == q.inputs.end() ? std::nullopt : std::optional(std::size_t(found - q.inputs.begin()));
+  }
+  /// The case with a limit in place of any time.
+  Case with_limit(std::size_t limit, double time) const {
+    Case c = question();
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      if (c.query->inputs[i].role == Role::flag) c.values[i] = 0;
+    }
+    c.values[limit] = c.scalar == Scalar::float32 ? double(float(time)) : time;
+    return c;
+  }
+  /// From just after the contact to the limit of the case, or to many times of the contact where it has none.
+  std::vector<Case> with_shorter_limits() const {
+    constexpr double least = 1.01, most = 0x1p20;
+    std::vector<Case> cases;
+    const auto limit = limit_of_time();
+    const double time = contact_time();
+    if (!limit || !(time > 0)) return cases;
+    const bool is_limited = with_limit(*limit, question().values[*limit]).values == question().values;
+    const double longest = is_limited ? question().values[*limit] / time : most;
+    for (std::size_t m = 0; m < samples; ++m)
+      cases.push_back(with_limit(*limit, time * least * std::pow(longest / least, double(m) / samples)));
+    std::erase_if(cases, [](const Case& c) { return !exact_decision(c); });
+    return cases;
+  }
 
   bool has_wrong_time() const {
     const Finding full = trials().in_full(trials().base());
@@ -184,16 +231,52 @@ class MotionSteps : public TestOfCause {
     std::vector<Case> cases;
     const double time = contact_time();
     if (!(time > 0)) return cases;
-    constexpr int starts = 32, halvings = 36;
+    constexpr int starts = 64, halvings = 36;
     const auto add = [&](double passed) {
-      if (auto later = begun_later(passed)) cases.push_back(std::move(*later));
+      auto later = begun_later(passed);
+      if (later && exact_decision(*later) == trials().base().finding.truth_yes) cases.push_back(std::move(*later));
     };
-    for (int m = 1; m <= starts; ++m) add(time * m / (starts + 1));
+    // At uneven distances, so that the starts do not keep pace with the steps.
+    for (int m = 1; m <= starts; ++m) add(time * (m + std::sin(double(m)) / 2) / (starts + 1));
     for (int m = 6; m <= halvings; ++m) add(time * (1 - std::ldexp(1.0, -m)));
     return cases;
   }
+  /// The earliest limit of time at which the exact decision is yes; 0 where the query has no such limit.
+  double time_of_decision() const {
+    constexpr int bisections = 40, earliest = -60, latest = 60;
+    const auto limit = limit_of_time();
+    const auto is_hit = [&](double time) { return exact_decision(with_limit(*limit, time)); };
+    if (!limit || is_hit(0)) return 0;
+    int k = earliest;
+    while (k < latest && !is_hit(std::ldexp(1.0, k))) ++k;
+    if (k == latest) return 0;
+    double high = std::ldexp(1.0, k), low = k == earliest ? 0 : high / 2;
+    for (int n = 0; n < bisections; ++n) (is_hit((low + high) / 2) ? high : low) = (low + high) / 2;
+    return high;
+  }
+  /// How often the finding comes or goes while the motion begins further and further before the case.
+  std::size_t changes_of_earlier_starts() {
+    constexpr int starts = 64;
+    const double time = contact_time();
+    std::vector<Case> cases;
+    for (int m = 1; m <= starts; ++m) {
+      auto earlier = begun_later(-time * (m + std::sin(double(m)) / 2) / starts);
+      if (earlier && exact_decision(*earlier) == trials().base().finding.truth_yes)
+        cases.push_back(std::move(*earlier));
+    }
+    std::size_t changes = 0;
+    bool before = false;
+    for (const Trial& t : trials().ask(cases)) {
+      const bool ended = has_ended(t);
+      changes += ended != before;
+      before = ended;
+    }
+    saw("The same motion began earlier.", fmt::format("The finding comes or goes {} times.", changes));
+    return changes;
+  }
   /// Of the exact answer, or else of the given one; 0 where there is none.
   double contact_time() const {
+    if (trials().query().kind == Kind::decision) return time_of_decision();
     if (trials().query().kind != Kind::impact) return 0;
     for (const Alternative& right : truth_of(question()).alternatives) {
       if (right.yes) return std::max(0.0, right.values[0].low);

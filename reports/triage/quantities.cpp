@@ -64,7 +64,7 @@ Case moved(const Case& c, std::size_t axis, double by) {
 
 /// How far the first operand must move along an axis to change the decision; infinite where it does not.
 double way_to_flip(const Case& c, bool decision, std::size_t axis, double direction, double largest) {
-  constexpr int finest = -50, coarsest = 2, bisections = 8;
+  constexpr int finest = -50, coarsest = 2, bisections = 12;
   const auto flips = [&](double by) { return exact_decision(moved(c, axis, direction * by)) != decision; };
   for (int k = finest; k <= coarsest; ++k) {
     double far = std::ldexp(largest, k), near = far / 2;
@@ -76,20 +76,6 @@ double way_to_flip(const Case& c, bool decision, std::size_t axis, double direct
     return (near + far) / 2;
   }
   return INFINITY;
-}
-
-/// The distance to the nearest flip, from those along the axes: exact to first order for a flat border.
-double gap_of(const Case& c) {
-  const double largest = largest_number(c);
-  if (!(largest > 0)) return 0;
-  const bool decision = exact_decision(c);
-  double inverse_square = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double way =
-        std::min(way_to_flip(c, decision, axis, 1, largest), way_to_flip(c, decision, axis, -1, largest));
-    inverse_square += 1 / (way * way);
-  }
-  return inverse_square > 0 ? 1 / std::sqrt(inverse_square) : 0;
 }
 
 /// The time of the exact contact; 0 where there is none.
@@ -165,6 +151,19 @@ void add_forms(const Case& c, std::vector<Quantity>& all) {
 }
 
 }  // namespace
+
+double gap_of(const Case& c) {
+  const double largest = largest_number(c);
+  if (!(largest > 0)) return 0;
+  const bool decision = exact_decision(c);
+  double inverse_square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double way =
+        std::min(way_to_flip(c, decision, axis, 1, largest), way_to_flip(c, decision, axis, -1, largest));
+    inverse_square += 1 / (way * way);
+  }
+  return inverse_square > 0 ? 1 / std::sqrt(inverse_square) : 0;
+}
 
 std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
   std::vector<Quantity> all;

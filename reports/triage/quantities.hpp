@@ -15,6 +15,10 @@ struct Quantity {
   std::string_view unit = "length";
 };
 
+/// The distance that the first operand must move to change the exact decision, rounded: exact to first order for a flat
+/// border. 0 where no move along an axis changes it.
+double gap_of(const Case& c);
+
 /// Sizes, distances of positions, lengths of vectors, areas of triangles; the distance that the first operand must move
 /// to change the exact decision (where `with_gap` is set), and the distance moved until the exact contact. The same
 /// list in the same order for each case of a query. Rounded: estimates for a search.

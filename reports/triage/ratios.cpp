@@ -21,6 +21,23 @@ std::string_view without_number(std::string_view word) {
   return is_corner && (n == 2 || word[n - 3] == '.') ? word.substr(0, n - 1) : word;
 }
 
+/// A name without the numbers of axes, corners and edges, and these numbers.
+struct Split {
+  std::string without, numbers;
+};
+Split split(const std::string& name) {
+  Split s;
+  for (std::size_t begin = 0; begin < name.size();) {
+    const std::size_t end = std::min(name.find(' ', begin), name.size());
+    const std::string_view word = std::string_view(name).substr(begin, end - begin), kept = without_number(word);
+    if (!kept.empty() && !s.without.empty()) s.without += ' ';
+    s.without += kept;
+    s.numbers += word.substr(kept.size());
+    begin = end + 1;
+  }
+  return s;
+}
+
 }  // namespace
 
 /// Every ordered pair of different lengths, by its first.
@@ -43,15 +60,13 @@ std::string Ratios::name(std::size_t i) const {
 }
 
 std::string Ratios::family(std::size_t i) const {
-  const std::string all = name(i);
-  std::string family;
-  for (std::size_t begin = 0; begin < all.size();) {
-    const std::size_t end = std::min(all.find(' ', begin), all.size());
-    family += without_number(std::string_view(all).substr(begin, end - begin));
-    family += ' ';
-    begin = end + 1;
-  }
-  return family;
+  if (i < pure()) return split(magnitudes_.pure[i].name).without;
+  const auto [a, b] = pair(i);
+  const Split first = split(magnitudes_.lengths[a].name), second = split(magnitudes_.lengths[b].name);
+  const bool alike = !first.numbers.empty() && first.numbers == second.numbers;
+  return first.without + " over " + second.without + (alike ? " with the same number" : "");
 }
+
+std::string without_numbers(const std::string& name) { return split(name).without; }
 
 }  // namespace nearmiss

@@ -12,7 +12,8 @@ namespace nearmiss {
 /// The pure numbers of a case, and the quotient of each two of its lengths: the same list for every case of a query.
 class Ratios {
  public:
-  explicit Ratios(const Case& c, const Answer* right = nullptr) : magnitudes_(magnitudes_of(c, right)) {}
+  explicit Ratios(const Case& c, const Answer* right = nullptr, bool with_gap = false)
+      : magnitudes_(magnitudes_of(c, right, with_gap)) {}
 
   std::size_t size() const { return pure() + lengths() * (lengths() - 1); }
   /// 0 where it has no meaning in this case.
@@ -20,7 +21,7 @@ class Ratios {
   /// "the sine of the angle between a and b", "the length of a over the radius of b".
   std::string name(std::size_t i) const;
   /// The name without the numbers of axes, corners and edges: the same for ratios that an implementation compares in
-  /// one loop.
+  /// one loop. Quotients of two lengths with the same numbers are a family of their own.
   std::string family(std::size_t i) const;
   /// Of a quotient; empty, and 0, for a pure number.
   std::string numerator_name(std::size_t i) const { return i < pure() ? "" : magnitudes_.lengths[pair(i).first].name; }
@@ -33,5 +34,8 @@ class Ratios {
 
   Magnitudes magnitudes_;
 };
+
+/// The name of a magnitude without the numbers of axes, corners and edges.
+std::string without_numbers(const std::string& name);
 
 }  // namespace nearmiss

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
@@ -42,17 +44,6 @@ Fits with_output(const Case& c, const Answer& a, Role role, const IsRight& is_ri
   for (std::size_t i = p->begin; i < p->end; ++i) other.values[i] = change(a.values[i]);
   if (other.values == a.values) return std::nullopt;
   return is_right(c, other);
-}
-
-/// The opinion about the answer to the case with every input of this role replaced.
-template <class Change>
-Fits with_input(const Case& c, const Answer& a, Role role, const IsRight& is_right, const Change& change) {
-  Case other = c;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == role) other.values[i] = change(i, c.values[i]);
-  }
-  if (other.values == c.values || c.query->broken(other.values)) return std::nullopt;
-  return is_right(other, a);
 }
 
 Fits reversed_normal(const Case& c, const Answer& a, const IsRight& is_right) {
@@ -172,10 +163,6 @@ Fits strict(const Case& c, const Answer& a, const IsRight&) {
   return !a.yes;
 }
 
-bool starts_in_contact(const Case& c) {
-  return parts_of(*c.query).start.has_value() && !meets(c, Precondition::starts_outside);
-}
-
 Fits start_inside_is_a_miss(const Case& c, const Answer& a, const IsRight&) {
   if (a.status != Answer::Status::answered || !starts_in_contact(c)) return std::nullopt;
   return !a.yes;
@@ -241,64 +228,60 @@ Fits both_sides(const Case& c, const Answer& a, const IsRight& is_right) {
   return is_right(*other, without_weights(c, a));
 }
 
-bool is_half_extent(const Case& c, std::size_t i) {
-  return c.query->inputs[i].name.find(".half.") != std::string::npos;
+/// A vector turned by the first rotation of the case; empty where there is none, or where it turns nothing.
+std::optional<std::array<double, 3>> turned_as_box(const Case& c, const double* v) {
+  const auto& all = parts_of(*c.query).quaternions;
+  if (all.empty()) return std::nullopt;
+  const double *q = &c.values[all.front()], n = length({q, 4});
+  if (!(n > 0) || (q[0] == 0 && q[1] == 0 && q[2] == 0)) return std::nullopt;
+  const auto crossed = [&](const std::array<double, 3>& a) {
+    return std::array{(q[1] * a[2] - q[2] * a[1]) / n, (q[2] * a[0] - q[0] * a[2]) / n,
+                      (q[0] * a[1] - q[1] * a[0]) / n};
+  };
+  const std::array<double, 3> given{v[0], v[1], v[2]}, once = crossed(given), twice = crossed(once);
+  std::array<double, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = given[k] + 2 * (q[3] / n * once[k] + twice[k]);
+  return result;
 }
 
-template <int numerator, int denominator, bool half_extents>
-Fits scaled_sizes(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_input(c, a, Role::size, is_right, [&](std::size_t i, double x) {
-    return is_half_extent(c, i) == half_extents ? x * numerator / denominator : x;
-  });
+/// The normal is compared as the measure compares: the turn rounds.
+Fits normal_in_frame(const Case& c, const Answer& a, const IsRight& is_right) {
+  const Layout::Part* p = given_part(c, a, Role::normal);
+  const auto normal = p == nullptr ? std::nullopt : turned_as_box(c, &a.values[p->begin]);
+  if (!normal) return std::nullopt;
+  Answer other = a;
+  std::copy(normal->begin(), normal->end(), other.values.begin() + std::ptrdiff_t(p->begin));
+  return is_right(c, other);
 }
 
-/// The opinion with every quaternion replaced.
-template <class Change>
-Fits with_rotations(const Case& c, const Answer& a, const IsRight& is_right, const Change& change) {
-  Case other = c;
-  for (const std::size_t i : parts_of(*c.query).quaternions) {
-    const std::array<double, 4> q{c.values[i], c.values[i + 1], c.values[i + 2], c.values[i + 3]};
-    const std::array<double, 4> changed = change(q);
-    std::copy(changed.begin(), changed.end(), other.values.begin() + std::ptrdiff_t(i));
+/// Where the center of the last operand that has one begins in the inputs.
+std::optional<std::size_t> last_center(const Query& q) {
+  for (std::size_t i = q.inputs.size(); i-- > 0;) {
+    if (q.inputs[i].name.ends_with(".center.x")) return i;
   }
-  if (other.values == c.values || c.query->broken(other.values)) return std::nullopt;
-  return is_right(other, a);
+  return std::nullopt;
 }
 
-using Quaternion = std::array<double, 4>;
+/// The place as a vector from the center of the fixed operand, in the frame of that operand or not.
+template <bool in_frame>
+Fits place_from_center(const Case& c, const Answer& a, const IsRight& is_right) {
+  const Layout::Part* p = given_part(c, a, Role::position);
+  const auto center = last_center(*c.query);
+  if (p == nullptr || !center) return std::nullopt;
+  std::optional<std::array<double, 3>> from{{a.values[p->begin], a.values[p->begin + 1], a.values[p->begin + 2]}};
+  if (in_frame) from = turned_as_box(c, &a.values[p->begin]);
+  if (!from) return std::nullopt;
+  Answer other = a;
+  for (std::size_t k = 0; k < 3; ++k) other.values[p->begin + k] = (*from)[k] + c.values[*center + k];
+  if (other.values == a.values) return std::nullopt;
+  return is_right(c, other);
+}
 
-Fits inverse_rotation(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_rotations(c, a, is_right, [](const Quaternion& q) { return Quaternion{-q[0], -q[1], -q[2], q[3]}; });
-}
-Fits w_first(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_rotations(c, a, is_right, [](const Quaternion& q) { return Quaternion{q[1], q[2], q[3], q[0]}; });
-}
-Fits no_rotation(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_rotations(c, a, is_right, [](const Quaternion& q) {
-    const bool is_turned = q[0] != 0 || q[1] != 0 || q[2] != 0;
-    return is_turned ? Quaternion{0, 0, 0, 1} : q;
-  });
-}
-
-Fits negative_offset(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_input(c, a, Role::offset, is_right, [](std::size_t, double x) { return -x; });
-}
-Fits reversed_velocity(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_input(c, a, Role::velocity, is_right, [](std::size_t, double x) { return -x; });
-}
-Fits other_flag(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_input(c, a, Role::flag, is_right, [](std::size_t, double x) { return 1 - x; });
-}
-/// A case whose flag has this value already makes no difference.
-template <int value>
-Fits fixed_flag(const Case& c, const Answer& a, const IsRight& is_right) {
-  return with_input(c, a, Role::flag, is_right, [](std::size_t, double) { return double(value); });
-}
 Fits counted_from_one(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_output(c, a, Role::index, is_right, [](double x) { return x - 1; });
 }
 
-constexpr Reading table[] = {
+constexpr Reading of_answers[] = {
     {"normal reversed", "its normal points the other way", CauseKind::convention, false, reversed_normal},
     {"normal not of unit length", "its normal is divided by its length", CauseKind::convention, false,
      normalised_normal},
@@ -321,29 +304,29 @@ constexpr Reading table[] = {
     {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, ends_at_time_one},
     {"both sides", "the back counts as well as the front", CauseKind::convention, true, both_sides},
     {"back for front", "the back takes the place of the front", CauseKind::convention, false, back_for_front},
-    {"half extents halved", "the given half extents are full extents", CauseKind::convention, false,
-     scaled_sizes<1, 2, true>},
-    {"half extents doubled", "each half extent is twice the given one", CauseKind::convention, false,
-     scaled_sizes<2, 1, true>},
-    {"radius halved", "the given radius is a diameter", CauseKind::convention, false, scaled_sizes<1, 2, false>},
-    {"radius doubled", "each radius is twice the given one", CauseKind::convention, false, scaled_sizes<2, 1, false>},
-    {"rotation inverted", "each rotation is the inverse of the given one", CauseKind::convention, false,
-     inverse_rotation},
-    {"quaternion begins with w", "the four numbers of a quaternion are w, x, y, z", CauseKind::convention, false,
-     w_first},
-    {"offset of the other sign", "the plane's offset has the other sign", CauseKind::convention, false,
-     negative_offset},
-    {"velocity reversed", "the velocity has the other sign", CauseKind::convention, false, reversed_velocity},
-    {"flag inverted", "the flag has the other value", CauseKind::convention, false, other_flag},
+    {"normal in the frame of the box", "its normal is turned by the rotation of the box", CauseKind::convention, false,
+     normal_in_frame},
+    {"contact from the center", "its place is a vector from the center", CauseKind::convention, false,
+     place_from_center<false>},
+    {"contact in the frame of the box", "its place is turned, and moved to the center, as the box is",
+     CauseKind::convention, false, place_from_center<true>},
     {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
-    {"rotation ignored", "rotations are ignored", CauseKind::unsupported, false, no_rotation},
-    {"radius ignored", "radii are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, false>},
-    {"flag ignored", "the flag is taken for true", CauseKind::unsupported, false, fixed_flag<1>},
-    {"flag ignored", "the flag is taken for false", CauseKind::unsupported, false, fixed_flag<0>},
 };
 
 }  // namespace
 
-std::span<const Reading> readings() { return table; }
+std::span<const Reading> readings() {
+  static const std::vector<Reading> all = [] {
+    std::vector<Reading> both(std::begin(of_answers), std::end(of_answers));
+    const auto of_inputs = readings_of_inputs();
+    both.insert(both.end(), of_inputs.begin(), of_inputs.end());
+    return both;
+  }();
+  return all;
+}
+
+bool starts_in_contact(const Case& c) {
+  return parts_of(*c.query).start.has_value() && !meets(c, Precondition::starts_outside);
+}
 
 }  // namespace nearmiss

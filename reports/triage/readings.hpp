@@ -23,5 +23,9 @@ struct Reading {
 };
 
 std::span<const Reading> readings();
+/// Those that change the inputs; they are among readings().
+std::span<const Reading> readings_of_inputs();
+/// Whether something moves and touches, or overlaps, at the start.
+bool starts_in_contact(const Case& c);
 
 }  // namespace nearmiss

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corpus/feature_regions.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -93,6 +94,8 @@ std::vector<Region> regions_of(const Query& query) {
     if (concerns(p, query))
       regions.push_back({std::string(outside_of(p)), [p](const Case& c) { return !meets(c, p); }});
   }
+  for (const FeatureRegion r : {FeatureRegion::flat, FeatureRegion::parallel})
+    regions.push_back({std::string(name_of(r)), [r](const Case& c) { return feature_regions_of(c).has(r); }});
   if (!parts_of(query).quaternions.empty()) regions.push_back({"a turned box", is_turned, false});
   return regions;
 }

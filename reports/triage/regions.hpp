@@ -17,7 +17,8 @@ struct Region {
 };
 
 /// The regions that the query's inputs have, from names and roles alone: zero sizes, equal corners, motions along axes,
-/// starts in contact, turned boxes, vectors that are not of unit length, flags that are set.
+/// starts in contact, something flat, parallel vectors, turned boxes, vectors that are not of unit length, flags that
+/// are set.
 std::vector<Region> regions_of(const Query& query);
 
 }  // namespace nearmiss

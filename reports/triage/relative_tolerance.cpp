@@ -38,7 +38,7 @@ class RelativeTolerance {
   static constexpr long double spread = 1.02L;         ///< of one value
   static constexpr long double least_spread = 1.002L;  ///< of one value at few borders, or of several ratios
   static constexpr long double least_change = 1.001L;  ///< of a ratio that a move changes
-  static constexpr std::size_t largest_family = 9;     ///< the axes of one box with those of another
+  static constexpr std::size_t largest_family = 15;    ///< the axes along which two boxes may be separated
   static constexpr long double largest = 0.02L;        ///< a larger ratio is no tolerance
   static constexpr double usual_error = 1.01, least_error = 1.001;  ///< of a written constant
   static constexpr long double variety = 1.5L;  ///< a length that differs by less in all cases is no part of a ratio
@@ -71,15 +71,19 @@ class RelativeTolerance {
       if (starts_.size() == enough_cases && best_candidate()) return;
     }
   }
+  bool is_wrong_decision() const {
+    const Disagreement d = trials_.base().finding.disagreement;
+    return d == Disagreement::false_hit || d == Disagreement::false_miss;
+  }
   /// Returns the numbers that have a crossing. A ratio of a false hit is told from the given contact: there is no exact
   /// one.
   std::vector<std::size_t> add(const Trial& t, const std::vector<std::size_t>& numbers) {
     std::vector<std::size_t> found;
-    starts_.emplace_back(t.question, t.finding.truth_yes ? nullptr : &t.answer);
+    starts_.emplace_back(t.question, t.finding.truth_yes ? nullptr : &t.answer, is_wrong_decision());
     for (const Crossing& x : crossings_of(trials_, t.question, numbers)) {
       const Answer* hit = x.at_right.answer.yes ? &x.at_right.answer : &x.wrong;
-      crossings_.push_back(
-          {starts_.size() - 1, x.number, Ratios(x.at_right.question, hit), x.at_wrong, x.at_right.question});
+      crossings_.push_back({starts_.size() - 1, x.number, Ratios(x.at_right.question, hit, is_wrong_decision()),
+                            x.at_wrong, x.at_right.question});
       if (found.empty() || found.back() != x.number) found.push_back(x.number);
     }
     return found;
@@ -141,7 +145,10 @@ class RelativeTolerance {
     add_parts(window, c);
     const bool varied = c.least_part == 0 || c.largest_part >= variety * c.least_part;
     const bool usual = are_many(most) && widest > least_spread && varied;
-    const auto constant = written_constant(double(c.low), double(c.high), usual ? usual_error : least_error);
+    // What is known more precisely must be the constant more precisely.
+    const double known = std::max(least_error, std::pow(double(c.high / c.low), 3));
+    const auto constant =
+        written_constant(double(c.low), double(c.high), usual ? std::min(usual_error, known) : least_error);
     const bool may_be_any = are_many(most) && varied && written_constant(double(c.low), double(c.high), least_error);
     if (constant && constant->value >= epsilon() && (constant->rank == 0 || may_be_any)) c.constant = constant;
     return c;

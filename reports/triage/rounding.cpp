@@ -35,18 +35,32 @@ class RoundingErrors : public TestOfCause {
     return Named{CauseKind::logic, "", "The kernel is wrong over the real numbers too: the mistake is in its logic."};
   }
 
+  /// Only where there are enough other cases: one case may lie on the border of a tolerance.
+  std::optional<Named> rounding_mode() {
+    if (asked_.similar().size() < least_others) return std::nullopt;
+    return with_roundings();
+  }
+  std::optional<Named> with_roundings() {
+    const bool may_round = has_varying_errors();
+    auto named = by_roundings(may_round);
+    asked_.set_rounding_seen({may_round, others_depend_});
+    return named;
+  }
+
   std::optional<Named> rounding() {
     const std::vector<Trial>& near = asked_.neighbours();
     const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
-    const bool may_round = has_varying_errors();
-    if (auto named = by_roundings(may_round)) return named;
+    if (asked_.similar().size() < least_others) {
+      if (auto named = with_roundings()) return named;
+    }
+    const auto [may_round, others_depend] = asked_.rounding_seen();
     saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
         fmt::format("{} have the finding, and {} are right.", count(near, Outcome::same), right));
     if (asked_.is_exact()) {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
       return std::nullopt;
     }
-    if (is_mixed(right, all) && others_depend_ && may_round) {
+    if (is_mixed(right, all) && others_depend && may_round) {
       if (!are_on_two_sides(question(), near))
         return Named{CauseKind::rounding, "",
                      "The answer is unstable: it is right or wrong by the last bits of the inputs."};
@@ -57,6 +71,7 @@ class RoundingErrors : public TestOfCause {
   }
 
  private:
+  static constexpr std::size_t least_others = 4;
   static constexpr double least_moved =
       0.25;  ///< of a number that consists of rounding errors, as a share of its error
 
@@ -121,7 +136,6 @@ class RoundingErrors : public TestOfCause {
   /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
   /// by chance.
   bool holds_for_others(bool case_depends) {
-    constexpr std::size_t least = 4;
     std::size_t all = 0, depend = 0;
     for (const Trial& t : asked_.similar()) {
       if (trials().is_over()) break;
@@ -129,7 +143,7 @@ class RoundingErrors : public TestOfCause {
     }
     saw("The other cases with the finding were asked in the four rounding modes.",
         fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
-    return all < least ? case_depends : 2 * depend >= all;
+    return all < least_others ? case_depends : 2 * depend >= all;
   }
   bool depends_on_rounding(const Trial& base) const {
     std::vector<Trial> asked;
@@ -190,6 +204,11 @@ class RoundingErrors : public TestOfCause {
 Tested certified_of(AskedCases& asked) {
   RoundingErrors test(asked);
   return test.finished(test.certified());
+}
+
+Tested rounding_mode_of(AskedCases& asked) {
+  RoundingErrors test(asked);
+  return test.finished(test.rounding_mode());
 }
 
 Tested rounding_of(AskedCases& asked) {

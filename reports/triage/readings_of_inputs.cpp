@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "oracles/requirements.hpp"
+#include "reports/triage/readings.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Fits = std::optional<bool>;
+
+/// The opinion about the answer to another case; empty where it is the same case, or none.
+Fits opinion_on(const Case& c, const Case& other, const Answer& a, const IsRight& is_right) {
+  if (other.values == c.values || c.query->broken(other.values)) return std::nullopt;
+  return is_right(other, a);
+}
+
+/// The opinion about the answer to the case with every input of this role replaced.
+template <class Change>
+Fits with_input(const Case& c, const Answer& a, Role role, const IsRight& is_right, const Change& change) {
+  Case other = c;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.query->inputs[i].role == role) other.values[i] = change(c.values[i]);
+  }
+  return opinion_on(c, other, a, is_right);
+}
+
+bool is_half_extent(const Case& c, std::size_t i) {
+  return c.query->inputs[i].name.find(".half.") != std::string::npos;
+}
+
+/// Which operands a reading is about: all, or the first or second of the operands with such a part.
+enum class Which { all, first, second };
+
+/// The operand of a part that begins at an input.
+std::string_view operand_at(const Case& c, std::size_t i) {
+  const std::string_view name = c.query->inputs[i].name;
+  return name.substr(0, name.find('.'));
+}
+
+/// Whether the input belongs to the operand that is meant, among those of these inputs.
+bool is_meant(const Case& c, std::size_t i, std::span<const std::size_t> among, Which which) {
+  if (which == Which::all || among.empty()) return which == Which::all;
+  const bool is_first = operand_at(c, i) == operand_at(c, among.front());
+  const bool are_two = operand_at(c, among.back()) != operand_at(c, among.front());
+  return are_two && is_first == (which == Which::first);
+}
+
+/// The case with the meant sizes multiplied: the half extents, or the radii.
+Case with_sizes(const Case& c, double factor, bool half_extents, Which which) {
+  std::vector<std::size_t> sizes;
+  for (const std::size_t i : parts_of(*c.query).sizes) {
+    if (is_half_extent(c, i) == half_extents) sizes.push_back(i);
+  }
+  Case other = c;
+  for (const std::size_t i : sizes) {
+    if (is_meant(c, i, sizes, which)) other.values[i] = c.values[i] * factor;
+  }
+  return other;
+}
+
+template <int numerator, int denominator, bool half_extents, Which which = Which::all>
+Fits scaled_sizes(const Case& c, const Answer& a, const IsRight& is_right) {
+  return opinion_on(c, with_sizes(c, double(numerator) / denominator, half_extents, which), a, is_right);
+}
+
+using QuaternionNumbers = std::array<double, 4>;
+using ChangeOfRotation = QuaternionNumbers (*)(const QuaternionNumbers&);
+
+/// The case with the meant quaternions replaced.
+Case with_rotations(const Case& c, ChangeOfRotation change, Which which) {
+  Case other = c;
+  const auto& all = parts_of(*c.query).quaternions;
+  for (const std::size_t i : all) {
+    if (!is_meant(c, i, all, which)) continue;
+    const QuaternionNumbers changed = change({c.values[i], c.values[i + 1], c.values[i + 2], c.values[i + 3]});
+    std::copy(changed.begin(), changed.end(), other.values.begin() + std::ptrdiff_t(i));
+  }
+  return other;
+}
+
+QuaternionNumbers inverse_of(const QuaternionNumbers& q) { return {-q[0], -q[1], -q[2], q[3]}; }
+QuaternionNumbers rotated_left(const QuaternionNumbers& q) { return {q[1], q[2], q[3], q[0]}; }
+QuaternionNumbers no_turn(const QuaternionNumbers& q) {
+  const bool is_turned = q[0] != 0 || q[1] != 0 || q[2] != 0;
+  return is_turned ? QuaternionNumbers{0, 0, 0, 1} : q;
+}
+
+template <ChangeOfRotation change, Which which = Which::all>
+Fits changed_rotation(const Case& c, const Answer& a, const IsRight& is_right) {
+  return opinion_on(c, with_rotations(c, change, which), a, is_right);
+}
+
+Fits negative_offset(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::offset, is_right, [](double x) { return -x; });
+}
+template <Role role>
+Fits zero_input(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, role, is_right, [](double) { return 0.0; });
+}
+Fits reversed_velocity(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::velocity, is_right, [](double x) { return -x; });
+}
+Fits other_flag(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::flag, is_right, [](double x) { return 1 - x; });
+}
+/// A case whose flag has this value already makes no difference.
+template <int value>
+Fits fixed_flag(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::flag, is_right, [](double) { return double(value); });
+}
+
+constexpr Reading table_of_inputs[] = {
+    {"half extents halved", "the given half extents are full extents", CauseKind::convention, false,
+     scaled_sizes<1, 2, true>},
+    {"half extents doubled", "each half extent is twice the given one", CauseKind::convention, false,
+     scaled_sizes<2, 1, true>},
+    {"radius halved", "the given radius is a diameter", CauseKind::convention, false, scaled_sizes<1, 2, false>},
+    {"radius doubled", "each radius is twice the given one", CauseKind::convention, false, scaled_sizes<2, 1, false>},
+    {"rotation inverted", "each rotation is the inverse of the given one", CauseKind::convention, false,
+     changed_rotation<inverse_of>},
+    {"quaternion begins with w", "the four numbers of a quaternion are w, x, y, z", CauseKind::convention, false,
+     changed_rotation<rotated_left>},
+    {"offset of the other sign", "the plane's offset has the other sign", CauseKind::convention, false,
+     negative_offset},
+    {"velocity reversed", "the velocity has the other sign", CauseKind::convention, false, reversed_velocity},
+    {"flag inverted", "the flag has the other value", CauseKind::convention, false, other_flag},
+    {"rotation ignored", "rotations are ignored", CauseKind::unsupported, false, changed_rotation<no_turn>},
+    {"radius ignored", "radii are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, false>},
+    {"flag ignored", "the flag is taken for true", CauseKind::unsupported, false, fixed_flag<1>},
+    {"flag ignored", "the flag is taken for false", CauseKind::unsupported, false, fixed_flag<0>},
+    {"half extents of the first halved", "the half extents of the first box are full extents", CauseKind::convention,
+     false, scaled_sizes<1, 2, true, Which::first>},
+    {"half extents of the first doubled", "each half extent of the first box is twice the given one",
+     CauseKind::convention, false, scaled_sizes<2, 1, true, Which::first>},
+    {"radius of the first halved", "the first radius is a diameter", CauseKind::convention, false,
+     scaled_sizes<1, 2, false, Which::first>},
+    {"radius of the first doubled", "the first radius is twice the given one", CauseKind::convention, false,
+     scaled_sizes<2, 1, false, Which::first>},
+    {"rotation of the first inverted", "the rotation of the first box is the inverse of the given one",
+     CauseKind::convention, false, changed_rotation<inverse_of, Which::first>},
+    {"rotation ignored", "the rotation of the first box is ignored", CauseKind::unsupported, false,
+     changed_rotation<no_turn, Which::first>},
+    {"radius ignored", "the first radius is ignored", CauseKind::unsupported, false,
+     scaled_sizes<0, 1, false, Which::first>},
+    {"half extents of the second halved", "the half extents of the second box are full extents", CauseKind::convention,
+     false, scaled_sizes<1, 2, true, Which::second>},
+    {"half extents of the second doubled", "each half extent of the second box is twice the given one",
+     CauseKind::convention, false, scaled_sizes<2, 1, true, Which::second>},
+    {"radius of the second halved", "the second radius is a diameter", CauseKind::convention, false,
+     scaled_sizes<1, 2, false, Which::second>},
+    {"radius of the second doubled", "the second radius is twice the given one", CauseKind::convention, false,
+     scaled_sizes<2, 1, false, Which::second>},
+    {"rotation of the second inverted", "the rotation of the second box is the inverse of the given one",
+     CauseKind::convention, false, changed_rotation<inverse_of, Which::second>},
+    {"rotation ignored", "the rotation of the second box is ignored", CauseKind::unsupported, false,
+     changed_rotation<no_turn, Which::second>},
+    {"radius ignored", "the second radius is ignored", CauseKind::unsupported, false,
+     scaled_sizes<0, 1, false, Which::second>},
+    {"half extents ignored", "half extents are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, true>},
+    {"offset ignored", "the plane's offset is ignored", CauseKind::unsupported, false, zero_input<Role::offset>},
+    {"time ignored", "the time is ignored", CauseKind::unsupported, false, zero_input<Role::time>},
+};
+
+}  // namespace
+
+std::span<const Reading> readings_of_inputs() { return table_of_inputs; }
+
+}  // namespace nearmiss

@@ -1,0 +1,16 @@
+/// Makes other cases near the border of the exact decision.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reports/triage/trials.hpp"
+
+namespace nearmiss {
+
+/// At most `most` of the given trials, each with its first operand moved along an axis to where the exact decision
+/// changes, and then away from there, so that the finding of `trials` is there too. Each is as far from the border as
+/// the finding allows, to a factor of 64. None where the query decides nothing.
+std::vector<Trial> cases_at_touches(Trials& trials, std::span<const Trial> from, std::size_t most);
+
+}  // namespace nearmiss
