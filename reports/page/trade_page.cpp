@@ -23,8 +23,8 @@ constexpr const char* d3_of_trades = nullptr;
 #endif
 
 /// Later files use earlier ones.
-constexpr const char* trade_scripts[] = {"numbers.js",       "theme.js",      "trade_data.js", "trade_panels.js",
-                                         "trade_profile.js", "trade_view.js", "trade_main.js"};
+constexpr const char* trade_scripts[] = {"numbers.js",       "theme.js",        "trade_data.js", "trade_panels.js",
+                                         "trade_profile.js", "trade_stages.js", "trade_view.js", "trade_main.js"};
 
 std::string file_of_trade_page(const std::string& name) { return read_file(source_folder() + "/reports/page/" + name); }
 

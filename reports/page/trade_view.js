@@ -2,7 +2,7 @@
 /// The view of a trade: the list of its queries, and the chosen one with its curves and figures.
 nearmiss.tradeView = (raw, onChoose) => {
   const {element, about, count, percent, plural} = nearmiss.numbers, trade = nearmiss.tradeOf(raw), {scalar, colour, unit} = trade;
-  const panels = nearmiss.panels(trade), profile = nearmiss.profile(trade);
+  const panels = nearmiss.panels(trade), profile = nearmiss.profile(trade), stages = nearmiss.stages(trade);
   const subjectOf = (query, name) => query.subjects.find(s => s.subject === name);
   const list = element("div", {class: "queries"}), place = element("article", {class: "query", "aria-label": "Query", tabindex: "-1"});
 
@@ -42,7 +42,7 @@ nearmiss.tradeView = (raw, onChoose) => {
     buttons.forEach((b, k) => b.setAttribute("aria-pressed", String(k === i)));
     place.replaceChildren(element("h2", {}, query.query), headline(query), element("div", {class: "charts"}, panels.draw(query)),
       element("p", {class: "note"}, `${plural(query.cases, "case")}, ${count(query.contacts)} of them contacts. A circle is a subject in float, a square one in double. Dotted: the Pareto front. Errors are proved lower bounds.`),
-      element("h3", {}, "Figures"), table(query),
+      element("h3", {}, "Figures"), table(query), ...stages.draw(query),
       element("h3", {}, "All queries: performance profile"), profile.draw() || "",
       element("p", {class: "note"}, "The share of all cases with an answer that is not proved wrong beyond the tolerance, at no more than so many times the least time (Dolan and Moré). A query that a subject does not offer counts as unsolved. Dashed: in float."));
     place.scrollTop = 0;

@@ -85,6 +85,18 @@ class TradePage(unittest.TestCase):
         headline = self.browser.find(".headline").text
         self.assertIn(best if best else "No subject", headline)
 
+    def test_draws_the_stages_of_a_subject_that_has_them(self):
+        for number, query in enumerate(self.trade["queries"]):
+            self.all(".queries button")[number].click()
+            stages = {s["subject"]: s["stages"] for s in query["subjects"] if s["stages"]}
+            self.assertEqual(list(stages), ["collide-certified-double"])
+            figure = self.browser.find(".stages[data-subject=collide-certified-double]")
+            for bar, share in zip(figure.find_elements("css selector", ".bar-of-stages div"), (lambda s: s["calls"]["share"], lambda s: s["share_of_time"])):
+                widths = [part.rect["width"] / bar.rect["width"] for part in bar.find_elements("css selector", ".stage")]
+                self.assertEqual(len(widths), len(stages["collide-certified-double"]))
+                for width, stage in zip(widths, stages["collide-certified-double"]):
+                    self.assertAlmostEqual(width, share(stage), delta=0.005)
+
     def test_draws_the_profile(self):
         self.assertEqual(len(self.all(".curve")), len(self.trade["profile"]["curves"]))
 
