@@ -1,10 +1,12 @@
-# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [WITH SUBJECT] [PER_QUERY FOLDER] [LIBRARIES ...])
+# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [WITH SUBJECT] [PER_QUERY FOLDER] [STAGES HEADER FUNCTION] [LIBRARIES ...])
 #   NAME      its name on the command line
 #   HEADER    the adapter's header: relative to the calling file, or to the top of this project
 #   ADAPTER   the qualified name of the adapter's type
 #   LIBRARIES the libraries that the header needs. Their compile options and definitions apply only to this adapter
 #   OWN       a subject of this project: fuzz targets and property tests check its contracts, and relations require the
 #             same bits of it
+#   STAGES    the header and the qualified name of a StageTallyFunction (impl/subject/stages.hpp), for a subject that answers
+#             in stages: 'nearmiss trade' shows what each stage costs
 #   ISOLATED  never linked into a program with other subjects: for a library that defines the same symbols as another
 #             subject's library, such as another version of it. Fuzz targets and property tests, which ask subjects in
 #             their own process, do not include it
@@ -19,7 +21,7 @@
 # it.
 
 function(nearmiss_add_subject name header adapter)
-  cmake_parse_arguments(arg "OWN;ISOLATED" "WITH;PER_QUERY" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OWN;ISOLATED" "WITH;PER_QUERY" "STAGES;LIBRARIES" ${ARGN})
   string(MAKE_C_IDENTIFIER ${name} identifier)
   get_property(known GLOBAL PROPERTY NEARMISS_SUBJECTS)
   if(identifier IN_LIST known)
@@ -59,6 +61,7 @@ function(nearmiss_add_subject name header adapter)
   endif()
   set_property(GLOBAL APPEND_STRING PROPERTY NEARMISS_SUBJECT_${source}_FUNCTIONS
     "Subject subject_${identifier}() { return bind<${adapter}>(\"${name}\"); }\n")
+  set_property(GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_STAGES "${arg_STAGES}")
   if(arg_OWN)
     set_property(GLOBAL APPEND PROPERTY NEARMISS_OWN_SUBJECTS ${name})
   endif()
@@ -213,15 +216,24 @@ function(nearmiss_make_host identifier)
   get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_NAME)
   get_property(libraries GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_LIBRARIES)
   get_property(source GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_SOURCE)
+  get_property(stages GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_STAGES)
+  set(include "")
+  set(tally "")
+  if(stages)
+    list(GET stages 0 header)
+    list(GET stages 1 function)
+    set(include "#include \"${header}\"\n")
+    set(tally ", ${function}")
+  endif()
   set(main ${NEARMISS_GENERATED}/hosts/${identifier}.cpp)
   file(GENERATE OUTPUT ${main} CONTENT
 "// Written by CMake: the host of ${name}.
 #include <unistd.h>
 #include \"impl/host/serve.hpp\"
-namespace nearmiss {
+${include}namespace nearmiss {
 Subject subject_${identifier}();
 }
-int main() { _exit(nearmiss::run_built_in_host(nearmiss::subject_${identifier})); }
+int main() { _exit(nearmiss::run_built_in_host(nearmiss::subject_${identifier}${tally})); }
 ")
   add_executable(nearmiss_host_${identifier} ${main} $<TARGET_OBJECTS:nearmiss_subject_${source}>)
   target_link_libraries(nearmiss_host_${identifier} PRIVATE nearmiss_host)

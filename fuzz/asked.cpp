@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "fuzz/fuzzed_query.hpp"
+#include "fuzz/profiled_scene.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/subject/provenance.hpp"
 
@@ -50,6 +51,8 @@ const Subject& named_subject(const std::string& name, const Query& query) {
 }
 
 std::vector<const Subject*> chosen_subjects(const Query& query) {
+  if (const ProfiledScene* profiled = ProfiledScene::of_environment(query))
+    return {&named_subject(profiled->subject(), query)};
   const bool tiers = *instead_of_tiers == '\0';
   std::vector<std::string> names = names_in(instead_of_tiers);
   for (std::string& name : names_in(std::getenv("NEARMISS_SUBJECTS"))) names.push_back(std::move(name));

@@ -6,6 +6,8 @@
 ///                         offer this query
 /// NEARMISS_PLUGINS        files of plugins to ask where they offer this query, separated by colons
 /// NEARMISS_COMMANDS       command lines of programs to ask where they offer this query, one on each line
+/// NEARMISS_PROFILE        the profile.json of a scene: the target asks the profile's choice for the query alone, and
+///                         takes only cases within the scene's ranges
 /// NEARMISS_FUZZ_REPORTS   a folder: each violation becomes a case file there, and the target goes on
 /// NEARMISS_FEEDBACK       "off": no numeric features for the fuzzing engine (fuzz/feedback.hpp)
 /// NEARMISS_FUZZ_STATISTICS
@@ -24,6 +26,7 @@
 #include "fuzz/feedback.hpp"
 #include "fuzz/fuzzed_query.hpp"
 #include "fuzz/mutation.hpp"
+#include "fuzz/profiled_scene.hpp"
 #include "fuzz/statistics.hpp"
 #include "fuzz/violation.hpp"
 #include "oracles/confirmed.hpp"
@@ -79,15 +82,29 @@ const std::vector<Asked>& all_asked() {
   return all;
 }
 
+const ProfiledScene* profiled() {
+  static const ProfiledScene* const scene = ProfiledScene::of_environment(query());
+  return scene;
+}
+
+/// The scalar of the profile's choice: cases of the other one would ask nothing.
+Scalar profiled_scalar() { return all_asked().front().subject->scalar; }
+
+/// Whether the case may be asked: without a profile, any; with one, a case of its scene.
+bool is_wanted(const Case& c) {
+  return profiled() == nullptr || (c.scalar == profiled_scalar() && profiled()->contains(c));
+}
+
 }  // namespace
 }  // namespace nearmiss::fuzz
 
 using namespace nearmiss;
 
-/// Returns -1 for bytes that are not a case: libFuzzer then does not add them to the corpus.
+/// Returns -1 for bytes that are not a case, or not one of the profile's scene: libFuzzer then does not add them to the
+/// corpus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   auto c = case_from_bytes(fuzz::query(), {data, size});
-  if (!c) return -1;
+  if (!c || !fuzz::is_wanted(*c)) return -1;
   c->origin = "fuzz";
   fuzz::examine(*c, fuzz::all_asked());
   return 0;
@@ -105,18 +122,38 @@ static std::size_t put(const Case& c, std::uint8_t* data, std::size_t max_size) 
   return bytes.size();
 }
 
+static Case fresh(unsigned seed) {
+  if (const fuzz::ProfiledScene* p = fuzz::profiled()) return p->fresh_case(fuzz::profiled_scalar(), seed);
+  return fuzz::fresh_case(fuzz::query(), seed);
+}
+
+/// The bytes of a changed case, which a profile keeps in its scene; 0 where they do not fit.
+static std::size_t put_changed(Case c, unsigned seed, std::uint8_t* data, std::size_t max_size) {
+  if (const fuzz::ProfiledScene* p = fuzz::profiled()) p->bring_back(c, fuzz::profiled_scalar(), seed);
+  return put(c, data, max_size);
+}
+
+/// libFuzzer's own mutation. What a profile's target makes of it is a case of the scene again.
+static std::size_t mutate_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
+  const std::size_t mutated = LLVMFuzzerMutate(data, size, max_size);
+  if (fuzz::profiled() == nullptr) return mutated;
+  const auto c = case_from_bytes(fuzz::query(), {data, mutated});
+  const std::size_t filled = put_changed(c ? *c : fresh(seed), seed, data, max_size);
+  return filled != 0 ? filled : mutated;
+}
+
 /// A quarter of the mutations are libFuzzer's own mutations of bytes; the others change the case (fuzz/mutation.hpp).
 /// Bytes that are not a case are replaced by a generated case.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   auto c = case_from_bytes(fuzz::query(), {data, size});
-  if (c && seed % 4 == 0) return LLVMFuzzerMutate(data, size, max_size);
+  if (c && seed % 4 == 0) return mutate_bytes(data, size, max_size, seed);
   if (c) {
     fuzz::change(*c, seed);
   } else {
-    c = fuzz::fresh_case(fuzz::query(), seed);
+    c = fresh(seed);
   }
-  const std::size_t filled = put(*c, data, max_size);
+  const std::size_t filled = put_changed(*c, seed, data, max_size);
   return filled != 0 ? filled : LLVMFuzzerMutate(data, size, max_size);
 }
 
@@ -127,7 +164,7 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
   const auto other = case_from_bytes(fuzz::query(), {data2, size2});
   if (!c) return 0;
   if (other) fuzz::cross_over(*c, *other, seed);
-  return put(*c, out, max_out);
+  return put_changed(*c, seed, out, max_out);
 }
 
 /// Makes the list of subjects, which would otherwise count as coverage of the first case. Disables the length control

@@ -46,7 +46,8 @@ void replay(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytes_of(file);
   if (LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) != 0) {
     throw BadInput(
-        fmt::format("{}: no case of {}: too few bytes, or inputs that break a rule", file.string(), fuzzed_query));
+        fmt::format("{}: no case of {}: too few bytes, inputs that break a rule, or none of the profile's scene",
+                    file.string(), fuzzed_query));
   }
 }
 

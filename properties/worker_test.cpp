@@ -356,6 +356,7 @@ TEST(Worker, TimesTheCallOfEachCaseAndThenAnswersAsBefore) {
   EXPECT_GT(times->how.processor_nanoseconds, 0);
   EXPECT_GE(times->how.rounds, 1u);
   EXPECT_FALSE(times->how.typed);
+  EXPECT_EQ(times->stages, std::vector(50, AnswerStage::unknown));
   const std::vector<Answer> answers = worker.ask(offering(), inputs, 2);
   ASSERT_EQ(answers.size(), 50u);
   for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_EQ(answers[i].values[0], double(i));

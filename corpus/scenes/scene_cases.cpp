@@ -26,10 +26,14 @@ Random random_at(const Scene& scene, std::string_view query, int scalar, std::ui
   return Random(Random(Random(seed).bits() ^ stream).bits() ^ Random(index).bits());
 }
 
+double tolerable_error(const Scene& scene) {
+  return std::max(scene.required.position_error.value, scene.required.missed_depth.value);
+}
+
 /// A length of up to eight times the tolerable error, of either sign; in each of 25 octaves equally often.
 double draw_gap(Random& random, const Scene& scene) {
-  const double tolerable = std::max(scene.required.position_error.value, scene.required.missed_depth.value);
-  return random.sign() * tolerable * std::ldexp(random.uniform(1, 2), random.between(-22, 2));
+  constexpr int most = 2;  // 2 * 2^2: eight times the tolerable error
+  return random.sign() * tolerable_error(scene) * std::ldexp(random.uniform(1, 2), random.between(-22, most));
 }
 
 /// Two solids of a scene, the velocity of the first, and the time of the step.
@@ -189,6 +193,8 @@ void draw_recorded(Case& into, const Scene& scene, const MixedQuery& mixed, std:
 }
 
 }  // namespace
+
+double largest_gap(const Scene& scene) { return 8 * tolerable_error(scene); }
 
 void draw_case(Case& into, const Scene& scene, const Query& query, Scalar scalar, std::uint64_t seed,
                std::uint64_t index) {

@@ -23,6 +23,10 @@ Case draw_case(const Scene& scene, const Query& query, Scalar scalar, std::uint6
 void draw_case_inside(Case& into, const Scene& scene, const Query& query, Scalar scalar, std::uint64_t seed,
                       std::uint64_t index, Preconditions required);
 
+/// The largest gap or overlap of a case that is made near contact: eight times the tolerable error of places and
+/// depths.
+double largest_gap(const Scene& scene);
+
 /// Which query the `index`-th question of the mix asks: drawn by weight, the same on every machine.
 const Query& drawn_query(const Scene& scene, std::uint64_t seed, std::uint64_t index);
 

@@ -128,15 +128,15 @@ std::string refusal(const std::string& why) {
 
 int send_refusal(const std::string& why) { return write_all(wire::to_judge, refusal(why)) ? 0 : 1; }
 
-int run_built_in_host(Subject (*subject)()) {
+int run_built_in_host(Subject (*subject)(), StageTallyFunction stages) {
   // A program that a library starts with exec does not inherit the pipes.
   for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
     fcntl(file, F_SETFD, FD_CLOEXEC);
   FloatingPointModes::standard().set();  // a library may have changed them when it was loaded
-  return run_host(subject());
+  return run_host(subject(), stages);
 }
 
-int run_host(const Subject& subject) {
+int run_host(const Subject& subject, StageTallyFunction stages) {
   const auto* asked = mapped<const wire::SharedRequest>(wire::shared_request, PROT_READ);
   auto* answered = mapped<wire::SharedAnswers>(wire::shared_answers, PROT_READ | PROT_WRITE);
   if (asked == nullptr || answered == nullptr) {
@@ -145,7 +145,7 @@ int run_host(const Subject& subject) {
   }
   std::vector<OfferedFunctions> offers;
   for (const Offering& o : subject.offerings) {
-    if (o.offer != Offer::not_offered) offers.push_back({o.answer, o.time});
+    if (o.offer != Offer::not_offered) offers.push_back({o.answer, o.time, stages});
   }
   if (!write_all(wire::to_judge, hello_of(subject))) return 1;
   FloatingPointModes::standard().set();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "impl/host/wire.hpp"
+#include "impl/subject/stages.hpp"
 
 namespace nearmiss {
 
@@ -12,6 +13,7 @@ namespace nearmiss {
 struct OfferedFunctions {
   AnswerFunction answer;
   TimeFunction time = nullptr;
+  StageTallyFunction stages = nullptr;
 };
 
 /// Answers batches in shared memory until the judge closes the pipe. `offers` are the offers of the hello; empty: the
@@ -25,9 +27,9 @@ std::string hello_of(const Subject& subject);
 std::string refusal(const std::string& why);
 
 /// The main function of a host of this project: sends the hello, then serves. Returns the exit code.
-int run_host(const Subject& subject);
+int run_host(const Subject& subject, StageTallyFunction stages = nullptr);
 /// The same for a subject of this build, which is created after the pipes are protected.
-int run_built_in_host(Subject (*subject)());
+int run_built_in_host(Subject (*subject)(), StageTallyFunction stages = nullptr);
 /// Sends a refusal(); returns the exit code.
 int send_refusal(const std::string& why);
 

@@ -104,6 +104,17 @@ TimedRounds timed_rounds(const OfferedFunctions& offer, std::span<const double> 
   return rounds;
 }
 
+/// The stage that answers each case.
+std::vector<AnswerStage> stages_of(const OfferedFunctions& offer, std::span<const double> values, std::size_t inputs) {
+  std::vector<AnswerStage> stages;
+  for (std::size_t at = 0; at + inputs <= values.size(); at += inputs) {
+    const StageTally before = offer.stages();
+    use_value(offer.answer(values.subspan(at, inputs)));
+    stages.push_back(last_stage_between(before, offer.stages()));
+  }
+  return stages;
+}
+
 /// The time of each case's call in nanoseconds, without the cost of the clock; at least a tenth of a nanosecond.
 std::vector<double> nanoseconds_of(const TimedRounds& rounds, std::size_t cases) {
   static const double of_tick = nanoseconds_of_tick();
@@ -123,18 +134,20 @@ void time_batch(const OfferedFunctions& offer, const wire::SharedRequest& asked,
   const std::size_t first = asked.first, count = asked.count, inputs = asked.inputs, cases = count - first;
   const std::span<const double> values{asked.values.data() + first * inputs, cases * inputs};
   std::vector<double> times;
+  std::vector<AnswerStage> stages(cases, AnswerStage::unknown);
   const Answer outcome = answer_or_broke([&] {
     const PinnedThread pinned;
     const TimedRounds rounds = timed_rounds(offer, values, inputs);
     times = nanoseconds_of(rounds, cases);
+    if (offer.stages != nullptr) stages = stages_of(offer, values, inputs);
     answered.timed = {double(median_of(rounds.processor)) / double(cases), std::uint32_t(rounds.processor.size()),
                       offer.time != nullptr, pinned.is_pinned()};
     return Answer{};
   });
   const bool ok = outcome.status == Answer::Status::answered;
   for (std::size_t i = 0; i < cases; ++i) {
-    answered.heads[first + i] = {outcome.status, true, std::uint8_t(ok ? 1 : 0), outcome.cause, 0, outcome.given};
-    if (ok) answered.numbers[i] = times[i];
+    answered.heads[first + i] = {outcome.status, true, std::uint8_t(ok ? 2 : 0), outcome.cause, 0, outcome.given};
+    if (ok) answered.numbers[2 * i] = times[i], answered.numbers[2 * i + 1] = double(stages[i]);
     if (!ok) answered.reasons[first + i] = outcome.why;
   }
   answered.done.store(std::uint32_t(count), std::memory_order_release);

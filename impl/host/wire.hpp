@@ -35,7 +35,7 @@ struct SharedRequest {
   std::uint32_t inputs;
   std::uint32_t first, count;  ///< the host answers the cases [first, count)
   Rounding rounding;           ///< other than its_own: the answers also have the raised exceptions
-  bool timed;                  ///< the calls are timed: each answer has one number, the nanoseconds of the case's call
+  bool timed;                  ///< each answer has two numbers: nanoseconds of the case's call, and an AnswerStage
   AnswerFunction answer;       ///< replaces `offer` for a host that is a fork of this process
   std::array<double, max_values> values;
 };

@@ -77,6 +77,11 @@ void make_printable(Answer& a) {
 /// What a host may report as the time of a call, in nanoseconds.
 bool is_duration(double nanoseconds) { return nanoseconds >= 0 && std::isfinite(nanoseconds); }
 
+/// Whether a host's number is that of a stage.
+bool is_stage(double number) {
+  return number >= 0 && number <= double(AnswerStage::plain) && std::floor(number) == number;
+}
+
 std::string seconds_text(double s) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", s);
@@ -311,15 +316,17 @@ std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<co
   if (!is_shared()) return std::nullopt;
   const FloatingPointScope standard;
   put_request(offering, values, inputs_per_case);
-  outputs_ = 1;
+  outputs_ = 2;
   asked_->timed = true;
   request(0, count_);
   const std::span<const Answer> answers = receive();
   if (answers.size() < count_) return std::nullopt;
   Times times{{}, answered_->timed};
   for (const Answer& a : answers) {
-    if (a.status != Answer::Status::answered || a.count != 1 || !is_duration(a.values[0])) return std::nullopt;
+    if (a.status != Answer::Status::answered || a.count != 2 || !is_duration(a.values[0]) || !is_stage(a.values[1]))
+      return std::nullopt;
     times.nanoseconds.push_back(a.values[0]);
+    times.stages.push_back(AnswerStage(int(a.values[1])));
   }
   if (!is_duration(times.how.processor_nanoseconds)) return std::nullopt;
   return times;

@@ -14,6 +14,7 @@
 
 #include "impl/host/supervisor.hpp"
 #include "impl/host/wire.hpp"
+#include "impl/subject/stages.hpp"
 #include "impl/subject/subject.hpp"
 
 namespace nearmiss {
@@ -77,11 +78,12 @@ class Worker {
   std::uint8_t raised(std::size_t case_of_batch) const { return raised_.at(case_of_batch); }
 
   /// Times the calls for these cases, at most `capacity` and max_values numbers: nanoseconds for each case, the mean
-  /// of the batch's rounds. Empty where the host answers through pipes, where a call broke or the host was late, and
-  /// where the callback stopped the waiting.
+  /// of the batch's rounds, and the stage that answers it. Empty where the host answers through pipes, where a call
+  /// broke or the host was late, and where the callback stopped the waiting.
   struct Times {
     std::vector<double> nanoseconds;
     wire::TimedBatch how;
+    std::vector<AnswerStage> stages{};
   };
   std::optional<Times> time(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
 

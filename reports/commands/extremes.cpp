@@ -24,8 +24,8 @@ class ExtremesCommand : public Command {
              "them. At each place it asks every chosen subject, and keeps the worst proved errors and the wrong "
              "decisions. Contracts play no part: places where nothing is promised are measured too, and no "
              "finding there is a violation.",
-             "--profile takes the queries of a profile and their subjects; the cases are the generator's, because the "
-             "axes begin at sizes of 1 near the origin.",
+             "--profile takes the queries of a profile, their subjects, and the cases of its scene. The axes are the "
+             "scene's own ranges: the distance from the origin, the largest size, and the speed.",
              "The folder receives extremes.json and, where the build found the Debian package node-d3, "
              "extremes.html: one self-contained page with a heat map for each query and subject. After an "
              "interrupt both hold the finished part. A subject with 3 time-outs in a row of a map is not asked "
@@ -59,7 +59,9 @@ class ExtremesCommand : public Command {
     catch_interrupts();
     Extremes extremes({typed_command_line(), out_.empty() ? new_run_folder(seed) : std::filesystem::path(out_),
                        profile ? profile->queries() : selection_.queries(),
-                       profile ? profile->subjects() : selection_.subjects(), seed, cases_.value_or(default_cases)});
+                       profile ? profile->subjects() : selection_.subjects(), seed, cases_.value_or(default_cases),
+                       profile ? profile->scene().name : "",
+                       profile ? scene_map_cases(profile->scene()) : generated_map_cases()});
     extremes.sweep();
     extremes.write();
     fmt::print("{}\n{}\n", extremes.table(), extremes.summary());

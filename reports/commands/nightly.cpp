@@ -163,16 +163,18 @@ std::optional<Case> fuzzed_case(const fs::path& file) {
   return c;
 }
 
-/// Puts cases of the scene into the corpora of the targets, for them to start from.
+/// Puts cases of the scene into the corpora of the targets, for them to start from, in the scalars of the subjects that
+/// are asked them.
 void put_seeds_of(const scenes::Scene& scene, const FuzzTargets& found, const Run& run) {
   constexpr std::uint64_t seeds_of_scalar = 64;
   for (const FuzzTarget& t : found.targets) {
     const fs::path corpus = run.settings().folder / "corpus" / t.query->name;
     make_folder(corpus);
-    for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
+    for (const Subject* s : run.settings().subjects) {
+      if (s->offering(t.query->name).answer == nullptr) continue;
       for (std::uint64_t i = 0; i < seeds_of_scalar; ++i) {
-        const auto bytes = case_to_bytes(scenes::draw_case(scene, *t.query, scalar, run.settings().seed, i));
-        write_file(corpus / fmt::format("scene-{}-{}", name_of(scalar), i),
+        const auto bytes = case_to_bytes(scenes::draw_case(scene, *t.query, s->scalar, run.settings().seed, i));
+        write_file(corpus / fmt::format("scene-{}-{}", name_of(s->scalar), i),
                    {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
       }
     }
@@ -270,7 +272,8 @@ class NightlyCommand : public Command {
          "the fuzz targets are not built, the summary and the index say so, and the generated cases get their time.",
          "With --profile the night asks what a profile of 'nearmiss scene advise' offers, and nothing else: cases of "
          "its scene for each of its queries and subjects, their relations, and the fuzz targets of its queries, which "
-         "start from cases of the scene and ask all tiers of collide. Stored cases, climbs and property tests, which "
+         "ask the profile's choice alone, start from cases of the scene and stay in its ranges. Stored cases, climbs "
+         "and property tests, which "
          "know no scene, are left out, and the cases of the scene get their time.",
          "The night ends with a triage, as in 'nearmiss triage', for a tenth of the time (at most half an hour) or "
          "--triage-minutes: reports are grouped into signatures, and compared with those of the last night: new, worse "
@@ -408,6 +411,7 @@ class NightlyCommand : public Command {
     const Clock::time_point now = Clock::now();
     FuzzNight night{run.settings().folder,
                     foreign_subjects(),
+                    profile_.file,
                     jobs(),
                     between(now, end, merging_share),
                     [&] { run.tick(); },

@@ -36,8 +36,9 @@ class RenderCommand : public Command {
          "FOLDER, with one row for each query, subject and fault, or the newest run among its subfolders. Several runs "
          "in subfolders "
          "make a trend.",
-         "A file trade.json in FOLDER or in one of its subfolders gets a page of its own, trade.html beside it, with a "
-         "link from the page of the findings. A FOLDER with nothing else gets that page alone.",
+         "A file trade.json in FOLDER or in one of its subfolders is a view of the page: the price curves of each "
+         "query "
+         "and the performance profile. In a FOLDER without findings it gets a page of its own, trade.html beside it.",
          "For the plots the subject of each shown report is asked again with each number moved, the most severe "
          "first, for at most --seconds. Reports are added in the same order until the page has 18 MB; the table has "
          "all of them."},
@@ -64,7 +65,7 @@ class RenderCommand : public Command {
   int run(const CLI::App&) override {
     catch_interrupts();
     const bool has_page = has_findings();
-    if (write_trades(has_page ? "" : out_) && !has_page) return 0;
+    if (!has_page && write_trades()) return 0;
     check_page_can_be_written();  // before the work
     const fs::path file = out_.empty() ? fs::path(folder_) / "index.html" : fs::path(out_);
     PageData data(folder_, fs::absolute(file).parent_path());
@@ -79,11 +80,11 @@ class RenderCommand : public Command {
   }
 
  private:
-  /// Writes the pages of the trades of the folder; `only` is the place of the first. False where it has none.
-  bool write_trades(const std::string& only) const {
+  /// Writes the pages of the trades of the folder, the first to --out. False where it has none.
+  bool write_trades() const {
     const std::vector<fs::path> trades = trades_in(folder_);
     for (const fs::path& file : trades) {
-      const fs::path page = only.empty() || file != trades.front() ? usual_trade_page(file) : fs::path(only);
+      const fs::path page = out_.empty() || file != trades.front() ? usual_trade_page(file) : fs::path(out_);
       write_trade_page(file, page);
       fmt::print("1 trade in {} ({:.1f} MB)\n", page.string(), double(fs::file_size(page)) / 1e6);
     }

@@ -42,7 +42,7 @@ void count(ExtremesCell& cell, const Finding& f) {
 
 template <class Member>
 Json matrix(const ExtremesMap& m, Member member) {
-  const std::size_t columns = values_of(m.plane.x).size();
+  const std::size_t columns = m.plane.x.values.size();
   Json rows = Json::array();
   for (std::size_t i = 0; i < m.cells.size(); i += columns) {
     Json row = Json::array();
@@ -52,12 +52,7 @@ Json matrix(const ExtremesMap& m, Member member) {
   return rows;
 }
 
-Json axis_to_json(SweepAxis axis) {
-  const auto values = values_of(axis);
-  return {{"axis", name_of(axis).name},
-          {"unit", name_of(axis).unit},
-          {"values", std::vector<double>(values.begin(), values.end())}};
-}
+Json axis_to_json(const MapAxis& axis) { return {{"axis", axis.name}, {"unit", axis.unit}, {"values", axis.values}}; }
 
 Json map_to_json(const ExtremesMap& m) {
   return {{"query", m.query->name},
@@ -128,11 +123,12 @@ Extremes::Extremes(ExtremesSettings settings)
     throw IoError(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
   }
   for (const Query* q : settings_.queries) {
-    for (const SweepPlane& plane : planes_of(*q)) {
+    const std::vector<MapPlane> planes = settings_.source->planes_of(*q);
+    for (std::size_t p = 0; p < planes.size(); ++p) {
       for (const Subject* s : settings_.subjects) {
         if (s->offering(q->name).answer == nullptr) continue;
-        const std::size_t cells = values_of(plane.x).size() * values_of(plane.y).size();
-        maps_.push_back({q, s, plane, std::vector<ExtremesCell>(cells)});
+        const std::size_t cells = planes[p].x.values.size() * planes[p].y.values.size();
+        maps_.push_back({q, s, planes[p], p, std::vector<ExtremesCell>(cells)});
         total_ += cells * settings_.cases;
       }
     }
@@ -141,33 +137,30 @@ Extremes::Extremes(ExtremesSettings settings)
 
 void Extremes::sweep() {
   for (const Query* q : settings_.queries) {
-    for (const SweepPlane& plane : planes_of(*q)) {
+    const std::vector<MapPlane> planes = settings_.source->planes_of(*q);
+    for (std::size_t p = 0; p < planes.size(); ++p) {
       for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
-        progress_.set_activity(fmt::format("{}, {} and {}", q->name, name_of(plane.x).name, name_of(plane.y).name));
-        fill(*q, scalar, plane);
+        progress_.set_activity(fmt::format("{}, {} and {}", q->name, planes[p].x.name, planes[p].y.name));
+        fill(*q, scalar, p);
         if (interrupted()) return;
       }
     }
   }
 }
 
-void Extremes::fill(const Query& query, Scalar scalar, const SweepPlane& plane) {
+void Extremes::fill(const Query& query, Scalar scalar, std::size_t plane) {
   std::vector<ExtremesMap*> asked;
   for (ExtremesMap& m : maps_) {
-    const bool same_plane = m.plane.x == plane.x && m.plane.y == plane.y;
-    if (m.query == &query && m.subject->scalar == scalar && same_plane) asked.push_back(&m);
+    if (m.query == &query && m.subject->scalar == scalar && m.number_of_plane == plane) asked.push_back(&m);
   }
   if (asked.empty()) return;
-  const auto xs = values_of(plane.x), ys = values_of(plane.y);
-  for (std::size_t cell = 0; cell < xs.size() * ys.size() && !interrupted(); ++cell) {
-    if (cell % xs.size() == 0) {
+  const std::size_t columns = asked.front()->plane.x.values.size();
+  const MapCases::Cells cases_of = settings_.source->cells(query, plane, scalar, settings_.seed, settings_.cases);
+  for (std::size_t cell = 0; cell < asked.front()->cells.size() && !interrupted(); ++cell) {
+    if (cell % columns == 0) {
       for (ExtremesMap* m : asked) m->time_outs_in_row = 0;
     }
-    std::vector<Case> cases;
-    for (std::uint64_t i = 0; i < settings_.cases; ++i) {
-      auto c = sweep_case(query, scalar, settings_.seed, i, plane, xs[cell % xs.size()], ys[cell / xs.size()]);
-      if (c) cases.push_back(std::move(*c));
-    }
+    const std::vector<Case> cases = cases_of(cell);
     // Small batches: a subject that times out does so in most cases of a cell.
     constexpr std::size_t most = ExtremesMap::most_in_row;
     for (std::size_t at = 0; at < cases.size() && !interrupted(); at += most) {
@@ -187,6 +180,7 @@ void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std:
       asked.push_back(m->subject);
     }
   }
+  asked_ += asked.size() * cases.size();
   place_->at(maps, cell);
   campaign_.examine(asked, cases);
 }
@@ -197,6 +191,7 @@ nlohmann::ordered_json Extremes::to_json() const {
          {"command", settings_.command},
          {"seed", settings_.seed},
          {"cases_per_cell", settings_.cases},
+         {"scene", settings_.scene},
          {"maps", Json::array()}};
   for (const ExtremesMap& m : maps_) {
     if (begun(m) || !interrupted()) j["maps"].push_back(map_to_json(m));
@@ -263,8 +258,8 @@ std::string Extremes::summary() const {
     for (const ExtremesCell& c : m.cells) gave_up += c.gave_up;
   }
   return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
-                     plural_text(maps, "map"), plural_text(done_ - std::min(done_, gave_up), "case"),
-                     count_text(gave_up), (settings_.folder / "extremes.json").string(),
+                     plural_text(maps, "map"), plural_text(asked_, "case"), count_text(gave_up),
+                     (settings_.folder / "extremes.json").string(),
                      drawn ? " and extremes.html" : "; no page, for this build found no node-d3",
                      campaign_.internal_errors().text());
 }

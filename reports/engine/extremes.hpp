@@ -1,4 +1,5 @@
-/// Maps the worst errors of a subject over distance, size, speed, ratio of sizes and angle.
+/// Maps the worst errors of a subject over distance, size, speed, ratio of sizes and angle; over the ranges of a scene
+/// with the scene's own cases.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "corpus/sweep.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/engine/campaign.hpp"
+#include "reports/engine/map_cases.hpp"
 #include "reports/engine/progress.hpp"
 
 namespace nearmiss {
@@ -24,6 +25,8 @@ struct ExtremesSettings {
   std::vector<const Subject*> subjects;
   std::uint64_t seed = 1;
   std::uint64_t cases = 50;  ///< in each cell
+  std::string scene;         ///< its name; empty: generated cases
+  std::shared_ptr<const MapCases> source = generated_map_cases();
 };
 
 /// What is proved against the answers to the cases of one cell of a map. Contracts play no part: cells where nothing is
@@ -44,7 +47,8 @@ struct ExtremesCell {
 struct ExtremesMap {
   const Query* query;
   const Subject* subject;
-  SweepPlane plane;
+  MapPlane plane;
+  std::size_t number_of_plane;      ///< among those of the query
   std::vector<ExtremesCell> cells;  ///< row by row: y selects the row, x the column
   std::uint64_t time_outs = 0, time_outs_in_row = 0;
 
@@ -75,12 +79,12 @@ class Extremes {
   static std::optional<std::string> page(const nlohmann::ordered_json& report);
 
  private:
-  void fill(const Query& query, Scalar scalar, const SweepPlane& plane);
+  void fill(const Query& query, Scalar scalar, std::size_t plane);
   void ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases);
   ExtremesSettings settings_;
   std::vector<ExtremesMap> maps_;
   Progress progress_;
-  std::uint64_t done_ = 0, total_ = 0;
+  std::uint64_t done_ = 0, total_ = 0, asked_ = 0;
   class Place;
   std::unique_ptr<Place> place_;
   Campaign campaign_;

@@ -105,12 +105,12 @@ class Turns {
     if (left < shortest_turn || night_.cancelled()) return false;
     Contender* next = next_contender();
     if (next == nullptr) return false;
-    if (!next->sum) put_seeds(*next->target->query, night_.run_folder);
+    if (!next->sum && night_.profile.empty()) put_seeds(*next->target->query, night_.run_folder);
     night_.activity(fmt::format("fuzzing {}", next->target->query->name));
     const double turn = std::min(left, next->sum ? later_turn(left) : first_turn(left));
-    running_.push_back(
-        {next, std::make_unique<RunningTarget>(
-                   *next->target, FuzzBudget{night_.run_folder, night_.foreign, std::max(shortest_turn, turn)})});
+    running_.push_back({next, std::make_unique<RunningTarget>(
+                                  *next->target, FuzzBudget{night_.run_folder, night_.foreign, night_.profile,
+                                                            std::max(shortest_turn, turn)})});
     next->is_running = true;
     return true;
   }
@@ -199,8 +199,7 @@ bool merge(const FuzzTarget& target, const FuzzNight& night, const fs::path& cor
   Program p;
   p.arguments = {target.file.string(), "-merge=1", "-merge_control_file=" + beside(corpus, ".control").string(),
                  into.string(), corpus.string()};
-  p.environment = environment_for_added(night.foreign);
-  p.environment.push_back("NEARMISS_FUZZ_REPORTS=" + (night.run_folder / "fuzz").string());
+  p.environment = environment_of_target(night.foreign, night.run_folder, night.profile);
   p.log = (night.run_folder / "fuzz" / (std::string(target.query->name) + "-merge.log")).string();
   SupervisedProcess child(p, Confinement::none());
   while (!child.has_ended(patience_ms)) {

@@ -16,6 +16,7 @@ struct FuzzNight {
 
   std::filesystem::path run_folder;
   ForeignSubjects foreign;  ///< also asked
+  std::string profile;      ///< the file of the profile that the targets keep to, from cases of its scene; empty: none
   unsigned jobs = 1;        ///< how many targets run at once
   Clock::time_point until;
   std::function<void()> tick;  ///< called about 20 times a second

@@ -105,6 +105,14 @@ std::vector<std::string> environment_for_added(const ForeignSubjects& foreign) {
           fmt::format("{}={}", commands_variable, fmt::join(foreign.commands, "\n"))};
 }
 
+std::vector<std::string> environment_of_target(const ForeignSubjects& foreign, const fs::path& run_folder,
+                                               const std::string& profile) {
+  std::vector<std::string> environment = environment_for_added(foreign);
+  environment.push_back("NEARMISS_FUZZ_REPORTS=" + (run_folder / "fuzz").string());
+  if (!profile.empty()) environment.push_back("NEARMISS_PROFILE=" + fs::absolute(profile).string());
+  return environment;
+}
+
 FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
   if (folder) return targets_in(*folder, queries);
   std::string searched;
@@ -146,8 +154,7 @@ Program program_of(const FuzzTarget& target, const FuzzBudget& budget, const fs:
                  "-print_final_stats=1",
                  fmt::format("-timeout={}", seconds_for_one_case),
                  fmt::format("-rss_limit_mb={}", most_mebibytes)};
-  p.environment = environment_for_added(budget.foreign);
-  p.environment.push_back("NEARMISS_FUZZ_REPORTS=" + reports.string());
+  p.environment = environment_of_target(budget.foreign, budget.run_folder, budget.profile);
   p.environment.push_back(without_leaks());
   p.log = log.string();
   return p;

@@ -49,16 +49,22 @@ struct ForeignSubjects {
 /// of NEARMISS_ADD.
 std::vector<std::string> environment_for_added(const ForeignSubjects& foreign);
 
+/// The environment entries of a fuzz target: environment_for_added(), where its case files go, and the file of the
+/// profile that it keeps to, unless it is empty.
+std::vector<std::string> environment_of_target(const ForeignSubjects& foreign, const std::filesystem::path& run_folder,
+                                               const std::string& profile);
+
 struct FuzzBudget {
   std::filesystem::path run_folder;  ///< receives corpus/QUERY/ (kept), fuzz/ (case files, artifacts, logs)
   ForeignSubjects foreign;           ///< also asked
+  std::string profile;               ///< the file of the profile that the target keeps to; empty: none
   double seconds = 1;                ///< from the start of the process
 };
 
 /// A fuzz target that runs. It does not look for leaks: LeakSanitizer reads /proc, and ends a process whose number
 /// there is another one than its own, as it is in a host's namespace; the tests of the fuzz targets look for leaks. Its
-/// environment has NEARMISS_FUZZ_REPORTS=RUN_FOLDER/fuzz and environment_for_added(); its messages go to
-/// fuzz/QUERY.log, and to fuzz/QUERY-N.log where it ends with an error.
+/// environment has environment_of_target(); its messages go to fuzz/QUERY.log, and to fuzz/QUERY-N.log where it ends
+/// with an error.
 class RunningTarget {
  public:
   RunningTarget(const FuzzTarget& target, const FuzzBudget& budget);

@@ -1,7 +1,5 @@
 "use strict";
 /// The page's data (reports/page.schema.json) as rows that name their columns.
-const nearmiss = {};
-
 nearmiss.data = (() => {
   const raw = JSON.parse(document.getElementById("data").textContent);
   const wordColumns = new Set(["query", "subject", "version", "scalar", "fault", "member", "clause", "change",

@@ -1,5 +1,5 @@
 "use strict";
-/// The head of the page, the keys, and the switch between light and dark.
+/// The head of the page, its views, and the keys.
 (() => {
   const {data, table, finding, scene} = nearmiss, {element, count, plural} = nearmiss.numbers;
   const {summary} = data.raw, totals = summary.totals || {}, run = summary.run || {};
@@ -24,31 +24,23 @@
   if (trend) document.getElementById("trend").append(trend);
   const notes = [];
   for (const link of data.raw.extremes) notes.push(element("a", {href: link}, "maps of extremes"));
-  for (const link of data.raw.trades) notes.push(element("a", {href: link}, "the price of accuracy"));
   if (data.raw.skipped.length) {
     notes.push(element("details", {}, element("summary", {}, `${plural(data.raw.skipped.length, "file")} skipped`),
       element("ul", {}, data.raw.skipped.map(s => element("li", {}, `${s.file}: ${s.why}`)))));
   }
   if (notes.length) document.getElementById("verdict").after(element("p", {class: "notes"}, notes));
 
-  // --- light and dark ---
-  const root = document.documentElement;
-  const isDark = () => (root.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
-  function setTheme(theme) {
-    root.dataset.theme = theme;
-    try { localStorage.setItem("nearmiss-theme", theme); } catch (e) { /* a page of a file may have no storage */ }
-    scene.redraw();
-  }
-  try { if (localStorage.getItem("nearmiss-theme")) root.dataset.theme = localStorage.getItem("nearmiss-theme"); } catch (e) { /* as above */ }
-  const switchTheme = () => setTheme(isDark() ? "light" : "dark");
-  document.getElementById("theme").addEventListener("click", switchTheme);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => scene.redraw());
+  const switchTheme = nearmiss.theme.begin(() => scene.redraw());
+
+  // --- views ---
+  const views = nearmiss.views(data.raw.trades, () => (table.selected() < 0 ? "" : data.value(table.selected(), "id")));
+  const steps = () => views.shown() || table;
 
   // --- keys ---
   const keys = document.getElementById("keys"), filter = document.getElementById("filter");
   document.getElementById("help").addEventListener("click", () => keys.showModal());
   const actions = {
-    j: () => table.step(1), k: () => table.step(-1), ArrowDown: () => table.step(1), ArrowUp: () => table.step(-1),
+    j: () => steps().step(1), k: () => steps().step(-1), ArrowDown: () => table.step(1), ArrowUp: () => table.step(-1),
     Enter: () => finding.focus(), "/": () => { filter.focus(); filter.select(); }, "?": () => keys.showModal(),
     w: () => finding.choose("worst"), s: () => finding.choose("simplest"), c: () => finding.copyReplay(), t: switchTheme,
     1: () => scene.level("scene"), 2: () => scene.level("disagreement"), 3: () => scene.level("ulp"), Escape: () => table.focus(),
@@ -62,18 +54,19 @@
     if (isArrow && !e.target.closest("#table")) return;
     if (e.key === "Enter" && e.target.matches("button, a, summary")) return;
     const action = actions[e.key];
-    if (!action) return;
+    if (!action || (views.shown() && !"jkt?".includes(e.key))) return;
     e.preventDefault();
     action();
   });
 
-  // --- the selected signature is in the address ---
+  // --- the selected signature, or the trade and its query, are in the address ---
+  const wanted = location.hash.slice(1);
   table.begin(row => {
     finding.show(row);
     history.replaceState(null, "", `#${data.value(row, "id")}`);
   });
-  const wanted = location.hash.slice(1);
   const at = table.rows().findIndex(row => data.value(row, "id") === wanted);
   if (data.count > 0) table.select(Math.max(0, at));
   else document.getElementById("finding").append(element("p", {class: "note"}, "Nothing was found."));
+  views.open(wanted);
 })();

@@ -1,5 +1,7 @@
 "use strict";
 /// Numbers and elements for readers.
+const nearmiss = {};
+
 nearmiss.numbers = (() => {
   /// The shortest decimal that reads back as the same number of the scalar.
   function exact(x, scalar) {

@@ -26,8 +26,10 @@ constexpr const char* three_folder = nullptr;
 #endif
 
 /// Later files use earlier ones.
-constexpr const char* page_scripts[] = {"data.js",  "numbers.js", "shapes.js",  "scene.js", "plot.js",
-                                        "trend.js", "table.js",   "finding.js", "main.js"};
+constexpr const char* page_scripts[] = {"numbers.js",      "theme.js",      "data.js",         "shapes.js",
+                                        "scene.js",        "plot.js",       "trend.js",        "table.js",
+                                        "finding.js",      "trade_data.js", "trade_panels.js", "trade_profile.js",
+                                        "trade_stages.js", "trade_view.js", "views.js",        "main.js"};
 
 std::string page_file(const std::string& name) { return read_file(source_folder() + "/reports/page/" + name); }
 
@@ -60,7 +62,7 @@ void check_page_can_be_written() {
 std::string page_with(const nlohmann::ordered_json& data) {
   check_page_can_be_written();
   std::string page = page_file("page.html");
-  put_in_page(page, "/*STYLE*/", page_file("page.css"));
+  put_in_page(page, "/*STYLE*/", page_file("page.css") + page_file("trade.css"));
   put_in_page(page, "/*D3*/", for_a_script(read_file(d3_file)));
   put_in_page(page, "/*THREE*/", for_a_script(three_text()));
   put_in_page(page, "/*SCRIPTS*/", for_a_script(scripts_text()));

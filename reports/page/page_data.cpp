@@ -188,6 +188,7 @@ constexpr const char* plain_columns[] = {"id",      "severity", "count", "findin
 
 /// Further rows have no headline of their own: 100,000 of them would be most of the page.
 constexpr std::size_t most_headlines = 20'000;
+constexpr std::size_t most_trade_data = 6'000'000;  ///< bytes: a third of the page, so that it has reports too
 
 Json columns_of_rows() {
   Json columns = Json::array();
@@ -238,6 +239,7 @@ PageData::PageData(fs::path folder, fs::path page_folder)
   } else {
     throw BadInput(fmt::format("{}: it holds neither triage.json nor a run's index.json", folder_.string()));
   }
+  trades_ = trades_for_page(folder_, most_trade_data, skipped_);
   sort_signatures();
 }
 
@@ -402,15 +404,6 @@ Json PageData::extremes() const {
   return pages;
 }
 
-Json PageData::trades() const {
-  Json pages = Json::array();
-  for (const fs::path& file : trades_in(folder_)) {
-    const fs::path page = usual_trade_page(file);
-    if (fs::exists(page)) pages.push_back(link_to(page));
-  }
-  return pages;
-}
-
 nlohmann::ordered_json PageData::to_json() const {
   PageWords words;
   Json rows = Json::array();
@@ -428,7 +421,7 @@ nlohmann::ordered_json PageData::to_json() const {
           {"trend", trend_},
           {"skipped", skipped_},
           {"extremes", extremes()},
-          {"trades", trades()},
+          {"trades", trades_},
           {"words", words.words()},
           {"columns", columns_of_rows()},
           {"rows", rows},

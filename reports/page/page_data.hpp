@@ -50,10 +50,9 @@ class PageData {
   std::string link_to(const std::filesystem::path& file) const;
   Json details_of(const Json& signature) const;
   Json extremes() const;
-  Json trades() const;
 
   std::filesystem::path folder_, page_folder_, run_;  ///< paths of reports are relative to `run_`
-  Json summary_, trend_ = Json::array(), skipped_ = Json::array();
+  Json summary_, trend_ = Json::array(), trades_ = Json::array(), skipped_ = Json::array();
   std::vector<Json> signatures_;  ///< in the form of triage.json
   std::vector<Json> reports_;     ///< of the first signatures: {"worst", "simplest"}; the second may be null: the same
   std::size_t internal_errors_ = 0;

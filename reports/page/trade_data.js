@@ -1,8 +1,6 @@
 "use strict";
-/// The measured trade, and the look of its subjects.
-const nearmiss = {};
-nearmiss.trade = (() => {
-  const raw = JSON.parse(document.getElementById("data").textContent);
+/// A measured trade (reports/trade.schema.json), and the look of its subjects.
+nearmiss.tradeOf = raw => {
   const families = [["collide-fast", "fast"], ["collide-accurate", "accurate"], ["collide-certified", "certified"], ["fcl", "fcl"],
     ["bullet", "bullet"], ["ode", "ode"], ["libccd", "libccd"]];
   const family = name => (families.find(([start]) => name.startsWith(start)) || [null, "other"])[1];
@@ -12,4 +10,4 @@ nearmiss.trade = (() => {
   /// Shorter for pictures: "certified-float".
   const short = name => name.replace(/^collide-/, "");
   return {raw, family, scalar, colour, unit, short};
-})();
+};

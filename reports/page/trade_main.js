@@ -1,79 +1,17 @@
 "use strict";
-/// The head of the page, the list of queries, and the chosen query.
+/// The page of a trade alone: its head and its keys.
 (() => {
-  const {raw, scalar, colour, unit} = nearmiss.trade, {element, about, count, percent, plural} = nearmiss.numbers;
-  const subjectOf = (query, name) => query.subjects.find(s => s.subject === name);
-
-  // --- head ---
-  const machine = raw.machine;
+  const raw = JSON.parse(document.getElementById("data").textContent);
   document.getElementById("run").textContent = [raw.scene || "generated cases", raw.started.replace("T", " ").replace(/:\d\dZ$/, " UTC"), `nearmiss ${raw.environment.nearmiss}`].join(" · ");
-  const limit = `${about(raw.tolerance.error)} ${unit}`;
-  document.getElementById("verdict").textContent = `${raw.title ? `${raw.title}. ` : ""}${plural(raw.cases, "case")} of each query, the same for every subject; sampled, seed ${raw.seed}. `
-    + `Tolerable error: ${limit} (${raw.tolerance.source}). ${machine.processor || "Unknown processor"}, ${plural(machine.processors, "processor")}, load ${about(machine.load)}; median of ${plural(raw.repeats, "repeat")}.`;
-
-  // --- light and dark ---
-  const root = document.documentElement;
-  const isDark = () => (root.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
-  try { if (localStorage.getItem("nearmiss-theme")) root.dataset.theme = localStorage.getItem("nearmiss-theme"); } catch (e) { /* a page of a file may have no storage */ }
-  const switchTheme = () => {
-    root.dataset.theme = isDark() ? "light" : "dark";
-    try { localStorage.setItem("nearmiss-theme", root.dataset.theme); } catch (e) { /* as above */ }
-  };
-  document.getElementById("theme").addEventListener("click", switchTheme);
-
-  // --- the list ---
-  const list = document.getElementById("queries"), buttons = [];
-  raw.queries.forEach((query, i) => {
-    const best = query.cheapest && subjectOf(query, query.cheapest);
-    const button = element("button", {type: "button", "aria-pressed": "false", onclick: () => choose(i)}, element("b", {}, query.query),
-      element("small", {class: best ? null : "none"}, best ? best.subject : "none meets it"), element("span", {class: "ns"}, best ? `${about(best.time.call.p50)} ns` : ""));
-    buttons.push(button);
-    list.append(button);
-  });
-
-  // --- the chosen query ---
-  const cell = (text, name = "n") => element("td", {class: name}, text);
-  function row(s) {
-    const t = s.time, failed = s.requirements.filter(r => r.state === "failed"), open = s.requirements.some(r => r.state === "met so far");
-    const why = s.requirements.map(r => `${r.name}: ${about(r.worst)}, at most ${about(r.limit)} ${r.unit}: ${r.state}`).join("\n");
-    return element("tr", {}, element("th", {}, element("i", {class: `mark ${scalar(s.subject)}`, style: `--own: ${colour(s.subject)}`}), s.subject),
-      cell(t ? about(t.call.p50) : "–"), cell(t ? about(t.call.p99) : "–"), cell(t ? about(t.call.max) : "–"),
-      cell(t ? `${about(t.median_of_repeats.low)} … ${about(t.median_of_repeats.high)}` : "–"),
-      cell(t && t.calls_per_second ? about(t.calls_per_second / 1e6) : "–"), cell(s.error ? about(s.error.max) : "–"),
-      cell(s.forward_ulps ? about(s.forward_ulps.p50) : "–"), cell(s.forward_ulps ? about(s.forward_ulps.p99) : "–"), cell(s.forward_ulps ? about(s.forward_ulps.max) : "–"),
-      cell(s.missed.of ? percent(s.missed.share) : "–"), cell(s.phantom.of ? percent(s.phantom.share) : "–"), cell(s.broke.count ? percent(s.broke.share) : "0"),
-      element("td", {class: s.meets_all ? "meets" : "fails", title: why}, s.meets_all ? (open ? "so far" : "yes") : `no: ${failed.map(r => r.name).join(", ") || "nothing compared"}`),
-      element("td", {}, s.time && s.time.how !== "typed calls" ? s.time.how : ""));
-  }
-  function table(query) {
-    const heads = ["subject", "ns p50", "p99", "max", "p50 of repeats", "million/s", "error", "ulps p50", "p99", "max", "missed", "phantom", "broke", "meets", ""];
-    return element("div", {class: "scroll"}, element("table", {}, element("thead", {}, element("tr", {}, heads.map((h, i) => element("th", {class: i > 0 && i < 13 ? "n" : null}, h)))),
-      element("tbody", {}, query.subjects.map(row))));
-  }
-  function headline(query) {
-    const best = query.cheapest && subjectOf(query, query.cheapest);
-    if (!best) return element("p", {class: "headline"}, "No subject meets every requirement.");
-    return element("p", {class: "headline"}, "The cheapest that meets it: ", element("b", {}, best.subject), `, ${about(best.time.call.p50)} ns a call, `,
-      `at most ${percent(best.beyond.high)} of its answers beyond the tolerance with 95 % confidence.`);
-  }
-  function choose(i) {
-    const query = raw.queries[i], place = document.getElementById("query");
-    buttons.forEach((b, k) => b.setAttribute("aria-pressed", String(k === i)));
-    place.replaceChildren(element("h2", {}, query.query), headline(query), element("div", {class: "charts"}, nearmiss.panels.draw(query)),
-      element("p", {class: "note"}, `${plural(query.cases, "case")}, ${count(query.contacts)} of them contacts. A circle is a subject in float, a square one in double. Dotted: the Pareto front. Errors are proved lower bounds.`),
-      element("h3", {}, "Figures"), table(query),
-      element("h3", {}, "All queries: performance profile"), nearmiss.profile.draw() || "",
-      element("p", {class: "note"}, "The share of all cases with an answer that is not proved wrong beyond the tolerance, at no more than so many times the least time (Dolan and Moré). A query that a subject does not offer counts as unsolved. Dashed: in float."));
-    place.scrollTop = 0;
-    history.replaceState(null, "", `#${query.query}`);
-  }
-  const wanted = raw.queries.findIndex(q => `#${q.query}` === location.hash);
-  if (raw.queries.length > 0) choose(Math.max(0, wanted));
-  else document.getElementById("query").append(element("p", {class: "note"}, "No query was measured."));
+  const switchTheme = nearmiss.theme.begin();
+  const view = nearmiss.tradeView(raw, query => history.replaceState(null, "", `#${query}`));
+  document.getElementById("verdict").textContent = view.description;
+  document.querySelector("main").append(...view.elements);
+  view.begin(location.hash.slice(1));
   document.addEventListener("keydown", e => {
     if (e.ctrlKey || e.metaKey || e.altKey) return;
-    const at = buttons.findIndex(b => b.getAttribute("aria-pressed") === "true"), step = {j: 1, k: -1}[e.key];
-    if (step && buttons[at + step]) { choose(at + step); buttons[at + step].scrollIntoView({block: "nearest"}); }
+    const step = {j: 1, k: -1}[e.key];
+    if (step) view.step(step);
     if (e.key === "t") switchTheme();
   });
 })();

@@ -23,8 +23,8 @@ constexpr const char* d3_of_trades = nullptr;
 #endif
 
 /// Later files use earlier ones.
-constexpr const char* trade_scripts[] = {"trade_data.js", "numbers.js", "trade_panels.js", "trade_profile.js",
-                                         "trade_main.js"};
+constexpr const char* trade_scripts[] = {"numbers.js",       "theme.js",        "trade_data.js", "trade_panels.js",
+                                         "trade_profile.js", "trade_stages.js", "trade_view.js", "trade_main.js"};
 
 std::string file_of_trade_page(const std::string& name) { return read_file(source_folder() + "/reports/page/" + name); }
 
@@ -32,6 +32,22 @@ std::string scripts_of_trade_page() {
   std::string text;
   for (const char* file : trade_scripts) text += file_of_trade_page(file) + "\n";
   return text;
+}
+
+/// Null for a file that is no trade.
+nlohmann::ordered_json trade_in(const fs::path& file) {
+  nlohmann::ordered_json trade = nlohmann::ordered_json::parse(read_file(file), nullptr, /*allow_exceptions=*/false);
+  const bool is_trade = trade.is_object() && trade.contains("schema") && trade["schema"] == 1 &&
+                        trade.contains("profile") && trade.contains("queries") && trade.contains("tolerance");
+  return is_trade ? trade : nullptr;
+}
+
+/// The scene of a trade, with its folder where another trade of the page has the same name.
+std::string tab_name(const nlohmann::ordered_json& trade, const fs::path& file, const nlohmann::ordered_json& others) {
+  const bool has_scene = trade.contains("scene") && trade["scene"].is_string() && trade["scene"] != "";
+  const std::string name = has_scene ? trade["scene"].get<std::string>() : "generated cases";
+  const bool is_taken = std::any_of(others.begin(), others.end(), [&](const auto& o) { return o["name"] == name; });
+  return is_taken ? fmt::format("{} ({})", name, file.parent_path().filename().string()) : name;
 }
 
 }  // namespace
@@ -65,12 +81,29 @@ std::vector<fs::path> trades_in(const fs::path& folder) {
   return files;
 }
 
+nlohmann::ordered_json trades_for_page(const fs::path& folder, std::size_t byte_limit,
+                                       nlohmann::ordered_json& skipped) {
+  nlohmann::ordered_json trades = nlohmann::ordered_json::array();
+  std::size_t bytes = 0;
+  for (const fs::path& file : trades_in(folder)) {
+    const nlohmann::ordered_json trade = trade_in(file);
+    const std::size_t size = trade.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).size();
+    const char* why = trade.is_null()             ? "it is not a trade of schema 1"
+                      : bytes + size > byte_limit ? "the page has no room for this trade; its folder can have its own"
+                                                  : nullptr;
+    if (why != nullptr) {
+      skipped.push_back({{"file", file.string()}, {"why", why}});
+      continue;
+    }
+    bytes += size;
+    trades.push_back({{"name", tab_name(trade, file, trades)}, {"trade", trade}});
+  }
+  return trades;
+}
+
 void write_trade_page(const fs::path& trade_file, const fs::path& page) {
-  const nlohmann::ordered_json trade =
-      nlohmann::ordered_json::parse(read_file(trade_file), nullptr, /*allow_exceptions=*/false);
-  const bool is_trade = trade.is_object() && trade.value("schema", 0) == 1 && trade.contains("profile") &&
-                        trade.contains("queries") && trade.contains("tolerance");
-  if (!is_trade) throw BadInput(fmt::format("{}: it is not a trade of schema 1", trade_file.string()));
+  const nlohmann::ordered_json trade = trade_in(trade_file);
+  if (trade.is_null()) throw BadInput(fmt::format("{}: it is not a trade of schema 1", trade_file.string()));
   write_file(page, trade_page_with(trade));
 }
 

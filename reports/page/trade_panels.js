@@ -1,7 +1,7 @@
 "use strict";
 /// The price curve of a query: time to the right, and in panels the proved error, the missed and the phantom contacts.
-nearmiss.panels = (() => {
-  const {raw, scalar, colour, unit, short} = nearmiss.trade, {about, percent} = nearmiss.numbers;
+nearmiss.panels = ({raw, scalar, colour, unit, short}) => {
+  const {about, percent} = nearmiss.numbers;
   const width = 900, left = 64, right = 24, band = 20;
 
   const costOf = s => s.time.call.p50;
@@ -105,4 +105,4 @@ nearmiss.panels = (() => {
       ratePanel(query, "phantom", "phantom contacts, share of the reported contacts, with 95 % intervals; dashed: the limit for wider ones", raw.tolerance.phantom_rate, true)];
   }
   return {draw};
-})();
+};

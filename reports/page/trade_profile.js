@@ -1,7 +1,7 @@
 "use strict";
 /// The performance profile over all queries.
-nearmiss.profile = (() => {
-  const {raw, scalar, colour, short} = nearmiss.trade, {percent} = nearmiss.numbers;
+nearmiss.profile = ({raw, scalar, colour, short}) => {
+  const {percent} = nearmiss.numbers;
 
   function draw() {
     const {taus, curves} = raw.profile;
@@ -29,4 +29,4 @@ nearmiss.profile = (() => {
     return root.node();
   }
   return {draw};
-})();
+};

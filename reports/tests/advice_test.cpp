@@ -263,6 +263,9 @@ TEST(ProfileOption, AsksEachQueryOfItsSubjectAlone) {
   const Ran map = nearmiss({"extremes", "--profile", profile, "--cases", "1", "--out", out});
   EXPECT_EQ(map.exit_code, 0) << map.out << map.err;
   expect_pairs_alone(map.out);
+  const json maps = json::parse(read_file(folder / "out" / "extremes.json"));
+  EXPECT_EQ(complaints(maps, "extremes.schema.json"), "");
+  EXPECT_EQ(maps.at("scene"), "recorded");
   const Ran related = nearmiss({"relations", "--profile", profile, "--cases", "20", "--seed", "1", "--out", out});
   EXPECT_EQ(related.exit_code, 0) << related.out << related.err;
   EXPECT_EQ(related.out.find("collide-certified"), std::string::npos) << related.out;

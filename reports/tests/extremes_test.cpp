@@ -1,11 +1,15 @@
 /// The maps of extremes: their JSON, their page, and that they show known errors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/scenes/scene_cases.hpp"
 #include "corpus/sweep.hpp"
 #include "impl/subject/subject.hpp"
+#include "reports/engine/map_cases.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -126,6 +130,58 @@ TEST(Extremes, GiveTheSameMapsForTheSameSeed) {
   const std::vector<std::string> words{"--query", "moving_point_plane", "--subject", "collide-fast-float", "--cases",
                                        "5"};
   EXPECT_EQ(swept(one, words).at("maps"), swept(two, words).at("maps"));
+}
+
+const MapAxis& axis_of(const MapPlane& plane, const std::string& name) {
+  for (const MapAxis* a : {&plane.x, &plane.y}) {
+    if (a->name == name) return *a;
+  }
+  throw std::logic_error("no axis " + name);
+}
+
+void expect_within(const MapAxis& axis, double least, double most) {
+  for (const double v : axis.values) {
+    EXPECT_GE(v, least) << axis.name;
+    EXPECT_LE(v, most) << axis.name;
+  }
+  EXPECT_TRUE(std::is_sorted(axis.values.begin(), axis.values.end()));
+}
+
+/// Cars and people of the scene driving: 10^5 to 10^6 m from the origin, 0.25 to 3 m large, 16.7 to 40 m/s fast.
+TEST(SceneMaps, HaveTheRangesOfTheScene) {
+  const scenes::Scene scene = scenes::load_scene("driving");
+  const auto source = scene_map_cases(scene);
+  const std::vector<MapPlane> planes = source->planes_of(*find_query("moving_sphere_box"));
+  ASSERT_EQ(planes.size(), 2u);
+  const double corner = 2000 * std::sqrt(3.0) + 10;  // of the cube, and the way of a step
+  expect_within(axis_of(planes[0], "distance"), 1e5 - corner, 1e6 + corner);
+  expect_within(axis_of(planes[0], "size"), 0.7, 3);
+  expect_within(axis_of(planes[1], "speed"), 16.7, 40);
+  EXPECT_EQ(axis_of(planes[0], "distance").unit, "metre from the origin");
+  EXPECT_EQ(axis_of(planes[1], "speed").unit, "metre a second");
+  for (const MapPlane& p : planes) EXPECT_EQ(p.x.values.size() * p.y.values.size(), 64u);
+}
+
+/// Each case of a cell is one of the scene, nearer to the cell's distance than to that of any other column.
+TEST(SceneMaps, SortTheCasesOfTheSceneIntoCells) {
+  const scenes::Scene scene = scenes::load_scene("driving");
+  const Query& query = *find_query("moving_sphere_box");
+  const auto source = scene_map_cases(scene);
+  const MapPlane plane = source->planes_of(query)[0];
+  const MapCases::Cells cells = source->cells(query, 0, Scalar::float64, 3, 4);
+  std::size_t all = 0, columns = plane.x.values.size();
+  for (std::size_t cell = 0; cell < columns * plane.y.values.size(); ++cell) {
+    const std::vector<Case> cases = cells(cell);
+    EXPECT_LE(cases.size(), 4u);
+    all += cases.size();
+    for (const Case& c : cases) {
+      EXPECT_EQ(c.values, scenes::draw_case(scene, query, Scalar::float64, 3, c.index).values);
+      const double distance = std::hypot(c.values[0], c.values[1], c.values[2]);
+      const auto of = [&](std::size_t column) { return std::abs(std::log(distance / plane.x.values[column])); };
+      for (std::size_t other = 0; other < columns; ++other) EXPECT_LE(of(cell % columns), of(other) + 1e-4);
+    }
+  }
+  EXPECT_GT(all, 64u * 3);
 }
 
 TEST(Sweeps, MakeCasesThatAreValidAndExactInTheirScalarForMostPlaces) {

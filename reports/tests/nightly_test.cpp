@@ -30,8 +30,14 @@ FuzzTarget target(const TemporaryFolder& folder, const Query& query, const std::
 }
 
 FuzzNight night_of(const TemporaryFolder& folder, unsigned jobs, std::chrono::milliseconds time) {
-  return {folder / "run",           {}, jobs, FuzzNight::Clock::now() + time, [] {}, [] { return false; },
-          [](const std::string&) {}};
+  FuzzNight night;
+  night.run_folder = folder / "run";
+  night.jobs = jobs;
+  night.until = FuzzNight::Clock::now() + time;
+  night.tick = [] {};
+  night.cancelled = [] { return false; };
+  night.activity = [](const std::string&) {};
+  return night;
 }
 
 const FuzzOutcome* of(const FuzzNightOutcome& o, const Query& query) {
@@ -72,6 +78,22 @@ TEST(FuzzNight, GivesMoreTurnsToATargetThatFindsNewInputs) {
   ASSERT_NE(of(o, poor), nullptr);
   EXPECT_GT(of(o, rich)->seconds, of(o, poor)->seconds);
   EXPECT_EQ(of(o, rich)->new_inputs, 50 * of(o, rich)->turns);
+}
+
+TEST(FuzzNight, TellsTargetsTheirProfileAndPutsNoOtherSeeds) {
+  const TemporaryFolder folder;
+  const Query& query = catalogue()[0];
+  const std::string told =
+      "echo \"$NEARMISS_PROFILE\" > \"$NEARMISS_FUZZ_REPORTS/told\"\n" + std::string(some_executions);
+  FuzzNight night = night_of(folder, 1, 1500ms);
+  night.profile = "profile.json";
+  fuzz_in_turns({target(folder, query, told)}, night);
+  EXPECT_EQ(read_file(folder / "run" / "fuzz" / "told"), fs::absolute("profile.json").string() + "\n");
+  EXPECT_TRUE(fs::is_empty(folder / "run" / "corpus" / query.name));
+  night = night_of(folder, 1, 1500ms);
+  fuzz_in_turns({target(folder, query, told)}, night);
+  EXPECT_EQ(read_file(folder / "run" / "fuzz" / "told"), "\n");
+  EXPECT_FALSE(fs::is_empty(folder / "run" / "corpus" / query.name));
 }
 
 TEST(FuzzNight, StopsTurnsOfATargetThatFailsAgainAndAgain) {

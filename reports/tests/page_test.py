@@ -10,43 +10,22 @@ Exit code 77: Chromium, its driver or python3-selenium is not installed, or the 
 import argparse
 import base64
 import json
-import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
-TOP = pathlib.Path(__file__).resolve().parent.parent.parent
-CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
-
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    print("skipped: python3-selenium is not installed")
-    sys.exit(77)
-for program in (CHROMIUM, DRIVER):
-    if not os.path.exists(program):
-        print(f"skipped: {program} is not installed")
-        sys.exit(77)
+sys.dont_write_bytecode = True  # the source tree stays as it is
+from browser import TOP, Browser, Nearmiss
+from selenium.webdriver.common.keys import Keys
 
 ARGUMENTS = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 ARGUMENTS.add_argument("--build", type=pathlib.Path, required=True)
 ARGUMENTS.add_argument("--images", type=pathlib.Path)
 ARGUMENTS.add_argument("tests", nargs="*", metavar="TEST", help="only these: Page.test_sorts")
 OPTIONS = ARGUMENTS.parse_args()
-PROGRAM = OPTIONS.build / "reports" / "nearmiss"
-
-
-def nearmiss(*arguments, codes=(0,)):
-    ran = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=TOP)
-    if ran.returncode not in codes:
-        raise AssertionError(f"nearmiss {arguments}: exit {ran.returncode}: {ran.stderr}")
-    return ran.stdout
+nearmiss = Nearmiss(OPTIONS.build)
 
 
 def signature(report, number, file):
@@ -84,46 +63,6 @@ def reports_of_every_query():
     return json.loads(nearmiss("replay", "--json", "-s", "collide-fast-double", *with_hit))
 
 
-class Browser:
-    def __init__(self):
-        options = webdriver.ChromeOptions()
-        options.binary_location = CHROMIUM
-        for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        self.driver = webdriver.Chrome(service=Service(DRIVER), options=options)
-        self.resize(1280, 800)
-
-    def resize(self, width, height):
-        self.cdp("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-
-    def cdp(self, command, **arguments):
-        return self.driver.execute_cdp_cmd(command, arguments)
-
-    def open(self, page):
-        self.driver.get(pathlib.Path(page).resolve().as_uri())
-
-    def run(self, script, *arguments):
-        return self.driver.execute_script(script, *arguments)
-
-    def keys(self, *keys):
-        webdriver.ActionChains(self.driver).send_keys(*keys).perform()
-
-    def find(self, selector):
-        return self.driver.find_element(By.CSS_SELECTOR, selector)
-
-    def errors(self):
-        """Without what the driver says about the tests' own reading of pixels."""
-        return [e["message"] for e in self.driver.get_log("browser") if "GPU stall due to ReadPixels" not in e["message"]]
-
-    def requests(self):
-        messages = [json.loads(e["message"])["message"] for e in self.driver.get_log("performance")]
-        return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
-
-    def screenshot(self):
-        return base64.b64decode(self.cdp("Page.captureScreenshot", format="webp", quality=88)["data"])
-
-
 # How many pixels of the picture have a colour, and how many colours there are.
 COUNT_PIXELS = """
 const from = document.querySelector('.frame canvas'), to = document.createElement('canvas');
@@ -144,16 +83,12 @@ class Page(unittest.TestCase):
         folder = cls.folder = pathlib.Path(cls.kept.name)
         cls.reports = reports_of_every_query()
         write_triage(folder, cls.reports, len(cls.reports))
-        lacks = subprocess.run([PROGRAM, "render", folder, "--seconds", "20"], capture_output=True, text=True)
-        if lacks.returncode == 2 and "this build writes no pages" in lacks.stderr:
-            print("skipped: " + lacks.stderr.strip())
-            os._exit(77)
-        assert lacks.returncode == 0, lacks.stderr
+        nearmiss("render", folder, "--seconds", 20)
         cls.browser = Browser()
 
     @classmethod
     def tearDownClass(cls):
-        cls.browser.driver.quit()
+        cls.browser.quit()
         cls.kept.cleanup()
 
     def setUp(self):
@@ -314,9 +249,7 @@ class Page(unittest.TestCase):
 
     def test_asks_no_network(self):
         self.browser.run("nearmiss.table.step(1)")
-        urls = self.browser.requests()
-        self.assertTrue(urls)
-        self.assertEqual([u for u in urls if not u.startswith(("file:", "data:", "blob:"))], [])
+        self.assertEqual(self.browser.foreign_requests("blob:"), [])
 
     def test_takes_a_hundred_thousand_signatures(self):
         with tempfile.TemporaryDirectory() as name:
@@ -347,8 +280,8 @@ class Page(unittest.TestCase):
             nearmiss("render", name, "--seconds", 5)
             self.browser.open(f"{name}/index.html")
             self.assertGreater(self.rows(), 0)
-            self.assertEqual(len(self.browser.driver.find_elements(By.CSS_SELECTOR, "#trend circle")), 2)
-            self.assertGreater(len(self.browser.driver.find_elements(By.CSS_SELECTOR, ".plot")), 5)
+            self.assertEqual(len(self.browser.all("#trend circle")), 2)
+            self.assertGreater(len(self.browser.all(".plot")), 5)
             self.assertGreater(self.browser.run(COUNT_PIXELS)[0], 100)
 
 
@@ -380,7 +313,7 @@ def write_images(folder):
         browser.cdp("Emulation.setEmulatedMedia", features=[])
         browser.run("document.querySelector('.plots').parentElement.scrollIntoView()")
         keep("page-plots")
-        browser.driver.quit()
+        browser.quit()
 
 
 if __name__ == "__main__":

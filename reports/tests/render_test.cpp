@@ -259,6 +259,28 @@ TEST_F(Render, NamesReportsThatItCannotRead) {
   EXPECT_NE(std::find(data.at("words").begin(), data.at("words").end(), "</script>"), data.at("words").end());
 }
 
+TEST_F(Render, HoldsTheTradesOfTheFolder) {
+  const std::string trade = R"({"schema": 1, "scene": "cell", "title": "</script>", "queries": [], "profile": {},
+    "tolerance": {}})";
+  folder_.file("triage.json", R"({"schema": 1, "environment": {}, "sources": [], "skipped": [], "totals": {},
+    "signatures": []})");
+  for (const char* name : {"trade", "a", "b", "c"}) {
+    fs::create_directory(folder_ / name);
+    folder_.file(std::string(name) + "/trade.json", *name == 'c' ? R"({"schema": "1"})" : trade);
+  }
+  ASSERT_EQ(nearmiss({"render", folder_.path().string()}).exit_code, 0);
+  const json data = data_of_page(folder_ / "index.html");
+  EXPECT_EQ(complaints(data, "page.schema.json"), "");
+  const json& trades = data.at("trades");
+  ASSERT_EQ(trades.size(), 3u);
+  EXPECT_EQ(trades[0], json({{"name", "cell"}, {"trade", json::parse(trade)}}));
+  EXPECT_EQ(trades[1].at("name"), "cell (a)");
+  EXPECT_EQ(trades[2].at("name"), "cell (b)");
+  ASSERT_EQ(data.at("skipped").size(), 1u);
+  EXPECT_EQ(data.at("skipped")[0].at("why"), "it is not a trade of schema 1");
+  EXPECT_FALSE(fs::exists(folder_ / "trade" / "trade.html"));
+}
+
 TEST_F(Render, RefusesFoldersWithoutFindings) {
   expect_refused("it holds neither triage.json nor a run's index.json");
   folder_.file("index.json", "[1");

@@ -231,6 +231,30 @@ TEST(TradeSummary, TheCheapestMeetsEveryRequirement) {
   EXPECT_EQ(cheapest(all), nullptr);
 }
 
+TEST(TradeStages, AShareOfTheCallsTimesTheirMeanIsTheShareOfTheTime) {
+  TradeTimes t = times_of({10, 20, 30, 140, std::numeric_limits<double>::quiet_NaN(), 5});
+  t.stage_of_case = {AnswerStage::filter, AnswerStage::filter, AnswerStage::filter,
+                     AnswerStage::exact,  AnswerStage::exact,  AnswerStage::unknown};
+  const std::vector<StageCost> costs = stage_costs(t);
+  ASSERT_EQ(costs.size(), 2u);
+  EXPECT_EQ(costs[0].stage, AnswerStage::filter);
+  EXPECT_EQ(costs[0].calls.count, 3u);
+  EXPECT_EQ(costs[0].calls.of, 4u);
+  EXPECT_EQ(costs[0].mean, 20);
+  EXPECT_EQ(costs[0].nanoseconds->p50, 20);
+  EXPECT_EQ(costs[0].share_of_time, 0.3);
+  EXPECT_EQ(costs[1].stage, AnswerStage::exact);
+  EXPECT_EQ(costs[1].calls.count, 1u);
+  EXPECT_EQ(costs[1].share_of_time, 0.7);
+  EXPECT_TRUE(stage_costs(times_of({1, 2})).empty());
+}
+
+TEST(TradeStages, TheLastStageOfACallCounts) {
+  EXPECT_EQ(last_stage_between({7, 1, 0, 0}, {9, 2, 0, 0}), AnswerStage::extended);
+  EXPECT_EQ(last_stage_between({7, 1, 0, 0}, {7, 1, 1, 0}), AnswerStage::exact);
+  EXPECT_EQ(last_stage_between({7, 1, 0, 0}, {7, 1, 0, 0}), AnswerStage::unknown);
+}
+
 json measured(const TemporaryFolder& folder, std::vector<std::string> more) {
   std::vector<std::string> arguments{"trade", "--query", "sphere_sphere_overlap",  "--cases", "60", "--repeats",
                                      "2",     "--out",   (folder / "out").string()};
@@ -257,6 +281,10 @@ TEST(TradeCommand, MeasuresEachSubjectOnTheSameCases) {
     EXPECT_GE(s["time"]["call"]["max"], s["time"]["call"]["p99"]);
     EXPECT_GT(s["time"]["calls_per_second"], 0);
   }
+  EXPECT_TRUE(query["subjects"][0]["stages"].is_null());
+  std::uint64_t in_stages = 0;
+  for (const json& stage : query["subjects"][1]["stages"]) in_stages += stage["calls"]["count"].get<std::uint64_t>();
+  EXPECT_EQ(in_stages, 60u);
   EXPECT_EQ(query["subjects"][1]["missed"]["count"], 0);
   EXPECT_EQ(query["subjects"][1]["beyond"]["count"], 0);
   EXPECT_EQ(trade["profile"]["problems"], 60);

@@ -79,6 +79,21 @@ void add_times(TradeSummary& s, const TradeTimes& times) {
   if (s.sequential) s.least_sequential = sequential.front();
 }
 
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum;
+}
+
+/// The times of the calls that the stage answered.
+std::vector<double> times_of_stage(const TradeTimes& times, AnswerStage stage) {
+  std::vector<double> own;
+  for (std::size_t i = 0; i < times.stage_of_case.size(); ++i) {
+    if (times.stage_of_case[i] == stage && !std::isnan(times.of_case[i])) own.push_back(times.of_case[i]);
+  }
+  return own;
+}
+
 using MetState = MetRequirement::State;
 
 MetRequirement at_most(std::string name, std::optional<double> worst, double limit, std::string unit) {
@@ -131,6 +146,29 @@ bool none_failed(std::span<const MetRequirement> requirements) {
                       [](const MetRequirement& r) { return r.state == MetState::failed; });
 }
 
+std::vector<StageCost> stage_costs(const TradeTimes& times) {
+  std::vector<StageCost> costs;
+  double all_time = 0;
+  std::uint64_t all_calls = 0;
+  for (const AnswerStage stage : known_stages) {
+    std::vector<double> own = times_of_stage(times, stage);
+    if (own.empty()) continue;
+    const double sum = sum_of(own);
+    all_time += sum;
+    all_calls += own.size();
+    StageCost& cost = costs.emplace_back();
+    cost.stage = stage;
+    cost.calls.count = own.size();
+    cost.mean = sum / double(own.size());
+    cost.nanoseconds = quantiles_of(own);
+  }
+  for (StageCost& c : costs) {
+    c.share_of_time = double(c.calls.count) * c.mean / all_time;
+    c.calls = rate_of(c.calls.count, all_calls);
+  }
+  return costs;
+}
+
 bool TradeSummary::meets_all() const { return compared > 0 && none_failed(requirements); }
 
 std::optional<double> TradeSummary::cost() const {
@@ -144,6 +182,7 @@ TradeSummary summarised(const Subject& subject, std::span<const TradeAnswer> ans
   add_counts(s, answers, tolerance);
   add_errors(s, answers);
   add_times(s, times);
+  s.stages = stage_costs(times);
   s.requirements = requirements_of(
       {s.no_answer + s.not_asked + s.broke.count, count_of(answers, [](const TradeAnswer& a) { return a.not_finite; }),
        largest_of(s.shift), largest_of(s.distance), largest_of(s.time), s.missed_deeper, s.phantom_wider,

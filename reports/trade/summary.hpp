@@ -44,6 +44,17 @@ std::string failure_text(const MetRequirement& r);
 /// True if none failed.
 bool none_failed(std::span<const MetRequirement> requirements);
 
+/// What one stage of a subject costs.
+struct StageCost {
+  AnswerStage stage = AnswerStage::unknown;
+  Rate calls;                            ///< the answers that it gave, of all timed cases
+  std::optional<Quantiles> nanoseconds;  ///< of a call that it answers
+  double mean = 0;                       ///< of these calls, in nanoseconds
+  double share_of_time = 0;              ///< calls times mean, of the time of all timed cases
+};
+/// For each known stage that gave an answer; empty for a subject without stages.
+std::vector<StageCost> stage_costs(const TradeTimes& times);
+
 /// One in 10^3 … 10^6 answers.
 inline constexpr std::array<std::uint64_t, 4> tail_sizes = {1000, 10'000, 100'000, 1'000'000};
 
@@ -65,6 +76,7 @@ struct TradeSummary {
   bool pinned = false;
   std::optional<Quantiles> nanoseconds;          ///< over the cases
   std::optional<Quantiles> repeats, sequential;  ///< over the repeats; see TradeTimes
+  std::vector<StageCost> stages;                 ///< of a subject that answers in stages
   double least_repeat = 0, least_sequential = 0;
   std::vector<MetRequirement> requirements;
   bool on_front = false;  ///< of the median call and the largest error

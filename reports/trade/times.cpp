@@ -22,6 +22,7 @@ double median_time(std::vector<double> values) {
 /// The batches of one repeat of one subject.
 struct Repeat {
   std::vector<double> nanoseconds;  ///< of each case
+  std::vector<AnswerStage> stages;  ///< of each case
   double sequential = 0;            ///< of a call
   TimedHow how = TimedHow::not_timed;
   bool pinned = false;
@@ -34,7 +35,9 @@ std::optional<Worker::Times> round_trip(const Subject& subject, std::span<const 
   if (workers.receive(subject).size() < cases.size()) return std::nullopt;
   const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
   const double each = took.count() / double(cases.size());
-  return Worker::Times{std::vector<double>(cases.size(), each), {each, 1, false, false}};
+  return Worker::Times{std::vector<double>(cases.size(), each),
+                       {each, 1, false, false},
+                       std::vector<AnswerStage>(cases.size(), AnswerStage::unknown)};
 }
 
 std::optional<Repeat> timed_once(const TimedSubject& timed, Workers& workers) {
@@ -46,6 +49,7 @@ std::optional<Repeat> timed_once(const TimedSubject& timed, Workers& workers) {
     const auto times = through_pipes ? round_trip(*timed.subject, batch, workers) : workers.time(*timed.subject, batch);
     if (!times) return std::nullopt;
     repeat.nanoseconds.insert(repeat.nanoseconds.end(), times->nanoseconds.begin(), times->nanoseconds.end());
+    repeat.stages.insert(repeat.stages.end(), times->stages.begin(), times->stages.end());
     repeat.sequential += times->how.processor_nanoseconds * double(batch.size()) / double(timed.cases.size());
     repeat.how = through_pipes ? TimedHow::round_trip : times->how.typed ? TimedHow::typed : TimedHow::as_offered;
     repeat.pinned = times->how.pinned;
@@ -57,6 +61,7 @@ std::optional<Repeat> timed_once(const TimedSubject& timed, Workers& workers) {
 TradeTimes put_together(const TimedSubject& timed, const std::vector<Repeat>& repeats, std::size_t total) {
   TradeTimes times;
   times.of_case.assign(total, std::numeric_limits<double>::quiet_NaN());
+  times.stage_of_case.assign(total, AnswerStage::unknown);
   if (repeats.empty()) return times;
   times.how = repeats.front().how;
   times.pinned = repeats.front().pinned;
@@ -68,6 +73,7 @@ TradeTimes put_together(const TimedSubject& timed, const std::vector<Repeat>& re
     std::vector<double> of_repeats;
     for (const Repeat& r : repeats) of_repeats.push_back(r.nanoseconds[i]);
     times.of_case[timed.of_measure[i]] = median_time(std::move(of_repeats));
+    times.stage_of_case[timed.of_measure[i]] = repeats.front().stages[i];
   }
   return times;
 }

@@ -25,9 +25,10 @@ std::string_view name_of(TimedHow how);
 struct TradeTimes {
   TimedHow how = TimedHow::not_timed;
   bool pinned = false;
-  std::vector<double> of_case;     ///< nanoseconds of each case's call, the median of the repeats; NaN: not timed
-  std::vector<double> repeats;     ///< the median call of each repeat
-  std::vector<double> sequential;  ///< of each repeat: processor nanoseconds of a call, of calls in sequence
+  std::vector<double> of_case;  ///< nanoseconds of each case's call, the median of the repeats; NaN: not timed
+  std::vector<AnswerStage> stage_of_case{};  ///< of each case; unknown: it is not timed, or the subject has no stages
+  std::vector<double> repeats;               ///< the median call of each repeat
+  std::vector<double> sequential;            ///< of each repeat: processor nanoseconds of a call, of calls in sequence
 };
 
 /// A subject, and the cases that it is asked: those that it can answer.

@@ -66,6 +66,20 @@ Json times_to_json(const TradeSummary& s) {
           {"calls_per_second", s.sequential->p50 > 0 ? Json(1e9 / s.sequential->p50) : Json(nullptr)}};
 }
 
+/// null for a subject without stages.
+Json stages_to_json(const TradeSummary& s) {
+  if (s.stages.empty()) return nullptr;
+  Json stages = Json::array();
+  for (const StageCost& c : s.stages) {
+    stages.push_back({{"stage", name_of(c.stage)},
+                      {"calls", rate_to_json(c.calls)},
+                      {"call", quantiles_to_json(c.nanoseconds)},
+                      {"mean", c.mean},
+                      {"share_of_time", c.share_of_time}});
+  }
+  return stages;
+}
+
 Json tails_to_json(const TradeSummary& s) {
   Json tails = Json::array();
   for (std::size_t i = 0; i < tail_sizes.size(); ++i)
@@ -96,6 +110,7 @@ Json summary_to_json(const TradeSummary& s, const Query& query) {
           {"error", quantiles_to_json(s.shift)},
           {"error_tails", tails_to_json(s)},
           {"time", times_to_json(s)},
+          {"stages", stages_to_json(s)},
           {"requirements", requirements},
           {"meets_all", s.meets_all()},
           {"on_front", s.on_front}};
