@@ -44,8 +44,9 @@ nlohmann::ordered_json trade_in(const fs::path& file) {
 
 /// The scene of a trade, with its folder where another trade of the page has the same name.
 std::string tab_name(const nlohmann::ordered_json& trade, const fs::path& file, const nlohmann::ordered_json& others) {
-  const bool has_scene = trade.contains("scene") && trade["scene"].is_string() && trade["scene"] != "";
-  const std::string name = has_scene ? trade["scene"].get<std::string>() : "generated cases";
+  std::string name;
+  if (trade.contains("scene") && trade["scene"].is_string()) name = trade["scene"];
+  if (name.empty()) name = "generated cases";
   const bool is_taken = std::any_of(others.begin(), others.end(), [&](const auto& o) { return o["name"] == name; });
   return is_taken ? fmt::format("{} ({})", name, file.parent_path().filename().string()) : name;
 }
