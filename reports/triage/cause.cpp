@@ -55,8 +55,7 @@ std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evide
 }  // namespace
 
 Cause cause_of(const Report& report, const Subject& subject, const CauseLimits& limits, Workers& workers) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
+  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   Trials trials(report.question, subject, limits, workers);
   AskedCases asked(trials);
   Cause cause;
@@ -68,7 +67,8 @@ Cause cause_of(const Report& report, const Subject& subject, const CauseLimits& 
     cause.evidence.push_back(
         {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
          "The tests were made again, as follows."});
-    Trials more(other->question, subject, {limits.questions - trials.questions(), limits.time - (Clock::now() - begin)},
+    Trials more(other->question, subject,
+                {limits.questions - trials.questions(), limits.time - (std::chrono::steady_clock::now() - begin)},
                 workers);
     AskedCases asked_more(more);
     named = first_named(asked_more, cause.evidence);
