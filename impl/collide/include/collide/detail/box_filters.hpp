@@ -27,6 +27,14 @@ Axes<Wider<T>> axes_in_wider(const Quaternion<T>& q) {
   return axes_of(Quaternion<W>{W(q.x), W(q.y), W(q.z), W(q.w)});
 }
 
+/// The box with its quaternion in the range in which products neither overflow nor underflow, by a power of two. With
+/// it, a filter gives the same bits for every such multiple of the quaternion.
+template <class T>
+Box<T> with_rescaled_rotation(const Box<T>& box) {
+  const auto [x, y, z, w] = rescaled(box.orientation);
+  return {box.center, box.half, {x, y, z, w}};
+}
+
 /// The image of a coordinate axis i under the rotation of a quaternion q, times |q|^2. Number k of `along` is that of
 /// the coordinate (i + k) mod 3, so that the compiler knows the places of all numbers.
 ///
@@ -152,8 +160,9 @@ std::optional<Penetration<T>> penetration_beyond_edge(const Sphere<T>& sphere, c
 }
 
 /// Filter: the penetration of a sphere and a box, or nullopt. In double.
-inline std::optional<Penetration<double>> filtered_penetration(const Sphere<double>& sphere, const Box<double>& box) {
+inline std::optional<Penetration<double>> filtered_penetration(const Sphere<double>& sphere, const Box<double>& given) {
   if constexpr (has_wider<double>) {
+    const Box<double> box = with_rescaled_rotation(given);
     const CenterAndBox place = certain_side(sphere, box);
     if (!place.certain) return std::nullopt;
     const Wider<double> size = magnitudes(in_wider(sphere.center) - in_wider(box.center));
@@ -166,8 +175,9 @@ inline std::optional<Penetration<double>> filtered_penetration(const Sphere<doub
 /// The same in float, where doubles have digits enough for every case at once. The errors are those of
 /// penetration_beyond_edge. Inside, the distances from the faces have an error of 12 u D and 1 u of themselves: the
 /// nearest face is certain if all others are farther by more than 64 u D and 4 u of their distance.
-inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float>& sphere, const Box<float>& box) {
+inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float>& sphere, const Box<float>& given) {
   using L = Lanes<double>;
+  const Box<float> box = with_rescaled_rotation(given);
   constexpr double u = std::numeric_limits<double>::epsilon() / 2, most = half_ulp<float> / 128;
   const L center = wide_lanes(sphere.center), between = center - wide_lanes(box.center), half = wide_lanes(box.half);
   const L q = wide_lanes(box.orientation), norm2 = sum_of_four(q * q);

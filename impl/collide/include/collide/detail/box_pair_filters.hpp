@@ -144,7 +144,8 @@ std::optional<Measure<T>> projected_distance_in(const Box<T>& box1, const Box<T>
 
 /// Filter: the gap between the projections of two boxes onto an axis, or nullopt.
 template <class T>
-std::optional<Measure<T>> filtered_projected_distance(const Box<T>& box1, const Box<T>& box2, int axis) {
+std::optional<Measure<T>> filtered_projected_distance(const Box<T>& given1, const Box<T>& given2, int axis) {
+  const Box<T> box1 = with_rescaled_rotation(given1), box2 = with_rescaled_rotation(given2);
   const double size = size_of_pair(box1, box2);
   if (!(axis >= 0 && axis < box_box_axes && size > 0)) return std::nullopt;
   const auto n = std::size_t(axis);

@@ -106,7 +106,8 @@ std::optional<BoxPenetration<T>> penetration_along(const Box<T>& box1, const Box
 
 /// Filter: the penetration of two boxes, or nullopt. The contact of two edges needs more digits than long double has.
 template <class T>
-std::optional<BoxPenetration<T>> filtered_penetration(const Box<T>& box1, const Box<T>& box2) {
+std::optional<BoxPenetration<T>> filtered_penetration(const Box<T>& given1, const Box<T>& given2) {
+  const Box<T> box1 = with_rescaled_rotation(given1), box2 = with_rescaled_rotation(given2);
   const double size = size_of_pair(box1, box2);
   if (!(size > 0)) return std::nullopt;
   const CertainAxis least = certain_axis(box1, box2);
