@@ -586,7 +586,7 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   fs::permissions(target, fs::perms::owner_all);
   const std::string plugin = plugin_file("skim_plugin");
   const Ran ran =
-      nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "1" : "0.25", "--seed", "3", "--plugin", plugin,
+      nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "1" : "0.4", "--seed", "3", "--plugin", plugin,
                 "--fuzz-targets", (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   const json index = index_of(folder / "r");
@@ -678,7 +678,7 @@ TEST(Nightly, TellsOfATargetThatCannotBeStarted) {
   fs::create_directory(folder / "targets");
   const std::string query(catalogue().front().name);
   folder.file("targets/fuzz_" + query, std::string("\0max_total_time\0", 16));  // not executable
-  const Ran ran = nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "0.5" : "0.1", "--fuzz-targets",
+  const Ran ran = nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "0.75" : "0.2", "--fuzz-targets",
                             (folder / "targets").string(), "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
   const json index = index_of(folder / "r");
