@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -52,7 +53,7 @@ Case case_of(const char* query, std::vector<double> values, Scalar scalar = Scal
   return {find_query(query), scalar, std::move(values), "test", 0, 0, {}};
 }
 
-Cause cause(const Subject& subject, const Case& question, const CauseLimits& limits = {}) {
+Cause cause(const Subject& subject, const Case& question, const CauseLimits& limits = {.time = std::chrono::hours(1)}) {
   Workers workers;
   const Report report = examine(question, subject, workers);
   EXPECT_TRUE(is_bad(report.finding)) << "the mistake is not found";

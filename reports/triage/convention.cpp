@@ -21,9 +21,10 @@ class Convention : public TestOfCause {
       const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
       if (!fits.value_or(is_undefined())) continue;
       const Support s = support_of(reading);
-      if (fits ? s.holds() : s.holds_without_case()) return named_reading(reading, s);
+      if (fits ? s.holds(!reading.decides) : s.holds_without_case()) return named_reading(reading, s);
       if (!fits) continue;
-      by_chance.emplace_back(reading.name);
+      by_chance.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
+                                      of_text(s.explained, s.with_finding), s.for_it, s.against_it));
     }
     const std::string which =
         by_chance.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance));
@@ -43,10 +44,17 @@ class Convention : public TestOfCause {
     std::size_t against_it = 0;  ///< generated cases with a right answer that is wrong under the reading
 
     /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
-    bool holds() const {
-      constexpr std::size_t least = 4, least_generated = 2;
-      return explained >= least && nearly_all(explained, with_finding) && for_it >= least_generated &&
-             nearly_all(for_it, for_it + against_it);
+    bool holds(bool is_of_numbers) const {
+      constexpr std::size_t least = 4, least_generated = 2, many = 16;
+      const auto nearly = is_of_numbers ? all_but_few : nearly_all;
+      const bool is_rare = explained >= many && explained == with_finding && for_it == wrong;  // among generated cases
+      return explained >= least && nearly(explained, with_finding) && for_it >= (is_rare ? 1 : least_generated) &&
+             nearly(for_it, for_it + against_it);
+    }
+    /// Other numbers may explain most answers of a wrong formula by chance: more than a few exceptions count.
+    static bool all_but_few(std::size_t part, std::size_t all) {
+      constexpr std::size_t one_in = 32;
+      return nearly_all(part, all) && all - part <= 1 + all / one_in;
     }
     /// Where the reading says nothing about the case, it must explain nearly all wrong answers, and make none wrong.
     bool holds_without_case() const {

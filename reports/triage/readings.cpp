@@ -50,11 +50,21 @@ Fits reversed_normal(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_output(c, a, Role::normal, is_right, [](double x) { return -x; });
 }
 
-Fits normalised_normal(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = given_part(c, a, Role::normal);
+/// The vector divided by its length.
+Fits normalised(const Case& c, const Answer& a, const Layout::Part* p, const IsRight& is_right) {
   const double norm = p == nullptr ? 0 : length({&a.values[p->begin], p->end - p->begin});
   if (!(norm > 0) || !std::isfinite(norm)) return std::nullopt;
-  return with_output(c, a, Role::normal, is_right, [&](double x) { return x / norm; });
+  return with_output(c, a, p->role, is_right, [&](double x) { return x / norm; });
+}
+
+Fits normalised_normal(const Case& c, const Answer& a, const IsRight& is_right) {
+  return normalised(c, a, given_part(c, a, Role::normal), is_right);
+}
+
+Fits normalised_direction(const Case& c, const Answer& a, const IsRight& is_right) {
+  const Layout::Part* p = given_part(c, a, Role::weight);
+  const bool is_direction = p != nullptr && c.query->outputs[p->begin].name.starts_with("direction");
+  return is_direction ? normalised(c, a, p, is_right) : std::nullopt;
 }
 
 Fits distance_for_time(const Case& c, const Answer& a, const IsRight& is_right) {
@@ -174,13 +184,31 @@ Fits start_inside_is_a_hit(const Case& c, const Answer& a, const IsRight&) {
   return a.yes && (time == nullptr || a.values[time->begin] == 0);
 }
 
+/// The least time of contact of a right answer, in durations of the motion or lengths of the ray's direction; empty
+/// where it is a miss.
+std::optional<double> least_time_of(const Case& c, const Alternative& right) {
+  if (!right.yes) return std::nullopt;
+  const auto& outputs = c.query->outputs;
+  const auto at = [&](Role role) {
+    return std::size_t(std::find_if(outputs.begin(), outputs.end(), [&](const Field& f) { return f.role == role; }) -
+                       outputs.begin());
+  };
+  if (const std::size_t time = at(Role::time); time < outputs.size()) return right.values[time].low;
+  const Parts& parts = parts_of(*c.query);
+  const std::size_t place = at(Role::position);
+  if (!parts.start || parts.directions.empty() || place == outputs.size()) return std::nullopt;
+  double along = 0, square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double d = c.values[parts.directions[0] + k];
+    along += (right.values[place + k].low - c.values[parts.start->place + k]) * d, square += d * d;
+  }
+  return along / square;
+}
+
 Fits ends_at_time_one(const Case& c, const Answer& a, const IsRight&) {
-  const auto time = std::find_if(c.query->outputs.begin(), c.query->outputs.end(),
-                                 [](const Field& f) { return f.role == Role::time; });
-  if (a.status != Answer::Status::answered || !decides(c.query->kind) || time == c.query->outputs.end())
-    return std::nullopt;
+  if (a.status != Answer::Status::answered || !decides(c.query->kind)) return std::nullopt;
   for (const Alternative& right : truth_of(c).alternatives) {
-    if (!right.yes || !(right.values[std::size_t(time - c.query->outputs.begin())].low > 1)) return std::nullopt;
+    if (!(least_time_of(c, right).value_or(0) > 1)) return std::nullopt;
   }
   return !a.yes;
 }
@@ -285,6 +313,8 @@ constexpr Reading of_answers[] = {
     {"normal reversed", "its normal points the other way", CauseKind::convention, false, reversed_normal},
     {"normal not of unit length", "its normal is divided by its length", CauseKind::convention, false,
      normalised_normal},
+    {"direction not of unit length", "its direction is divided by its length", CauseKind::convention, false,
+     normalised_direction},
     {"distance in place of time", "its time is the distance until the contact", CauseKind::convention, false,
      distance_for_time},
     {"time over speed", "its time is divided by the speed once more", CauseKind::convention, false, time_over_speed},
@@ -316,13 +346,13 @@ constexpr Reading of_answers[] = {
 }  // namespace
 
 std::span<const Reading> readings() {
-  static const std::vector<Reading> all = [] {
-    std::vector<Reading> both(std::begin(of_answers), std::end(of_answers));
-    const auto of_inputs = readings_of_inputs();
-    both.insert(both.end(), of_inputs.begin(), of_inputs.end());
-    return both;
+  static const std::vector<Reading> table = [] {
+    std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));
+    for (const auto more : {readings_of_inputs(), readings_of_values()})
+      all.insert(all.end(), more.begin(), more.end());
+    return all;
   }();
-  return all;
+  return table;
 }
 
 bool starts_in_contact(const Case& c) {

@@ -25,6 +25,8 @@ struct Reading {
 std::span<const Reading> readings();
 /// Those that change the inputs; they are among readings().
 std::span<const Reading> readings_of_inputs();
+/// Those that take a value of the answer for another one, or for that of another contact; they are among readings().
+std::span<const Reading> readings_of_values();
 /// Whether something moves and touches, or overlaps, at the start.
 bool starts_in_contact(const Case& c);
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -104,6 +106,9 @@ Fits zero_input(const Case& c, const Answer& a, const IsRight& is_right) {
 Fits reversed_velocity(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_input(c, a, Role::velocity, is_right, [](double x) { return -x; });
 }
+Fits no_axis(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::index, is_right, [](double) { return -1.0; });
+}
 Fits other_flag(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_input(c, a, Role::flag, is_right, [](double x) { return 1 - x; });
 }
@@ -111,6 +116,49 @@ Fits other_flag(const Case& c, const Answer& a, const IsRight& is_right) {
 template <int value>
 Fits fixed_flag(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_input(c, a, Role::flag, is_right, [](double) { return double(value); });
+}
+
+/// The two operands in each other's place: those whose names end with 1 and 2.
+Fits exchanged_operands(const Case& c, const Answer& a, const IsRight& is_right) {
+  Case other = c;
+  const auto& inputs = c.query->inputs;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::size_t end = inputs[i].name.find('.');
+    if (end == std::string::npos || inputs[i].name[end - 1] != '1') continue;
+    std::string counterpart = inputs[i].name;
+    counterpart[end - 1] = '2';
+    const auto second =
+        std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return f.name == counterpart; });
+    if (second == inputs.end()) return std::nullopt;
+    std::swap(other.values[i], other.values[std::size_t(second - inputs.begin())]);
+  }
+  return opinion_on(c, other, a, is_right);
+}
+
+/// A limit of time that is taken for a length of the motion.
+Fits length_for_limit(const Case& c, const Answer& a, const IsRight& is_right) {
+  const auto& velocities = parts_of(*c.query).velocities;
+  if (velocities.empty()) return std::nullopt;
+  const double* v = &c.values[velocities[0]];
+  const double speed = std::hypot(v[0], v[1], v[2]);
+  if (!(speed > 0)) return std::nullopt;
+  return with_input(c, a, Role::time, is_right, [&](double limit) { return limit / speed; });
+}
+
+/// A limit of time that no motion exceeds: 1.
+Fits limit_of_one(const Case& c, const Answer& a, const IsRight& is_right) {
+  Case other = c;
+  const auto& inputs = c.query->inputs;
+  bool is_forever = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].role != Role::flag) continue;
+    is_forever = is_forever || c.values[i] != 0;
+    other.values[i] = 0;
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].role == Role::time) other.values[i] = is_forever ? 1 : std::min(c.values[i], 1.0);
+  }
+  return opinion_on(c, other, a, is_right);
 }
 
 constexpr Reading table_of_inputs[] = {
@@ -162,6 +210,12 @@ constexpr Reading table_of_inputs[] = {
      scaled_sizes<0, 1, false, Which::second>},
     {"half extents ignored", "half extents are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, true>},
     {"offset ignored", "the plane's offset is ignored", CauseKind::unsupported, false, zero_input<Role::offset>},
+    {"operands exchanged", "the first operand and the second are exchanged", CauseKind::convention, false,
+     exchanged_operands},
+    {"length in place of the limit", "the limit is a length of the motion", CauseKind::convention, true,
+     length_for_limit},
+    {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, limit_of_one},
+    {"axis ignored", "the given axis is not read", CauseKind::unsupported, false, no_axis},
     {"time ignored", "the time is ignored", CauseKind::unsupported, false, zero_input<Role::time>},
 };
 

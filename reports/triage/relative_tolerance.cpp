@@ -193,12 +193,14 @@ class RelativeTolerance {
     std::optional<Candidate> best;
     for (const Family& family : families) {
       const auto c = candidate(family);
-      if (!c) continue;
+      if (!c || is_guard(*c)) continue;
       most = std::max(most, c->borders);
       if (c->constant && (!best || is_better(*c, *best)) && divides_starts(*c)) best = c;
     }
     return best && most <= 2 * best->borders ? best : std::nullopt;
   }
+  /// A small value above which answers are wrong keeps tiny ratios out, and is not the cause.
+  static bool is_guard(const Candidate& c) { return !c.wrong_below && c.high < 0x1p-10L; }
   void find_families() {
     const Ratios& ratios = crossings_.front().border;
     std::map<std::string, Family> by_name;

@@ -107,6 +107,11 @@ class Tolerance {
           "The answer is right at no scale.");
     return std::nullopt;
   }
+  /// For lengths: right at far smaller scales alone.
+  static bool is_guard(const Flip& f) {
+    constexpr int far = -32;
+    return f.right < f.wrong && f.right <= far;
+  }
   std::vector<Flipped> flips_of(const ScaleScan& s) {
     std::vector<Flipped> all;
     const auto at = [&](const Case& c, int k) { return k == 0 ? c : *scaled(c, *s.group, k); };
@@ -128,6 +133,12 @@ class Tolerance {
                     "Of {} other cases with the finding, {} have such a flip.",
                     s.flip->wrong, s.flip->right, trials_.sets_rounding() ? ", without overflow or underflow" : "",
                     similar_.size(), flips.size() - 1));
+    if (&s == scans_.data() && is_guard(*s.flip)) {
+      saw("The scale of the change was compared with that of the case.",
+          "The answer is wrong for all larger numbers, and right for much smaller ones alone: the constant keeps tiny "
+          "numbers out, and is not the cause.");
+      return std::nullopt;
+    }
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
     if (best) return named_tolerance(*best, flips.size());
