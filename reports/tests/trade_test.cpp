@@ -1,11 +1,13 @@
 /// Trades: their statistics on data that were computed by hand, and the command on a few cases.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "corpus/codec.hpp"
 #include "impl/subject/subject.hpp"
@@ -143,6 +145,34 @@ TEST(TradeErrors, AnAnswerIsBeyondWhereItIsWrongByMoreThanIsTolerable) {
   EXPECT_TRUE(is_beyond(endless, t));
   broke.state = TradeAnswer::State::broke;
   EXPECT_TRUE(is_beyond(broke, t));
+}
+
+TEST(TradeErrors, AMissedCornerIsOffByItsDepth) {
+  // Far away, all four lower corners are 2^-20 deep.
+  const Case c{find_query("box_plane_penetration"),
+               Scalar::float64,
+               {1000, 0, 1 - 0x1p-20, 1, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0},
+               "test",
+               0,
+               0,
+               {}};
+  std::vector<double> values{0x1p-20, 0, 0, 1};
+  for (int i = 0; i < 8; ++i) {
+    const bool is_lower = i < 4;
+    const double x = (i & 1) != 0 ? 1001 : 999, y = (i & 2) != 0 ? 1 : -1;
+    values.insert(values.end(), {double(is_lower), is_lower ? x : 0, is_lower ? y : 0, is_lower ? -0x1p-20 : 0});
+  }
+  Answer a;
+  a.yes = true;
+  std::copy(values.begin(), values.end(), a.values.begin());
+  const auto judged = [&] {
+    const Finding f = judge(c, a, unbounded_standard(), Detail::full);
+    return trade_answer(c, Scalar::float64, a, f, tolerance_in_metres());
+  };
+  EXPECT_EQ(judged().distance, 0);
+  std::fill_n(a.values.begin() + 4, 4, 0.0);
+  EXPECT_GT(judged().distance, 0);
+  EXPECT_LE(judged().distance, 0x1p-20);
 }
 
 TEST(TradeErrors, WithoutAUnitTheBackwardErrorCounts) {

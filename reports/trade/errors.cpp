@@ -15,10 +15,24 @@ void add_forward(TradeAnswer& a, Role role, double absolute, double of_unit) {
   if (role == Role::time) a.time = std::max(a.time, absolute);
 }
 
-void add_forward_errors(TradeAnswer& a, const Query& query, const Finding& f, double of_unit) {
+bool is_flag(const Query& query, int member) {
+  return member >= 0 && query.layout.parts[std::size_t(member)].role == Role::flag;
+}
+
+/// Whether the finding has a wrong flag just before this member.
+bool follows_wrong_flag(const Query& query, const Finding& f, int member) {
+  return is_flag(query, member - 1) && std::any_of(f.members.begin(), f.members.end(),
+                                                   [&](const MemberFinding& m) { return m.member == member - 1; });
+}
+
+/// The forward errors. A wrong flag of a list says that a contact is there, or is not: the place beside it is none then
+/// and has no distance to a right one. As for a wrong decision, the backward error counts, `epsilon_length` long for
+/// each epsilon.
+void add_forward_errors(TradeAnswer& a, const Query& query, const Finding& f, double of_unit, double epsilon_length) {
   a.ulps = f.forward_ulps;
   for (const MemberFinding& m : f.members) {
-    if (m.member < 0) continue;
+    if (m.member < 0 || follows_wrong_flag(query, f, m.member)) continue;
+    if (is_flag(query, m.member) && m.backward) a.distance = std::max(a.distance, m.backward->above * epsilon_length);
     add_forward(a, query.layout.parts[std::size_t(m.member)].role, m.forward_absolute, of_unit);
   }
   if (f.members.empty() && f.worst >= 0)
@@ -91,12 +105,14 @@ TradeAnswer trade_answer(const Case& question, Scalar scalar, const Answer& answ
   a.missed = f.has(Disagreement::false_miss);
   a.phantom = f.has(Disagreement::false_hit);
   a.not_finite = f.has(Disagreement::not_finite);
-  const double length = largest_length(question);
-  if (f.backward) a.backward = f.backward->above * unit_roundoff(question.scalar);
-  a.shift = tolerance.unit.empty() ? a.backward : a.backward * length;
+  const double length = largest_length(question), epsilon = unit_roundoff(question.scalar);
+  const double of_backward = tolerance.unit.empty() ? 1 : length;
+  if (f.backward) a.backward = f.backward->above * epsilon;
+  a.shift = a.backward * of_backward;
   if (a.missed || a.phantom) return a;
-  add_forward_errors(a, *question.query, f, tolerance.unit.empty() && length > 0 ? length : 1);
-  a.ulps *= unit_roundoff(question.scalar) / unit_roundoff(scalar);
+  const double of_unit = tolerance.unit.empty() && length > 0 ? length : 1;
+  add_forward_errors(a, *question.query, f, of_unit, epsilon * of_backward);
+  a.ulps *= epsilon / unit_roundoff(scalar);
   return a;
 }
 
