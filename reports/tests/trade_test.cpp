@@ -175,6 +175,22 @@ TEST(TradeErrors, AMissedCornerIsOffByItsDepth) {
   EXPECT_LE(judged().distance, 0x1p-20);
 }
 
+TEST(TradeErrors, AWrongFlagHidesNoWrongPlace) {
+  // The origin is inside by 2^-20, and the ray goes through the box. The judge proves shifts of up to an eighth.
+  const Case c{
+      find_query("ray_aabox"), Scalar::float64, {1 - 0x1p-20, 0, 0, -1, 0, 0, -1, -1, -1, 1, 1, 1}, "test", 0, 0, {}};
+  Answer a;
+  a.yes = true;
+  const auto distance_at = [&](double x) {
+    for (std::size_t i = 0; i < c.query->outputs.size(); ++i)
+      a.values[i] = c.query->outputs[i].name.ends_with("location.x") ? x : 0;
+    const Finding f = judge(c, a, unbounded_standard(), Detail::full);
+    return trade_answer(c, Scalar::float64, a, f, tolerance_in_metres()).distance;
+  };
+  EXPECT_LE(distance_at(1), 0x1p-19);
+  EXPECT_GE(distance_at(-50), 0.125);
+}
+
 TEST(TradeErrors, WithoutAUnitTheBackwardErrorCounts) {
   const TradeTolerance t = relative_tolerance(0.25, "test");
   TradeAnswer a = right_answer();

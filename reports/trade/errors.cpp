@@ -25,15 +25,19 @@ bool follows_wrong_flag(const Query& query, const Finding& f, int member) {
                                                    [&](const MemberFinding& m) { return m.member == member - 1; });
 }
 
-/// The forward errors. A wrong flag of a list says that a contact is there, or is not: the place beside it is none then
-/// and has no distance to a right one. As for a wrong decision, the backward error counts, `epsilon_length` long for
-/// each epsilon.
+/// The forward errors. A wrong flag of a corner says that a contact is there, or is not: the place beside the flag has
+/// no distance to a right place then. As for a wrong decision, the backward errors of the flag and of the place count;
+/// each epsilon is `epsilon_length` long.
 void add_forward_errors(TradeAnswer& a, const Query& query, const Finding& f, double of_unit, double epsilon_length) {
   a.ulps = f.forward_ulps;
   for (const MemberFinding& m : f.members) {
-    if (m.member < 0 || follows_wrong_flag(query, f, m.member)) continue;
-    if (is_flag(query, m.member) && m.backward) a.distance = std::max(a.distance, m.backward->above * epsilon_length);
-    add_forward(a, query.layout.parts[std::size_t(m.member)].role, m.forward_absolute, of_unit);
+    if (m.member < 0) continue;
+    const bool is_of_flag = is_flag(query, m.member) || follows_wrong_flag(query, f, m.member);
+    if (is_of_flag && m.backward) {
+      a.distance = std::max(a.distance, m.backward->above * epsilon_length);
+    } else {
+      add_forward(a, query.layout.parts[std::size_t(m.member)].role, m.forward_absolute, of_unit);
+    }
   }
   if (f.members.empty() && f.worst >= 0)
     add_forward(a, query.outputs[std::size_t(f.worst)].role, f.forward_absolute, of_unit);
