@@ -12,7 +12,7 @@ namespace nearmiss {
 /// The stage that gave an answer. The numbers are those of a timed batch (wire::SharedRequest).
 enum class AnswerStage : std::uint8_t {
   unknown,   ///< the subject counts no stages
-  filter,    ///< doubles with error bounds
+  filter,    ///< floating-point numbers with error bounds
   extended,  ///< double-words with error bounds
   exact,     ///< exact real numbers
   plain,     ///< plain arithmetic, for inputs that are not finite

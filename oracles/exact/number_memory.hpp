@@ -30,7 +30,7 @@ struct NumberAllocator {
   friend bool operator==(const NumberAllocator&, const NumberAllocator&) { return true; }
 };
 
-/// A vector with its elements there.
+/// A vector whose elements come from that memory.
 template <class T>
 using NumberVector = std::vector<T, NumberAllocator<T>>;
 

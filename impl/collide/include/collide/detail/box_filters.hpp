@@ -117,15 +117,15 @@ std::optional<Penetration<T>> penetration_along_axis(const Sphere<T>& sphere, co
   for (std::size_t k = 1; k < 3; ++k) along = along + axis.along[k] * (center[k] - middle[k]);
   const W inverse = W(along < W(0) ? 1 : -1) / axis.norm2, radius = W(sphere.radius);
   const W excess = -(along * inverse) - W(components(box.half)[i]), depth = radius - excess;
-  if (depth < W(0)) return accurate_penetration<T>(depth, {}, {}, size / 4, W(0));
+  if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, double(size) / 4, 0);
   const W way = outside ? excess : radius;
   std::array<W, 3> normal, contact;
   for (std::size_t k = 0; k < 3; ++k) {
     normal[k] = axis.along[k] * inverse;
     contact[k] = center[k] + normal[k] * way;
   }
-  return accurate_penetration<T>(depth, from_cyclic_order<T>(normal, i), from_cyclic_order<T>(contact, i), size / 4,
-                                 outside ? size / 2 : radius / 4);
+  return accurate_penetration<T>(T(depth), from_cyclic_order<T>(normal, i), from_cyclic_order<T>(contact, i),
+                                 double(size) / 4, double(outside ? size / 2 : radius / 4));
 }
 
 /// The penetration of a sphere and a box for a center beyond two or three faces.
@@ -152,11 +152,11 @@ std::optional<Penetration<T>> penetration_beyond_edge(const Sphere<T>& sphere, c
     for (std::size_t k = 0; k < 3; ++k) away[(i + k) % 3] = away[(i + k) % 3] + axis.along[k] * step;
   }
   const W distance = detail::sqrt(distance2), depth = W(sphere.radius) - distance;
-  if (depth < W(0)) return accurate_penetration<T>(depth, {}, {}, size / 2, W(0));
+  if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, double(size) / 2, 0);
   if (!(size <= half_ulp<T> / 128 * distance)) return std::nullopt;
   const Vec3<W> to_center{away[0], away[1], away[2]};
-  return accurate_penetration<T>(depth, rounded_to<T>(to_center * (W(-1) / distance)),
-                                 rounded_to<T>(in_wider(sphere.center) - to_center), size / 2, size);
+  return accurate_penetration<T>(T(depth), rounded_to<T>(to_center * (W(-1) / distance)),
+                                 rounded_to<T>(in_wider(sphere.center) - to_center), double(size) / 2, double(size));
 }
 
 /// Filter: the penetration of a sphere and a box, or nullopt. In double.
@@ -190,9 +190,9 @@ inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float
   if (distance2 > 0) {
     const double distance = detail::sqrt(distance2), depth = radius - distance;
     if (!(size <= most * distance)) return std::nullopt;
-    if (depth < 0) return accurate_penetration<float>(depth, {}, {}, size / 2, 0.0);
+    if (depth < 0) return accurate_penetration<float>(float(depth), {}, {}, size / 2, 0.0);
     const L to_center = frame.out_of(away) * inverse;
-    return accurate_penetration<float>(depth, to_vec3(in_floats(to_center * L::splat(-1 / distance))),
+    return accurate_penetration<float>(float(depth), to_vec3(in_floats(to_center * L::splat(-1 / distance))),
                                        to_vec3(in_floats(center - to_center)), size / 2, size);
   }
   const L to_face = half - absolute(local), nearest = smallest_of_three(to_face);
@@ -203,7 +203,7 @@ inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float
   if (!(certainly_inside && (axes & (axes - 1)) == 0 && (certain_sign.bits() & axes) != 0)) return std::nullopt;
   const L side = L::splat(-1.0) ^ (local & L::splat(-0.0));
   const L normal = frame.out_of(side & is_near & L::mask_of_three()) * inverse;
-  return accurate_penetration<float>(radius + nearest.first(), to_vec3(in_floats(normal)),
+  return accurate_penetration<float>(float(radius + nearest.first()), to_vec3(in_floats(normal)),
                                      to_vec3(in_floats(center + normal * L::splat(radius))), size, radius / 4);
 }
 

@@ -133,24 +133,47 @@ inline bool certainly_misses(const Vec3<double>& center, double radius, const Ve
   return -height - reach > error_bound * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
 }
 
-/// Filter: true if a moving point is certainly outside a ball and certainly never reaches it. `from` is the vector from
-/// the center to the point. `from` and `radius` are differences and sums of inputs, each with an error of 1 u (u =
-/// 2^-53).
+/// What is certain about a moving point and a ball, and the terms of the equation of its contact. Without a flag,
+/// nothing is certain.
+struct BallApproach {
+  bool inside = false;                      ///< the point starts inside
+  bool misses = false;                      ///< the point starts outside and never reaches the ball
+  bool reaches = false;                     ///< the point starts outside and reaches the ball
+  double distance2{}, speed2{}, closing{};  ///< |from|^2, |velocity|^2, -from . velocity
+  double outside{}, chord2{};               ///< |from|^2 - radius^2, closing^2 - speed2 outside
+  double of_chord2{};                       ///< `chord2` has an error of less than 2^6 u of this
+};
+
+/// Filter: `from` is the vector from the center of the ball to the point. `from` and `radius` are differences and sums
+/// of inputs, each with an error of 1 u (u = 2^-53).
 ///
-/// Without overflow and underflow, the square of a length has an error of 5 u of itself, and `along` has an error of
+/// Without overflow and underflow, the square of a length has an error of 5 u of itself, and `closing` has an error of
 /// 5 u of the sum of its terms' magnitudes, which is at most sqrt(distance2 speed2). So each difference below has an
 /// error of less than 2^6 u of the terms that it is compared with. The filter uses a bound of 2^11 u.
-inline bool certainly_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
-  const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, along = x + y + z;
-  const double distance2 = Plain::dot(from, from), speed2 = Plain::dot(velocity, velocity), radius2 = radius * radius;
-  const double scale = (distance2 + radius2) * speed2;
+inline BallApproach certain_approach(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
+  BallApproach a;
+  const double x = from.x * velocity.x, y = from.y * velocity.y, z = from.z * velocity.z, radius2 = radius * radius;
+  a.closing = -(x + y + z);
+  a.distance2 = Plain::dot(from, from), a.speed2 = Plain::dot(velocity, velocity);
+  const double scale = (a.distance2 + radius2) * a.speed2;
   constexpr double least = 0x1p-800, most = 0x1p800, error_bound = 0x1p-42;
-  if (!(scale >= least && scale <= most && distance2 >= least && distance2 <= most && speed2 >= least &&
-        speed2 <= most))
-    return false;
-  if (!(distance2 - radius2 > error_bound * (distance2 + radius2))) return false;
-  if (along > error_bound * (detail::abs(x) + detail::abs(y) + detail::abs(z))) return true;  // it moves away
-  return (distance2 - radius2) * speed2 - along * along > error_bound * (scale + along * along);
+  if (!(scale >= least && scale <= most && a.distance2 >= least && a.distance2 <= most && a.speed2 >= least &&
+        a.speed2 <= most))
+    return a;
+  a.outside = a.distance2 - radius2;
+  a.inside = -a.outside > error_bound * (a.distance2 + radius2);
+  const double of_closing = error_bound * (detail::abs(x) + detail::abs(y) + detail::abs(z));
+  a.chord2 = a.closing * a.closing - a.outside * a.speed2;
+  a.of_chord2 = scale + a.closing * a.closing;
+  if (!(a.outside > error_bound * (a.distance2 + radius2))) return a;
+  a.misses = -a.closing > of_closing || -a.chord2 > error_bound * a.of_chord2;
+  a.reaches = a.closing > of_closing && a.chord2 > error_bound * a.of_chord2;
+  return a;
+}
+
+/// Filter: true if a moving point is certainly outside a ball and certainly never reaches it.
+inline bool certainly_misses(const Vec3<double>& from, const Vec3<double>& velocity, double radius) {
+  return certain_approach(from, velocity, radius).misses;
 }
 
 }  // namespace collide::detail

@@ -1,17 +1,50 @@
 /// The kernel of moving_point_rectangle (collide/moving_point_rectangle.hpp).
 #pragma once
 
+#include <optional>
+
 #include <collide/detail/moving_point_triangle.hpp>
+#include <collide/detail/wide_filters.hpp>
+#include <collide/detail/wide_lanes.hpp>
 
 #include <collide/detail/strict_begin.hpp>
 
 namespace collide {
+
+#if defined(COLLIDE_LANES)
+
+namespace detail {
+
+/// Filter: the certain answer for the two triangles of a rectangle, or nullopt.
+template <class T>
+std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& velocity, const Rectangle<T>& rectangle) {
+  using L = Lanes<double>;
+  const L from = wide_lanes(point), along = wide_lanes(velocity);
+  const L a = wide_lanes(rectangle.v0) - from, b = wide_lanes(rectangle.v1) - from, c = wide_lanes(rectangle.v2) - from,
+          d = wide_lanes(rectangle.v3) - from;
+  const CertainPassage first = certain_passage(along, a, b, c);
+  if (first.within) return filtered_contact(point, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
+  const CertainPassage second = certain_passage(along, a, c, d);
+  if (second.within) return filtered_contact(point, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
+  if (first.beside && second.beside) return Impact<T>::miss();
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+#endif
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity, const Rectangle<T>& rectangle) {
   if constexpr (Tier::template lifts<T>) {
+#if defined(COLLIDE_LANES)
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_impact(point, velocity, rectangle))
+        return Tier::decided_by_filter(*answer);
+    }
+#endif
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::moving_point_rectangle<decltype(arithmetic)>(a...); },
         point, velocity, rectangle);

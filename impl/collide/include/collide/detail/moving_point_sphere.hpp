@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/ball_filter.hpp>
 #include <collide/detail/contact.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -16,9 +17,8 @@ template <class Tier, class T>
 inline Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                                      bool solid) {
   if constexpr (uses_filter<Tier, T>) {
-    const Vec3<double> from = detail::in_double(point) - detail::in_double(sphere.center);
-    if (detail::certainly_misses(from, detail::in_double(velocity), double(sphere.radius)))
-      return Tier::decided_by_filter(Impact<T>::miss());
+    if (const auto answer = detail::filtered_impact(point, velocity, sphere, solid))
+      return Tier::decided_by_filter(*answer);
   }
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(

@@ -169,23 +169,37 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   return impact_where(hit, time, location, normal);
 }
 
-/// Filter: the certain answer, or nullopt.
+/// What is certain about a line of motion and a triangle, seen from its front.
+struct CertainPassage {
+  bool beside = false;  ///< the line passes an edge on its outer side
+  bool within = false;  ///< the line passes all edges on their inner side
+};
+
+/// The passage of a motion along `along` by the corners a, b and c, which are relative to the moving point.
 ///
 /// Each volume is a triple product, with an error of 16 u of the product of the vectors' |x| + |y| + |z| (u = 2^-53),
 /// without underflow. If one is certainly positive, the line of motion passes an edge on its outer side. If all three
 /// are certainly negative, it passes through the triangle, from its front.
-template <class T>
-std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
+inline CertainPassage certain_passage(const Lanes<double>& along, const Lanes<double>& a, const Lanes<double>& b,
+                                      const Lanes<double>& c) {
   using L = Lanes<double>;
-  const L from = wide_lanes(point), along = wide_lanes(velocity);
-  const L a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from, c = wide_lanes(triangle.v2) - from;
   const L volumes = sums_of_three(along * cross(a, b), along * cross(b, c), along * cross(c, a), along);
   const L sizes = sums_of_three(absolute(a), absolute(b), absolute(c), absolute(along));
   const L products = sizes * yzx(sizes), most = L::splat(0x1p900);  // excludes overflow
   const L bounds = L::splat(0x1p-48) * (products * sizes.template broadcast<3>()) + L::splat(0x1p-900);
   const L in_range = (products <= most) & (bounds <= most);
-  if (any_of_three((bounds < volumes) & in_range)) return Impact<T>::miss();
-  if (all_three((bounds < L::splat(0.0) - volumes) & in_range)) return filtered_contact(point, velocity, triangle);
+  return {any_of_three((bounds < volumes) & in_range), all_three((bounds < L::splat(0.0) - volumes) & in_range)};
+}
+
+/// Filter: the certain answer, or nullopt.
+template <class T>
+std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
+  using L = Lanes<double>;
+  const L from = wide_lanes(point), a = wide_lanes(triangle.v0) - from, b = wide_lanes(triangle.v1) - from,
+          c = wide_lanes(triangle.v2) - from;
+  const CertainPassage passage = certain_passage(wide_lanes(velocity), a, b, c);
+  if (passage.beside) return Impact<T>::miss();
+  if (passage.within) return filtered_contact(point, velocity, triangle);
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/answers.hpp>
+#include <collide/detail/ball_filter.hpp>
 #include <collide/detail/contact.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -15,10 +16,7 @@ namespace kernels {
 template <class Tier, class T>
 inline Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed) {
   if constexpr (uses_filter<Tier, T>) {
-    const Vec3<double> from = detail::in_double(sphere.center) - detail::in_double(fixed.center);
-    if (detail::certainly_misses(from, detail::in_double(velocity), double(sphere.radius) + double(fixed.radius))) {
-      return Tier::decided_by_filter(Impact<T>::miss());
-    }
+    if (const auto answer = detail::filtered_impact(sphere, velocity, fixed)) return Tier::decided_by_filter(*answer);
   }
   if constexpr (Tier::template lifts<T>) {
     return Tier::lift(

@@ -20,23 +20,6 @@
 
 namespace collide::detail {
 
-/// Numbers of a filter in W, for results in T. Sizes and errors are doubles; errors are in units of the unit roundoff.
-template <class T, class W>
-struct InW {
-  /// The error that leaves a number of magnitude 1 accurate, with a margin of a half for the errors of the bounds.
-  static constexpr double enough = half_ulp_in<T, W> / 1.5;
-  static constexpr double u = double(std::numeric_limits<T>::epsilon()) / 4 / half_ulp_in<T, W>;
-
-  static Vec3<W> wide(const Vec3<T>& v) { return {W(v.x), W(v.y), W(v.z)}; }
-  static double number(const W& x) { return double(leading_part(x)); }
-  static double size(const Vec3<W>& v) {
-    return detail::abs(number(v.x)) + detail::abs(number(v.y)) + detail::abs(number(v.z));
-  }
-  static Vec3<T> rounded(const Vec3<W>& v) {
-    return {T(leading_part(v.x)), T(leading_part(v.y)), T(leading_part(v.z))};
-  }
-};
-
 /// The first time at which speed2 t^2 - 2 closing t + outside is zero, and its error, relative to itself. The error is
 /// infinite where there is no such time after 0, or where it is not certain.
 template <class W>

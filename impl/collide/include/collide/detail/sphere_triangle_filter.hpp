@@ -48,6 +48,13 @@ struct SphereOverPlane {
   }
   double bound(const Vec3<W>& v) const { return terms.x * size(v.x) + terms.y * size(v.y) + terms.z * size(v.z); }
 
+  /// In double, twice the errors of the approach, and of the sum and the difference of the height and the radius times
+  /// |n|, if no input is beyond 2^60 and |n|^2 has not underflowed (`has_length`). |n| has an error of 8 u |t|, and the
+  /// radius times |n| one of 9 u |t| of the radius. Products that underflow are far smaller than 2^-800.
+  double approach_bound() const { return 0x1p-49 * bound(step) + 0x1p-800; }
+  double reach_bound() const { return 0x1p-48 * (bound(to) + double(radius) * magnitudes(terms)) + 0x1p-800; }
+  bool has_length() const { return length2 >= W(0x1p-800); }
+
   template <class T>
   static Vec3<W> in(const Vec3<T>& v) {
     return {W(v.x), W(v.y), W(v.z)};
@@ -60,15 +67,13 @@ struct SphereOverPlane {
 /// Whether the sphere certainly moves along n, starts wholly behind the plane, or passes a ball that contains the
 /// triangle.
 ///
-/// With u = 2^-53, |n| has an error of 8 u |t|, and the radius times |n| one of 9 u |t| of the radius. The bounds are
-/// twice these and those above; products that underflow are far smaller than 2^-800. The ball is around the centroid,
-/// with the radius R. No edge is longer than 3 R, so the vector from the centroid has an error of 4 u of itself and of
-/// 48 u R, for which the radius is made larger. The bound of a moving point and a ball leaves room for 4 u.
+/// The ball is around the centroid, with the radius R. No edge is longer than 3 R, so the vector from the centroid has
+/// an error of 4 u of itself and of 48 u R, for which the radius is made larger. The bound of a moving point and a ball
+/// leaves room for 4 u.
 inline bool certainly_misses(const SphereOverPlane<double>& s) {
-  constexpr double least = 0x1p-800, third = 1.0 / 3;
-  const double all = magnitudes(s.terms), towards = 0x1p-49 * s.bound(s.step) + least;
-  if (-s.approach > towards) return true;
-  if (-s.height - s.radius * s.length > 0x1p-48 * (s.bound(s.to) + s.radius * all) + least) return true;
+  constexpr double third = 1.0 / 3;
+  if (-s.approach > s.approach_bound()) return true;
+  if (s.has_length() && -s.height - s.radius * s.length > s.reach_bound()) return true;
   const Vec3<double> centroid = (s.edge1 + s.edge2) * third, first = s.edge1 - centroid, second = s.edge2 - centroid;
   const double ball2 =
       larger(Plain::dot(centroid, centroid), larger(Plain::dot(first, first), Plain::dot(second, second)));
@@ -146,10 +151,8 @@ std::optional<TriangleImpact<T>> filtered_impact(const Sphere<T>& sphere, const 
   if (!(all <= most)) return std::nullopt;
   if (certainly_misses(s)) return TriangleImpact<T>::miss();
   // The gate is certainly open: the sphere moves against n, and no part of it need be in front of the plane but one.
-  const double towards = 0x1p-49 * s.bound(s.step);
-  const double behind = 0x1p-48 * (s.bound(s.to) + s.radius * magnitudes(s.terms));
-  if (!(s.approach > towards && s.height + s.radius * s.length > behind && s.length >= least && s.radius >= least &&
-        S::size(s.step) >= least))
+  if (!(s.approach > s.approach_bound() && s.height + s.radius * s.length > s.reach_bound() && s.length >= least &&
+        s.radius >= least && S::size(s.step) >= least))
     return std::nullopt;
   const Vec3<T> weights = estimate().weights;
   if constexpr (std::same_as<T, float>) return impact_like(weights, sphere, velocity, triangle, s);

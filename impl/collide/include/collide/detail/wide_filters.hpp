@@ -7,13 +7,16 @@
 /// most half_ulp u of its largest number.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 #include <collide/answers.hpp>
 #include <collide/detail/double_word.hpp>
+#include <collide/detail/frame.hpp>
 #include <collide/detail/number.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -38,6 +41,23 @@ inline constexpr double half_ulp_in =
 inline double leading_part(double value) { return value; }
 inline long double leading_part(long double value) { return value; }
 inline double leading_part(const DoubleWord<double>& value) { return value.high; }
+
+/// Numbers of a filter in W, for results in T. Sizes and errors are doubles; errors are in units of the unit roundoff.
+template <class T, class W>
+struct InW {
+  /// The error that leaves a number of magnitude 1 accurate, with a margin of a half for the errors of the bounds.
+  static constexpr double enough = half_ulp_in<T, W> / 1.5;
+  static constexpr double u = double(std::numeric_limits<T>::epsilon()) / 4 / half_ulp_in<T, W>;
+
+  static Vec3<W> wide(const Vec3<T>& v) { return {W(v.x), W(v.y), W(v.z)}; }
+  static double number(const W& x) { return double(leading_part(x)); }
+  static double size(const Vec3<W>& v) {
+    return detail::abs(number(v.x)) + detail::abs(number(v.y)) + detail::abs(number(v.z));
+  }
+  static Vec3<T> rounded(const Vec3<W>& v) {
+    return {T(leading_part(v.x)), T(leading_part(v.y)), T(leading_part(v.z))};
+  }
+};
 
 template <class T>
 Vec3<Wider<T>> in_wider(const Vec3<T>& a) {
@@ -65,14 +85,20 @@ W largest_magnitude(const Vec3<W>& a) {
 /// itself more. If |p| + |a| is at most half_ulp / 32 of the largest number of the place, that is at most
 /// (10 / 32 half_ulp + 1) u of this number. The comparison itself may round: it leaves two thirds of half_ulp.
 ///
+/// An end that is certainly nearest in double needs no more digits: there both products have an error of 6 v (|p| +
+/// |a|)^2 in all, with v = 2^-53.
+///
 /// Where the foot is a number of few bits, no operation rounds, because the quotient comes last.
 template <class T>
 std::optional<ClosestPoint<T>> filtered_foot(const Vec3<T>& start, const Vec3<T>& end, const Vec3<T>& point) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
-    const Vec3<double> first = in_double(start);
-    const double size = magnitudes(in_double(end) - first) + magnitudes(in_double(point) - first);
+    const Vec3<double> first = in_double(start), a = in_double(end) - first, p = in_double(point) - first;
+    const double size = magnitudes(a) + magnitudes(p);
     if (!(size <= double(std::numeric_limits<T>::max()))) return std::nullopt;
+    const double reached = Plain::dot(p, a), bound = 0x1p-50 * (size * size) + 0x1p-1000;
+    if (-reached > bound) return ClosestPoint<T>{start};
+    if (reached - Plain::dot(a, a) > bound) return ClosestPoint<T>{end};
     const Vec3<W> from = in_wider(start), along = in_wider(end) - from, to = in_wider(point) - from;
     const W product = Plain::dot(to, along), length2 = Plain::dot(along, along);
     Vec3<T> place = start;
@@ -249,17 +275,18 @@ std::optional<ClosestPoints<T>> filtered_closest_points(const Line<T>& line1, co
 
 /// A penetration, or nullopt where it is not accurate: where `of_depth` is more than half_ulp / 64 of the depth, or
 /// `of_contact` more than that of the contact's largest number, or one of them is not finite.
-template <class T, class W>
-std::optional<Penetration<T>> accurate_penetration(W depth, const Vec3<T>& normal, const Vec3<T>& contact, W of_depth,
-                                                   W of_contact) {
-  constexpr W most = half_ulp<T> / 64;
-  const T magnitude = detail::abs(T(depth));
-  if (!(of_depth <= most * detail::abs(depth) && magnitude >= std::numeric_limits<T>::min() &&
-        magnitude <= std::numeric_limits<T>::max() && of_contact <= W(std::numeric_limits<T>::max())))
+template <class T>
+std::optional<Penetration<T>> accurate_penetration(T depth, const Vec3<T>& normal, const Vec3<T>& contact,
+                                                   double of_depth, double of_contact) {
+  using limits = std::numeric_limits<T>;
+  constexpr double most = double(half_ulp<T> / 64);
+  const T magnitude = detail::abs(depth);
+  if (!(of_depth <= most * double(magnitude) && magnitude >= limits::min() && magnitude <= limits::max() &&
+        of_contact <= double(limits::max())))
     return std::nullopt;
-  if (depth < W(0)) return Penetration<T>{T(depth), {}, {}};
-  const Penetration<T> answer{T(depth), normal, contact};
-  if (of_contact <= most * W(largest_magnitude(contact))) return answer;
+  if (depth < T(0)) return Penetration<T>{depth, {}, {}};
+  const Penetration<T> answer{depth, normal, contact};
+  if (of_contact <= most * double(largest_magnitude(contact))) return answer;
   return std::nullopt;
 }
 
@@ -267,17 +294,27 @@ std::optional<Penetration<T>> accurate_penetration(W depth, const Vec3<T>& norma
 ///
 /// The distance has an error of 4 u of itself and the sum of the radii one of 1 u. So the depth has an error of 4 u of
 /// their sum and 1 u of itself, the normal one of 5 u, and the contact one of 6 u of the radius and 1 u of itself.
+///
+/// Here and below, the coordinates are computed one after the other: registers of the wider type are few.
 template <class T>
 std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
-    const Vec3<W> center = in_wider(sphere1.center), between = in_wider(sphere2.center) - center;
-    const W distance = detail::sqrt(Plain::dot(between, between)), radius = W(sphere1.radius);
-    const W radii = radius + W(sphere2.radius);
+    const std::array<T, 3> center = components(sphere1.center), other = components(sphere2.center);
+    const auto between = [&](std::size_t k) { return W(other[k]) - W(center[k]); };
+    const W distance = detail::sqrt(between(0) * between(0) + between(1) * between(1) + between(2) * between(2));
+    const W radius = W(sphere1.radius), radii = radius + W(sphere2.radius), depth = radii - distance;
     if (!(distance > W(0))) return std::nullopt;
-    const Vec3<W> normal = between * (W(1) / distance);
-    return accurate_penetration<T>(radii - distance, rounded_to<T>(normal), rounded_to<T>(center + normal * radius),
-                                   (radii + distance) / 8, radius / 8);
+    const double of_depth = double(radii + distance) / 8;
+    if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, of_depth, 0);
+    const W inverse = W(1) / distance;
+    std::array<T, 3> normal, contact;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const W outward = between(k) * inverse;
+      normal[k] = T(outward), contact[k] = T(W(center[k]) + outward * radius);
+    }
+    return accurate_penetration<T>(T(depth), {normal[0], normal[1], normal[2]}, {contact[0], contact[1], contact[2]},
+                                   of_depth, double(radius) / 8);
   }
   return std::nullopt;
 }
@@ -291,16 +328,24 @@ template <class T>
 std::optional<Penetration<T>> filtered_penetration(const Sphere<T>& sphere, const Plane<T>& plane) {
   if constexpr (has_wider<T>) {
     using W = Wider<T>;
-    const Vec3<W> center = in_wider(sphere.center), n = in_wider(plane.normal);
-    const Vec3<W> above{n.x * center.x, n.y * center.y, n.z * center.z};
-    const W length2 = Plain::dot(n, n), inverse = W(1) / detail::sqrt(length2);
+    const std::array<T, 3> center = components(sphere.center), n = components(plane.normal);
+    W above = W(0), length2 = W(0);
+    double terms = detail::abs(double(plane.offset)) + 4 * std::numeric_limits<double>::min();  // of underflow
+    for (std::size_t k = 0; k < 3; ++k) {
+      above = above + W(n[k]) * W(center[k]), length2 = length2 + W(n[k]) * W(n[k]);
+      terms = terms + detail::abs(double(n[k]) * double(center[k]));
+    }
+    const W inverse = W(1) / detail::sqrt(length2), radius = W(sphere.radius);
+    const W depth = radius - (above + W(plane.offset)) * inverse;
     if (!(length2 > W(0))) return std::nullopt;
-    const W radius = W(sphere.radius), offset = W(plane.offset);
-    const W height = (above.x + above.y + above.z + offset) * inverse;
-    const W terms = radius + (magnitudes(above) + detail::abs(offset)) * inverse;
-    const Vec3<W> normal = n * inverse;
-    return accurate_penetration<T>(radius - height, rounded_to<T>(normal), rounded_to<T>(center - normal * radius),
-                                   terms / 4, radius / 8);
+    std::array<T, 3> normal, contact;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const W outward = W(n[k]) * inverse;
+      normal[k] = T(outward), contact[k] = T(W(center[k]) - outward * radius);
+    }
+    const double size = double(radius) + terms * double(inverse);
+    return accurate_penetration<T>(T(depth), {normal[0], normal[1], normal[2]}, {contact[0], contact[1], contact[2]},
+                                   size / 4, double(radius) / 8);
   }
   return std::nullopt;
 }
