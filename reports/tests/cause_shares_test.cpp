@@ -105,15 +105,21 @@ TEST(CauseOfAShare, OfANumberOfTheAnswer) {
   expect_cause(cause_found(s, first_wrong(s)), CauseKind::relative_tolerance, "1e-6");
 }
 
+template <int digits>
 Answer nearly_right_depth(Numbers q) {
   Answer a = exact_answer("sphere_sphere_penetration", q);
-  if (a.yes) a.values[0] *= 1 + 1e-5 * (2 + a.values[1] * a.values[2]);
+  if (a.yes) a.values[0] *= 1 + std::ldexp(2 + a.values[1] * a.values[2], -digits);
   return a;
 }
 
 TEST(CauseOfAShare, SmallErrorsAreATolerance) {
-  const Subject s = subject_with("sphere_sphere_penetration", nearly_right_depth);
+  const Subject s = subject_with("sphere_sphere_penetration", nearly_right_depth<17>);
   expect_cause(cause_found(s, first_wrong(s)), CauseKind::relative_tolerance, "");
+}
+
+TEST(CauseOfAShare, ErrorsOfFloatsAreRounding) {
+  const Subject s = subject_with("sphere_sphere_penetration", nearly_right_depth<26>);
+  expect_cause(cause_found(s, first_wrong(s)), CauseKind::rounding, "single precision");
 }
 
 // closest_point_segment: v0, v1, point.
@@ -248,6 +254,27 @@ Answer longer_direction(Numbers q) {
   for (std::size_t k = 0; k < 3; ++k) a.values[k] *= 3;
   return a;
 }
+Answer unit_direction(Numbers q) {
+  Answer a = exact_answer("slide_direction", q);
+  const double norm = std::hypot(a.values[0], a.values[1], a.values[2]);
+  for (std::size_t k = 0; k < 3 && norm > 0; ++k) a.values[k] /= norm;
+  return a;
+}
+/// moving_point_sphere: point, velocity, and others. At the exit the normal points along the velocity.
+Answer exit_against_the_motion(Numbers q) {
+  Answer a = exact_answer("moving_point_sphere", q);
+  double along = 0;
+  for (std::size_t k = 0; k < 3; ++k) along += a.values[4 + k] * q[3 + k];
+  for (std::size_t k = 4; k < 7 && a.yes && along > 0; ++k) a.values[k] = -a.values[k];
+  return a;
+}
+/// sphere_plane_penetration: center, radius, normal, offset.
+Answer out_at_the_back(Numbers q) {
+  std::vector<double> values(q.begin(), q.end());
+  const bool behind = q[0] * q[4] + q[1] * q[5] + q[2] * q[6] + q[7] < 0;
+  for (std::size_t k = 4; k < 8 && behind; ++k) values[k] = -values[k];
+  return exact_answer("sphere_plane_penetration", values);
+}
 /// The case with every input of this role replaced.
 std::vector<double> with_role(const char* query, Numbers q, Role role, double value) {
   std::vector<double> values(q.begin(), q.end());
@@ -292,6 +319,9 @@ TEST(CauseOfAReading, OfAnotherContactOrValue) {
       {"box_box_info", first_for_second, CauseKind::logic, "value of another"},
       {"sphere_sphere_penetration", operands_exchanged, CauseKind::convention, "operands exchanged"},
       {"bounce_direction", longer_direction, CauseKind::convention, "direction not of unit length"},
+      {"slide_direction", unit_direction, CauseKind::convention, "direction of unit length"},
+      {"moving_point_sphere", exit_against_the_motion, CauseKind::convention, "normal reversed"},
+      {"sphere_plane_penetration", out_at_the_back, CauseKind::convention, "plane with two fronts"},
       {"point_in_triangle", without_axis, CauseKind::unsupported, "axis ignored"},
       {"point_in_triangle", weights_rotated, CauseKind::convention, "weights in another order"},
       {"moving_sphere_passes_sphere", until_time_one, CauseKind::convention, "motion ends at time 1"},

@@ -21,7 +21,8 @@ class Convention : public TestOfCause {
       const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
       if (!fits.value_or(is_undefined())) continue;
       const Support s = support_of(reading);
-      if (fits ? s.holds(!reading.decides) : s.holds_without_case()) return named_reading(reading, s);
+      const bool holds = s.holds(!reading.decides) && (gives_numbers() || s.against_it == 0);
+      if (fits ? holds : s.holds_without_case()) return named_reading(reading, s);
       if (!fits) continue;
       by_chance.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
                                       of_text(s.explained, s.with_finding), s.for_it, s.against_it));
@@ -36,6 +37,8 @@ class Convention : public TestOfCause {
  private:
   /// A number of the answer is not finite, as that of 0 / 0: readings say nothing about it.
   bool is_undefined() const { return trials().base().finding.disagreement == Disagreement::not_finite; }
+  /// A right answer without numbers is right by chance in half of the cases.
+  bool gives_numbers() const { return trials().query().kind != Kind::decision; }
   /// How the subject's answers fit a reading.
   struct Support {
     std::size_t with_finding = 0, explained = 0;  ///< cases with the finding, and those that the reading explains
@@ -49,7 +52,7 @@ class Convention : public TestOfCause {
       const auto nearly = is_of_numbers ? all_but_few : nearly_all;
       const bool is_rare = explained >= many && explained == with_finding && for_it == wrong;  // among generated cases
       return explained >= least && nearly(explained, with_finding) && for_it >= (is_rare ? 1 : least_generated) &&
-             nearly(for_it, for_it + against_it);
+             all_but_few(for_it, for_it + against_it);
     }
     /// Other numbers may explain most answers of a wrong formula by chance: more than a few exceptions count.
     static bool all_but_few(std::size_t part, std::size_t all) {
@@ -72,15 +75,21 @@ class Convention : public TestOfCause {
     s.with_finding += fits || !reading.decides;
     s.explained += fits.value_or(false);
   }
+  /// A start in contact is a branch of its own in many implementations, and so is each value of a flag.
+  bool is_of_another_branch(const Case& c) const {
+    const auto& inputs = c.query->inputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (inputs[i].role == Role::flag && c.values[i] != question().values[i]) return true;
+    }
+    return starts_in_contact(c) != starts_in_contact(question());
+  }
   Support support_of(const Reading& reading) {
     Support s;
     for (const Trial& t : asked_.similar())
       count_finding(reading, reading.right(t.question, t.answer, asked_.is_right()), s);
-    const bool touches_later = !starts_in_contact(question());
     for (const Trial& t : asked_.sample()) {
       if (t.outcome == Outcome::none) continue;
-      const bool is_apart = touches_later && t.outcome == Outcome::right && starts_in_contact(t.question);
-      if (is_apart) continue;  // a start in contact is a branch of its own
+      if (t.outcome == Outcome::right && is_of_another_branch(t.question)) continue;
       const std::optional<bool> fits = reading.right(t.question, t.answer, asked_.is_right());
       s.against_it += contradicts(reading, t) && !fits.value_or(true);
       s.for_it += t.outcome != Outcome::right && fits.value_or(false);

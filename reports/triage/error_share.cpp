@@ -50,6 +50,13 @@ class ErrorShare : public TestOfCause {
     if (largest < least) return std::nullopt;
     // A search along a motion that ends too early has small errors too.
     if (!parts_of(trials().query()).velocities.empty()) return std::nullopt;
+    constexpr double of_floats = 0x1p-22;  // two numbers, each rounded to a float
+    if (largest <= of_floats && trials().subject().scalar == Scalar::float64)
+      return Named{
+          CauseKind::rounding, "single precision",
+          fmt::format("Every wrong answer is right for numbers that differ by less than {:.2g} of their size, at "
+                      "every scale and in every rounding mode: the subject computes or compares floats.",
+                      2 * largest)};
     return Named{
         CauseKind::relative_tolerance, "",
         fmt::format("Every wrong answer is right for numbers that differ by less than {:.2g} of their size, at "

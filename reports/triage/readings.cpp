@@ -1,6 +1,7 @@
 #include "reports/triage/readings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -14,15 +15,6 @@ namespace nearmiss {
 namespace {
 
 using Fits = std::optional<bool>;
-
-/// The first member of the answer with this role that the answer gives; nullptr if there is none.
-const Layout::Part* given_part(const Case& c, const Answer& a, Role role) {
-  if (a.status != Answer::Status::answered || !a.yes) return nullptr;
-  for (const Layout::Part& p : c.query->layout.parts) {
-    if (p.role == role && a.gives(p.begin)) return &p;
-  }
-  return nullptr;
-}
 
 double length(std::span<const double> x) {
   double square = 0;
@@ -65,6 +57,21 @@ Fits normalised_direction(const Case& c, const Answer& a, const IsRight& is_righ
   const Layout::Part* p = given_part(c, a, Role::weight);
   const bool is_direction = p != nullptr && c.query->outputs[p->begin].name.starts_with("direction");
   return is_direction ? normalised(c, a, p, is_right) : std::nullopt;
+}
+
+/// The direction stretched to the length of a right one.
+Fits direction_of_unit_length(const Case& c, const Answer& a, const IsRight& is_right) {
+  const Layout::Part* p = given_part(c, a, Role::weight);
+  if (p == nullptr || !c.query->outputs[p->begin].name.starts_with("direction")) return std::nullopt;
+  const std::vector<Alternative> all = truth_of(c).alternatives;
+  if (all.size() != 1) return std::nullopt;
+  std::array<double, 3> right{};
+  for (std::size_t k = 0; k < 3; ++k)
+    right[k] = all[0].values[p->begin + k].low / 2 + all[0].values[p->begin + k].high / 2;
+  const double norm = length(right), given = length({&a.values[p->begin], 3});
+  const bool is_longer = std::abs(given - 1) <= measure().error && norm < 1 - measure().error;
+  if (!is_longer) return std::nullopt;
+  return with_output(c, a, p->role, is_right, [&](double x) { return x * norm; });
 }
 
 Fits distance_for_time(const Case& c, const Answer& a, const IsRight& is_right) {
@@ -213,98 +220,6 @@ Fits ends_at_time_one(const Case& c, const Answer& a, const IsRight&) {
   return !a.yes;
 }
 
-void swap_vectors(Case& c, std::size_t i, std::size_t k) {
-  std::swap_ranges(c.values.begin() + std::ptrdiff_t(i), c.values.begin() + std::ptrdiff_t(i) + 3,
-                   c.values.begin() + std::ptrdiff_t(k));
-}
-
-/// The case with the back of the plane, triangle or rectangle as its front; empty if there is none.
-std::optional<Case> seen_from_behind(const Case& c) {
-  if (!c.query->traits.one_sided) return std::nullopt;
-  const Parts& parts = parts_of(*c.query);
-  Case other = c;
-  if (!parts.rectangles.empty()) {
-    swap_vectors(other, parts.rectangles[0][1], parts.rectangles[0][3]);
-  } else if (!parts.triangles.empty()) {
-    swap_vectors(other, parts.triangles[0][1], parts.triangles[0][2]);
-  } else {
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      const Role role = c.query->inputs[i].role;
-      if (role == Role::direction || role == Role::offset) other.values[i] = -c.values[i];
-    }
-  }
-  return other;
-}
-
-/// Without weights, which follow the order of the corners.
-Answer without_weights(const Case& c, Answer a) {
-  for (std::size_t i = 0; i < c.query->outputs.size(); ++i) {
-    if (c.query->outputs[i].role == Role::weight) a.given &= ~(std::uint64_t{1} << i);
-  }
-  return a;
-}
-
-Fits back_for_front(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto other = seen_from_behind(c);
-  if (!other) return std::nullopt;
-  return is_right(*other, without_weights(c, a));
-}
-
-Fits both_sides(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto other = seen_from_behind(c);
-  if (!other || exact_decision(c) || !exact_decision(*other)) return std::nullopt;
-  return is_right(*other, without_weights(c, a));
-}
-
-/// A vector turned by the first rotation of the case; empty where there is none, or where it turns nothing.
-std::optional<std::array<double, 3>> turned_as_box(const Case& c, const double* v) {
-  const auto& all = parts_of(*c.query).quaternions;
-  if (all.empty()) return std::nullopt;
-  const double *q = &c.values[all.front()], n = length({q, 4});
-  if (!(n > 0) || (q[0] == 0 && q[1] == 0 && q[2] == 0)) return std::nullopt;
-  const auto crossed = [&](const std::array<double, 3>& a) {
-    return std::array{(q[1] * a[2] - q[2] * a[1]) / n, (q[2] * a[0] - q[0] * a[2]) / n,
-                      (q[0] * a[1] - q[1] * a[0]) / n};
-  };
-  const std::array<double, 3> given{v[0], v[1], v[2]}, once = crossed(given), twice = crossed(once);
-  std::array<double, 3> result;
-  for (std::size_t k = 0; k < 3; ++k) result[k] = given[k] + 2 * (q[3] / n * once[k] + twice[k]);
-  return result;
-}
-
-/// The normal is compared as the measure compares: the turn rounds.
-Fits normal_in_frame(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = given_part(c, a, Role::normal);
-  const auto normal = p == nullptr ? std::nullopt : turned_as_box(c, &a.values[p->begin]);
-  if (!normal) return std::nullopt;
-  Answer other = a;
-  std::copy(normal->begin(), normal->end(), other.values.begin() + std::ptrdiff_t(p->begin));
-  return is_right(c, other);
-}
-
-/// Where the center of the last operand that has one begins in the inputs.
-std::optional<std::size_t> last_center(const Query& q) {
-  for (std::size_t i = q.inputs.size(); i-- > 0;) {
-    if (q.inputs[i].name.ends_with(".center.x")) return i;
-  }
-  return std::nullopt;
-}
-
-/// The place as a vector from the center of the fixed operand, in the frame of that operand or not.
-template <bool in_frame>
-Fits place_from_center(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = given_part(c, a, Role::position);
-  const auto center = last_center(*c.query);
-  if (p == nullptr || !center) return std::nullopt;
-  std::optional<std::array<double, 3>> from{{a.values[p->begin], a.values[p->begin + 1], a.values[p->begin + 2]}};
-  if (in_frame) from = turned_as_box(c, &a.values[p->begin]);
-  if (!from) return std::nullopt;
-  Answer other = a;
-  for (std::size_t k = 0; k < 3; ++k) other.values[p->begin + k] = (*from)[k] + c.values[*center + k];
-  if (other.values == a.values) return std::nullopt;
-  return is_right(c, other);
-}
-
 Fits counted_from_one(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_output(c, a, Role::index, is_right, [](double x) { return x - 1; });
 }
@@ -315,6 +230,8 @@ constexpr Reading of_answers[] = {
      normalised_normal},
     {"direction not of unit length", "its direction is divided by its length", CauseKind::convention, false,
      normalised_direction},
+    {"direction of unit length", "its direction is multiplied by the length of the right one", CauseKind::convention,
+     false, direction_of_unit_length},
     {"distance in place of time", "its time is the distance until the contact", CauseKind::convention, false,
      distance_for_time},
     {"time over speed", "its time is divided by the speed once more", CauseKind::convention, false, time_over_speed},
@@ -331,24 +248,26 @@ constexpr Reading of_answers[] = {
     {"start in contact is a miss", "a start in contact is a miss", CauseKind::convention, true, start_inside_is_a_miss},
     {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, true,
      start_inside_is_a_hit},
+    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, false,
+     start_inside_is_a_hit},
     {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, ends_at_time_one},
-    {"both sides", "the back counts as well as the front", CauseKind::convention, true, both_sides},
-    {"back for front", "the back takes the place of the front", CauseKind::convention, false, back_for_front},
-    {"normal in the frame of the box", "its normal is turned by the rotation of the box", CauseKind::convention, false,
-     normal_in_frame},
-    {"contact from the center", "its place is a vector from the center", CauseKind::convention, false,
-     place_from_center<false>},
-    {"contact in the frame of the box", "its place is turned, and moved to the center, as the box is",
-     CauseKind::convention, false, place_from_center<true>},
     {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
 };
 
 }  // namespace
 
+const Layout::Part* given_part(const Case& c, const Answer& a, Role role) {
+  if (a.status != Answer::Status::answered || !a.yes) return nullptr;
+  const auto& parts = c.query->layout.parts;
+  const auto found = std::find_if(parts.begin(), parts.end(),
+                                  [&](const Layout::Part& p) { return p.role == role && a.gives(p.begin); });
+  return found == parts.end() ? nullptr : &*found;
+}
+
 std::span<const Reading> readings() {
   static const std::vector<Reading> table = [] {
     std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));
-    for (const auto more : {readings_of_inputs(), readings_of_values()})
+    for (const auto more : {readings_of_frames(), readings_of_inputs(), readings_of_values()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();

@@ -149,15 +149,18 @@ Fits length_for_limit(const Case& c, const Answer& a, const IsRight& is_right) {
 Fits limit_of_one(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
   const auto& inputs = c.query->inputs;
-  bool is_forever = false;
+  bool is_forever = false, has_limit = false;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].role != Role::flag) continue;
     is_forever = is_forever || c.values[i] != 0;
     other.values[i] = 0;
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].role == Role::time) other.values[i] = is_forever ? 1 : std::min(c.values[i], 1.0);
+    if (inputs[i].role != Role::time) continue;
+    other.values[i] = is_forever ? 1 : std::min(c.values[i], 1.0);
+    has_limit = true;
   }
+  if (!has_limit) return std::nullopt;
   return opinion_on(c, other, a, is_right);
 }
 

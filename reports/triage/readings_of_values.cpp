@@ -23,14 +23,6 @@ Answer only(const Answer& a, const Layout::Part& p) {
   return other;
 }
 
-/// The first member with this role that the answer gives; nullptr if there is none.
-const Layout::Part* given_member(const Case& c, const Answer& a, Role role) {
-  const auto& parts = c.query->layout.parts;
-  const auto found = std::find_if(parts.begin(), parts.end(),
-                                  [&](const Layout::Part& p) { return p.role == role && a.gives(p.begin); });
-  return found == parts.end() ? nullptr : &*found;
-}
-
 /// Where a motion starts, and its velocity; a ray has a direction in its place.
 struct Motion {
   std::size_t start, velocity;
@@ -68,8 +60,8 @@ Case later(const Case& c, const Motion& m, double time) {
 Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
   const auto motion = motion_of(*c.query);
   if (!motion || !answers_yes(a)) return std::nullopt;
-  const Layout::Part* place = given_member(c, a, Role::position);
-  const Layout::Part* time = given_member(c, a, Role::time);
+  const Layout::Part* place = given_part(c, a, Role::position);
+  const Layout::Part* time = given_part(c, a, Role::time);
   auto earlier = time_beyond_all(c, *motion);
   if (!earlier || place == nullptr) return std::nullopt;
   double along = 0;
@@ -90,8 +82,8 @@ Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
 Fits where_it_leaves(const Case& c, const Answer& a, const IsRight& is_right) {
   const auto motion = motion_of(*c.query);
   if (!motion || !answers_yes(a) || c.query->traits.one_sided) return std::nullopt;
-  const Layout::Part* place = given_member(c, a, Role::position);
-  const Layout::Part* time = given_member(c, a, Role::time);
+  const Layout::Part* place = given_part(c, a, Role::position);
+  const Layout::Part* time = given_part(c, a, Role::time);
   const auto beyond = time_beyond_all(c, *motion);
   if (place == nullptr || !beyond || is_right(c, only(a, *place))) return std::nullopt;
   Case back = later(c, *motion, *beyond);
@@ -125,7 +117,7 @@ Fits value_of_another(const Case& c, const Answer& a, const IsRight& is_right) {
 }
 
 Fits weights_in_another_order(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = answers_yes(a) ? given_member(c, a, Role::weight) : nullptr;
+  const Layout::Part* p = given_part(c, a, Role::weight);
   if (p == nullptr || p->end - p->begin != 3 || c.query->outputs[p->begin].name.starts_with("direction"))
     return std::nullopt;
   std::array<std::size_t, 3> order{0, 1, 2};
