@@ -52,7 +52,7 @@ class Convention : public TestOfCause {
       const auto nearly = is_of_numbers ? all_but_few : nearly_all;
       const bool is_rare = explained >= many && explained == with_finding && for_it == wrong;  // among generated cases
       return explained >= least && nearly(explained, with_finding) && for_it >= (is_rare ? 1 : least_generated) &&
-             all_but_few(for_it, for_it + against_it);
+             nearly(for_it, for_it + against_it);
     }
     /// Other numbers may explain most answers of a wrong formula by chance: more than a few exceptions count.
     static bool all_but_few(std::size_t part, std::size_t all) {
@@ -75,10 +75,12 @@ class Convention : public TestOfCause {
     s.with_finding += fits || !reading.decides;
     s.explained += fits.value_or(false);
   }
-  /// A start in contact is a branch of its own in many implementations, and so is each value of a flag.
-  bool is_of_another_branch(const Case& c) const {
+  /// A start in contact is a branch of its own in many implementations, and so is each value of a flag. A reading of
+  /// the flag itself is about both values.
+  bool is_of_another_branch(const Reading& reading, const Case& c) const {
     const auto& inputs = c.query->inputs;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const bool is_of_flag = reading.name.starts_with("flag");
+    for (std::size_t i = 0; i < inputs.size() && !is_of_flag; ++i) {
       if (inputs[i].role == Role::flag && c.values[i] != question().values[i]) return true;
     }
     return starts_in_contact(c) != starts_in_contact(question());
@@ -89,7 +91,7 @@ class Convention : public TestOfCause {
       count_finding(reading, reading.right(t.question, t.answer, asked_.is_right()), s);
     for (const Trial& t : asked_.sample()) {
       if (t.outcome == Outcome::none) continue;
-      if (t.outcome == Outcome::right && is_of_another_branch(t.question)) continue;
+      if (t.outcome == Outcome::right && is_of_another_branch(reading, t.question)) continue;
       const std::optional<bool> fits = reading.right(t.question, t.answer, asked_.is_right());
       s.against_it += contradicts(reading, t) && !fits.value_or(true);
       s.for_it += t.outcome != Outcome::right && fits.value_or(false);

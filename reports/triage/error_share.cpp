@@ -50,8 +50,9 @@ class ErrorShare : public TestOfCause {
     if (largest < least) return std::nullopt;
     // A search along a motion that ends too early has small errors too.
     if (!parts_of(trials().query()).velocities.empty()) return std::nullopt;
-    constexpr double of_floats = 0x1p-22;  // two numbers, each rounded to a float
-    if (largest <= of_floats && trials().subject().scalar == Scalar::float64)
+    constexpr double of_floats = 0x1p-22;                                // two numbers, each rounded to a float
+    const bool gives_numbers = trials().query().kind != Kind::decision;  // others may compare with any tolerance
+    if (largest <= of_floats && gives_numbers && trials().subject().scalar == Scalar::float64)
       return Named{
           CauseKind::rounding, "single precision",
           fmt::format("Every wrong answer is right for numbers that differ by less than {:.2g} of their size, at "

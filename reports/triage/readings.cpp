@@ -248,10 +248,14 @@ constexpr Reading of_answers[] = {
     {"start in contact is a miss", "a start in contact is a miss", CauseKind::convention, true, start_inside_is_a_miss},
     {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, true,
      start_inside_is_a_hit},
-    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, false,
-     start_inside_is_a_hit},
     {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, ends_at_time_one},
     {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
+};
+
+/// After all others: a flag that is ignored says more.
+constexpr Reading of_starts[] = {
+    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, false,
+     start_inside_is_a_hit},
 };
 
 }  // namespace
@@ -269,6 +273,7 @@ std::span<const Reading> readings() {
     std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));
     for (const auto more : {readings_of_frames(), readings_of_inputs(), readings_of_values()})
       all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), std::begin(of_starts), std::end(of_starts));
     return all;
   }();
   return table;
