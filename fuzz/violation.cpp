@@ -51,6 +51,7 @@ void store(const std::filesystem::path& folder, const Case& c, const Subject& su
   ++count;
   const std::string name = fmt::format("{}-{}-{:016x}.json", c.query->name, subject.name, content_hash(c));
   try {
+    make_folder(folder);
     write_file(folder / name, case_file(c, description(subject, f)));
   } catch (const IoError& e) {
     cannot_run(e.what());
