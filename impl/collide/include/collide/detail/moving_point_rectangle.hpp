@@ -23,9 +23,12 @@ std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& ve
   const L a = wide_lanes(rectangle.v0) - from, b = wide_lanes(rectangle.v1) - from, c = wide_lanes(rectangle.v2) - from,
           d = wide_lanes(rectangle.v3) - from;
   const CertainPassage first = certain_passage(along, a, b, c);
-  if (first.within) return filtered_contact(point, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
+  const bool finite = all_finite(rectangle);  // a corner that a triangle does not have
+  if (first.within && finite)
+    return filtered_contact(point, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});
   const CertainPassage second = certain_passage(along, a, c, d);
-  if (second.within) return filtered_contact(point, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
+  if (second.within && finite)
+    return filtered_contact(point, velocity, Triangle<T>{rectangle.v0, rectangle.v2, rectangle.v3});
   if (first.beside && second.beside) return Impact<T>::miss();
   return std::nullopt;
 }
