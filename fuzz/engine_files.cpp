@@ -67,12 +67,14 @@ std::string dictionary() {
 constexpr int timeout = 10;
 
 /// The cases of a query have two lengths, one for each scalar: longer inputs have surplus bytes, and libFuzzer must not
-/// begin with short ones. The oracle is not instrumented, so a vector of libc++ that it has filled looks overfull.
+/// begin with short ones. fuzz_query.cpp says why branches are not counted. The oracle is not instrumented, so a vector
+/// of libc++ that it has filled looks overfull.
 std::string options(const Query& query) {
   const std::size_t longest = case_to_bytes(generate(query, Scalar::float64, 1, 0)).size();
   return fmt::format(
       "[libfuzzer]\n"
       "len_control = 0\n"
+      "use_counters = 0\n"
       "max_len = {}\n"
       "timeout = {}\n"
       "\n"
