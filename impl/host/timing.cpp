@@ -75,13 +75,31 @@ double ticks_of_empty_call() {
   return mean_without_pauses(rounds.ticks);
 }
 
-/// Nanoseconds of a tick, from a wait of two milliseconds.
+/// A reading of both clocks: the ticks lie within `width` of those at the time `nanoseconds`.
+struct ClockReading {
+  std::int64_t nanoseconds = 0;
+  std::uint64_t ticks = 0, width = 0;
+};
+
+/// The narrowest of some readings: a thread that loses the processor between the two clocks makes a wide one.
+ClockReading read_clocks() {
+  ClockReading narrowest;
+  for (int i = 0; i < 20; ++i) {
+    const std::uint64_t before = CallClock::begin();
+    const std::int64_t now = CallClock::nanoseconds(CLOCK_MONOTONIC);
+    const std::uint64_t width = CallClock::end() - before;
+    if (i == 0 || width < narrowest.width) narrowest = {now, before + width / 2, width};
+  }
+  return narrowest;
+}
+
+/// Nanoseconds of a tick, from a wait of at least two milliseconds.
 double nanoseconds_of_tick() {
-  const std::int64_t from = CallClock::nanoseconds(CLOCK_MONOTONIC);
-  const std::uint64_t begin = CallClock::begin();
-  std::int64_t now = from;
-  while (now < from + 2'000'000) now = CallClock::nanoseconds(CLOCK_MONOTONIC);
-  return double(now - from) / double(std::max<std::uint64_t>(1, CallClock::end() - begin));
+  const ClockReading from = read_clocks();
+  while (CallClock::nanoseconds(CLOCK_MONOTONIC) < from.nanoseconds + 2'000'000) {
+  }
+  const ClockReading to = read_clocks();
+  return double(to.nanoseconds - from.nanoseconds) / double(std::max<std::uint64_t>(1, to.ticks - from.ticks));
 }
 
 /// Times the calls of `answer`, which decodes the inputs itself.

@@ -63,7 +63,8 @@ int nearest_edge(const std::array<Vec3<T>, 3>& v, const std::array<EdgeFoot<T>, 
 }
 
 /// The index of the closest edge of a rectangle; edge i runs from v[i] to v[(i + 1) % 4]. Opposite edges have no common
-/// vertex, so they are compared by their distances from the point.
+/// vertex, so they are compared by their distances from the point, whose rounding may hide a difference. So the
+/// search then goes on along the perimeter, as long as an edge that shares a vertex is nearer.
 template <class Tier, class T>
 int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 4>& foot, const Vec3<T>& point) {
   std::array<T, 4> distance2, next_excess;
@@ -72,13 +73,21 @@ int nearest_edge(const std::array<Vec3<T>, 4>& v, const std::array<EdgeFoot<T>, 
     distance2[i] = Tier::dot(away, away);
     next_excess[i] = next_distance2_excess<Tier>(foot[i], foot[(i + 1) % 4], point - v[(i + 1) % 4]);
   }
-  const auto as_near = [&](int edge, int other) {
-    return other == (edge + 1) % 4 ? next_excess[edge] >= T(0) : next_excess[other] <= T(0);
-  };
   const int even = distance2[0] <= distance2[2] ? 0 : 2, odd = distance2[1] <= distance2[3] ? 1 : 3;
-  const bool is_even = as_near(even, odd);
-  const int best = is_even ? even : odd, other = ((is_even ? odd : even) + 2) % 4;
-  return as_near(best, other) ? best : other;
+  const bool odd_is_next = odd == (even + 1) % 4;
+  const bool is_even = odd_is_next ? next_excess[even] >= T(0) : next_excess[odd] <= T(0);
+  int best = is_even ? even : odd;
+  for (int step = 0; step < 2; ++step) {
+    const int next = (best + 1) % 4, previous = (best + 3) % 4;
+    if (next_excess[best] < T(0)) {
+      best = next;
+    } else if (next_excess[previous] > T(0)) {
+      best = previous;
+    } else {
+      break;
+    }
+  }
+  return best;
 }
 
 template <class T>
