@@ -209,51 +209,6 @@ inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float
 
 #endif
 
-/// Filter: the depth of a box behind a plane and its contacts, or nullopt.
-///
-/// Let N and H be the sums of the magnitudes of the normal and of the half extents, and B the sum of the magnitudes of
-/// the products of the normal with the center, of the offset, and of N H. A side has an error of 20 u of its length, so
-/// the height of a corner, times |normal|, has one of 27 u B. Where B is at most half_ulp / 32 of the lowest height,
-/// the depth is accurate. A corner has an error of 26 u H and 3 u of itself; it is accurate where H is at most
-/// half_ulp / 32 of it. Heights beyond 32 u B have certain signs.
-template <class T>
-std::optional<CornerContacts<T>> filtered_contacts(const Box<T>& box, const Plane<T>& plane) {
-  if constexpr (has_wider<T>) {
-    using W = Wider<T>;
-    constexpr W u = std::numeric_limits<W>::epsilon() / 2, most = half_ulp<T> / 32;
-    const Axes<W> axes = axes_in_wider(box.orientation);
-    const Vec3<W> middle = in_wider(box.center), half = in_wider(box.half), n = in_wider(plane.normal);
-    const Vec3<W> x = axes[0] * half.x, y = axes[1] * half.y, z = axes[2] * half.z;
-    const Vec3<W> above{n.x * middle.x, n.y * middle.y, n.z * middle.z};
-    const W offset = W(plane.offset), center = above.x + above.y + above.z + offset;
-    const W to_x = Plain::dot(n, x), to_y = Plain::dot(n, y), to_z = Plain::dot(n, z), extent = magnitudes(half);
-    const W size = magnitudes(above) + detail::abs(offset) + magnitudes(n) * extent;
-    const W lowest = center - detail::abs(to_x) - detail::abs(to_y) - detail::abs(to_z);
-    const W norm = detail::sqrt(Plain::dot(n, n)), inverse = W(1) / norm;
-    CornerContacts<T> answer;
-    answer.depth = T(-lowest * inverse);
-    const T magnitude = detail::abs(answer.depth);
-    if (!(norm > W(0) && size <= std::numeric_limits<W>::max() && size <= most * detail::abs(lowest) &&
-          magnitude >= std::numeric_limits<T>::min() && magnitude <= std::numeric_limits<T>::max()))
-      return std::nullopt;
-    if (lowest > W(0)) return answer;
-    answer.normal = rounded_to<T>(n * inverse);
-    const std::array<W, 4> heights{center - to_x - to_y, center + to_x - to_y, center - to_x + to_y,
-                                   center + to_x + to_y};
-    const std::array<Vec3<W>, 4> places{middle - x - y, middle + x - y, middle - x + y, middle + x + y};
-    for (std::size_t i = 0; i < 8; ++i) {
-      const W height = i < 4 ? heights[i] - to_z : heights[i - 4] + to_z;
-      if (!(detail::abs(height) > 32 * u * size)) return std::nullopt;
-      if (height > W(0)) continue;
-      const Vec3<T> corner = rounded_to<T>(i < 4 ? places[i] - z : places[i - 4] + z);
-      if (!(double(extent) <= double(most) * double(largest_magnitude(corner)))) return std::nullopt;
-      answer.corners[i] = {true, corner};
-    }
-    return answer;
-  }
-  return std::nullopt;
-}
-
 /// Filter: the values that queries about two boxes share, or nullopt.
 ///
 /// A cosine is a product of two axes: it has an error of at most 71 u, and the largest of its row is at least 0.57. Let

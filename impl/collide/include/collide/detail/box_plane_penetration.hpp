@@ -2,8 +2,8 @@
 #pragma once
 
 #include <collide/answers.hpp>
-#include <collide/detail/box_filters.hpp>
 #include <collide/detail/frame.hpp>
+#include <collide/detail/plane_contacts_filter.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
