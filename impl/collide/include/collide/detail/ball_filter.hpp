@@ -17,8 +17,9 @@
 
 namespace collide::detail {
 
-/// A point and a ball in the wider type, for `ball_impact` and `impact_at_start`. The contact is the place of the moving point or, with `inner`
-/// not negative, the point of a ball of this radius around the same center in the direction of the normal.
+/// A point and a ball in the wider type, for `ball_impact` and `impact_at_start`. The contact is the place of the
+/// moving point or, with `inner` not negative, the point of a ball of this radius around the same center in the
+/// direction of the normal.
 template <class T>
 struct PointAndBall {
   Vec3<T> start, velocity, center;
