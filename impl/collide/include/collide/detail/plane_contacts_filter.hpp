@@ -33,7 +33,8 @@ struct CertainCorners {
 /// Let u = 2^-53, N = |q|^2, M and H the sums of the magnitudes of the normal and of the half extents, and B the sum of
 /// the magnitudes of the products of the normal with the center, of the offset, and of M H. The normal in the box's
 /// frame, times N, has an error of 7 u N M, and the height of the center, times N, one of 8 u N times its terms. So the
-/// height of a corner, times N |normal|, has an error of less than 14 u N B. The filter uses a bound of 16 u N B.
+/// height of a corner, times N |normal|, has an error of less than 14 u N B. The filter uses a bound of 16 u N B. M and
+/// B lie in a range where no product of them overflows and where underflow costs less than 1 u.
 template <class T>
 CertainCorners certain_corners(const Box<T>& box, const Plane<T>& plane) {
   using L = Lanes<double>;
@@ -41,14 +42,15 @@ CertainCorners certain_corners(const Box<T>& box, const Plane<T>& plane) {
   const L above = normal * wide_lanes(box.center), offset = L::splat(plane.offset), zero = L::splat(0.0);
   const L norm2 = sum_of_four(q * q), center = (sum_of_three(above) + offset) * norm2;
   const L reach = FrameInLanes<double>::scaled(q).into(normal) * half;
-  const L size =
-      sum_of_three(absolute(above)) + absolute(offset) + sum_of_three(absolute(normal)) * sum_of_three(absolute(half));
+  const L steepness = sum_of_three(absolute(normal)), extent = sum_of_three(absolute(half));
+  const L size = sum_of_three(absolute(above)) + absolute(offset) + steepness * extent;
   const L odd = L::of(-0.0, 0.0, -0.0, 0.0), low_half = L::of(-0.0, -0.0, 0.0, 0.0);
   const L around = center + (reach.template broadcast<0>() ^ odd) + (reach.template broadcast<1>() ^ low_half);
   const L reach_z = reach.template broadcast<2>(), low = around - reach_z, high = around + reach_z;
   const L bound = L::splat(0x1p-49) * norm2 * size;
   const int certain = (bound < absolute(low)).bits() & (bound < absolute(high)).bits();
-  const bool in_range = is_in_safe_range(norm2.first()) && size.first() >= 0x1p-900 && size.first() <= 0x1p900;
+  const auto is_in_range = [](const L& x) COLLIDE_INLINE { return x.first() >= 0x1p-900 && x.first() <= 0x1p900; };
+  const bool in_range = is_in_safe_range(norm2.first()) && is_in_range(steepness) && is_in_range(size);
   if (!(in_range && certain == 15)) return {};
   const L lowest = smaller(low, high), pairwise = smaller(lowest, lowest.template shuffled<2, 3, 0, 1>());
   const double least = smaller(pairwise, pairwise.template shuffled<1, 0, 3, 2>()).first() / norm2.first();
