@@ -144,8 +144,9 @@ TEST_P(FilterOfCertified, DecidesMostPlainScenes) {
 
 /// Queries whose filters lose digits as the decision comes close to its change.
 constexpr std::string_view with_cancellation[] = {
-    "point_in_rectangle",     "box_box_conservative",   "moving_point_sphere", "moving_sphere_sphere",
-    "moving_sphere_triangle", "sphere_box_penetration", "box_box_penetration",
+    "point_in_rectangle",       "box_box_conservative",      "moving_point_sphere", "moving_sphere_sphere",
+    "moving_sphere_triangle",   "sphere_box_penetration",    "box_box_penetration", "box_plane_penetration",
+    "sphere_plane_penetration", "sphere_sphere_penetration",
 };
 
 /// The case half way between two of one scalar; a whole number, which may be an index, is that of `a`.

@@ -36,6 +36,12 @@ std::array<W, 3> difference(const std::array<W, 3>& a, const std::array<W, 3>& b
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+template <class T>
+double distance_of_centers(const Box<T>& box1, const Box<T>& box2) {
+  const Vec3<double> between = in_double(box2.center) - in_double(box1.center);
+  return detail::sqrt(Plain::dot(between, between));
+}
+
 /// S, or 0 where a product could leave the range of a double.
 template <class T>
 double size_of_pair(const Box<T>& box1, const Box<T>& box2) {
@@ -49,16 +55,21 @@ double size_of_pair(const Box<T>& box1, const Box<T>& box2) {
   return in_range && has_safe_length(box1.orientation) && has_safe_length(box2.orientation) ? size : 0;
 }
 
+/// The error in u that leaves a number of magnitude 1 accurate, beside one of 32 u of itself and as much for the
+/// rounding of the bounds.
+template <class T, class W>
+inline constexpr double most_error_in = half_ulp_in<T, W> - 64;
+
 /// Whether a length is accurate that has an error of `error` u, and of 32 u of itself.
 template <class T, class W>
 bool is_accurate_length(const W& length, double error) {
   const auto magnitude = double(leading_part(abs(length)));
-  return 1.5 * error <= half_ulp_in<T, W> * magnitude && magnitude >= double(std::numeric_limits<T>::min()) &&
+  return error <= most_error_in<T, W> * magnitude && magnitude >= double(std::numeric_limits<T>::min()) &&
          magnitude <= double(std::numeric_limits<T>::max()) / 2;
 }
 template <class T, class W>
 bool is_accurate_place(const Vec3<T>& place, double error) {
-  return 1.5 * error <= half_ulp_in<T, W> * double(largest_magnitude(place));
+  return error <= most_error_in<T, W> * double(largest_magnitude(place));
 }
 
 /// The unit roundoff of W.
@@ -73,9 +84,10 @@ struct AlongFaceAxis {
   std::array<W, 3> center2, half2, cosine;
   W inverse, gap;  ///< 1 / N; the gap between the projections of the boxes onto the axis
 
-  /// The product of axis and vector between the centers, times N2, has an error of 11 u N D, the half extent of box 1
-  /// times N one of 8 u N H1, and the projection of box 2 one of 15 u N H2. With their sums the error is at most
-  /// 16 u N S, and the division by N adds 9 u of the gap.
+  /// Let d be the length of the vector between the centers, and h the half extent of box 1. The product of axis and
+  /// vector between the centers, times N2, has an error of 13 u N d, h times N one of 8 u N h, and the projection of
+  /// box 2 one of 15 u N H2. With their sums the error is at most 16 u N (d + h + H2), and the division by N adds 9 u
+  /// of the gap.
   AlongFaceAxis(const Box<T>& box1, const Box<T>& box2, std::size_t i)
       : axis(scaled_axis<W>(box1.orientation, i)),
         center2(in_cyclic_order<W>(box2.center, i)),
@@ -128,16 +140,116 @@ struct AlongCrossAxis {
   }
 };
 
+/// A quaternion q, for products of vectors with single axes of its rotation: without arrays of numbers of W, since
+/// registers of the wider type are few. Vectors have five numbers, of the coordinates x, y, z, x and y, so that the
+/// next two coordinates follow each.
+template <class T, class W>
+struct AxesOneByOne {
+  std::array<T, 5> v;
+  T w;
+  W w2, norm2;  ///< the square of w, and |q|^2
+
+  explicit AxesOneByOne(const Quaternion<T>& q) : v{q.x, q.y, q.z, q.x, q.y}, w(q.w), w2(W(q.w) * W(q.w)) {
+    norm2 = (w2 + W(q.x) * W(q.x)) + (W(q.y) * W(q.y) + W(q.z) * W(q.z));
+  }
+  /// The numbers i, i + 1 and i + 2 of axis i, times |q|^2, with the errors of ScaledAxis.
+  W own(std::size_t i) const {
+    return (w2 - W(v[i + 2]) * W(v[i + 2])) + (W(v[i]) * W(v[i]) - W(v[i + 1]) * W(v[i + 1]));
+  }
+  W next(std::size_t i) const {
+    const W half = W(v[i]) * W(v[i + 1]) + W(w) * W(v[i + 2]);
+    return half + half;
+  }
+  W last(std::size_t i) const {
+    const W half = W(v[i]) * W(v[i + 2]) - W(w) * W(v[i + 1]);
+    return half + half;
+  }
+  std::array<W, 5> axis(std::size_t i) const {
+    std::array<W, 5> all;
+    const std::size_t following = (i + 1) % 3, last_one = (i + 2) % 3;
+    all[i] = own(i), all[following] = next(i), all[last_one] = last(i);
+    all[3] = all[0], all[4] = all[1];
+    return all;
+  }
+  W along(std::size_t i, const std::array<W, 5>& x) const {
+    return own(i) * x[i] + next(i) * x[i + 1] + last(i) * x[i + 2];
+  }
+};
+
+/// d + h + H2: of the boxes along axis i of box 1, as AlongFaceAxis has them.
+template <class T>
+double size_along_face(const Box<T>& box1, const Box<T>& box2, std::size_t i) {
+  return distance_of_centers(box1, box2) + double(components(box1.half)[i]) + magnitudes(in_double(box2.half));
+}
+
+/// The gap between the projections of two boxes onto axis i of box 1, with the errors of AlongFaceAxis.
+template <class T, class W>
+W face_gap(const Box<T>& box1, const Box<T>& box2, std::size_t i) {
+  const AxesOneByOne<T, W> axes1(box1.orientation), axes2(box2.orientation);
+  const std::array<T, 3> center1 = components(box1.center), center2 = components(box2.center);
+  const std::array<T, 3> half2 = components(box2.half);
+  const std::array<W, 5> axis = axes1.axis(i);
+  W toward = W(0), reach2 = W(0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    toward = toward + axis[k] * (W(center2[k]) - W(center1[k]));
+    reach2 = reach2 + W(half2[k]) * abs(axes2.along(k, axis));
+  }
+  const W norm = axes1.norm2 * axes2.norm2;
+  return (abs(toward) * axes2.norm2 - (W(components(box1.half)[i]) * norm + reach2)) / norm;
+}
+
+/// The gap between the projections of two boxes onto the cross product of axis i of box 1 and axis j of box 2, times
+/// the sine of the angle between these axes.
+template <class W>
+struct CrossGap {
+  W by_sine, sine;  ///< times N
+  W norm;           ///< N
+};
+
+/// d + H: d is the length of the vector between the centers, H the sum of the half extents along the other axes.
+template <class T>
+double size_along_cross(const Box<T>& box1, const Box<T>& box2, std::size_t i, std::size_t j) {
+  const std::array<T, 3> half1 = components(box1.half), half2 = components(box2.half);
+  return distance_of_centers(box1, box2) + double(half1[(i + 1) % 3]) + double(half1[(i + 2) % 3]) +
+         double(half2[(j + 1) % 3]) + double(half2[(j + 2) % 3]);
+}
+
+/// As a vector, the cross product times N has an error of 12 u N, so its product with the vector between the centers
+/// one of 16 u N d. The projections of the boxes have one of 16 u N H. So `by_sine` has an error of 16 u N (d + H) and
+/// 1 u of itself, and `sine` one of 12 u N and of 3 u of itself.
+template <class T, class W>
+CrossGap<W> cross_gap(const Box<T>& box1, const Box<T>& box2, std::size_t i, std::size_t j) {
+  const AxesOneByOne<T, W> axes1(box1.orientation), axes2(box2.orientation);
+  const std::array<T, 3> center1 = components(box1.center), center2 = components(box2.center);
+  const std::array<T, 3> half1 = components(box1.half), half2 = components(box2.half);
+  const std::array<W, 5> a = axes1.axis(i), b = axes2.axis(j);
+  W toward = W(0), length2 = W(0), reach = W(0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const W c = a[k + 1] * b[k + 2] - a[k + 2] * b[k + 1];
+    toward = toward + c * (W(center2[k]) - W(center1[k]));
+    length2 = length2 + c * c;
+  }
+  // The product with one of the two other axes of a box is, up to the sign, that of the third axis with a or b.
+  for (std::size_t k = 1; k < 3; ++k) {
+    const std::size_t ik = (i + k) % 3, jk = (j + k) % 3;
+    reach = reach + W(half1[3 - i - ik]) * abs(axes1.along(ik, b)) + W(half2[3 - j - jk]) * abs(axes2.along(jk, a));
+  }
+  return {abs(toward) - reach, sqrt(length2), axes1.norm2 * axes2.norm2};
+}
+
 /// The gap between the projections of two boxes onto an axis, or nullopt.
 template <class T, class W>
-std::optional<Measure<T>> projected_distance_in(const Box<T>& box1, const Box<T>& box2, std::size_t axis, double size) {
+std::optional<Measure<T>> projected_distance_in(const Box<T>& box1, const Box<T>& box2, std::size_t axis) {
   if (axis < 6) {
-    const W gap = axis < 3 ? AlongFaceAxis<T, W>(box1, box2, axis).gap : AlongFaceAxis<T, W>(box2, box1, axis - 3).gap;
+    const W gap = axis < 3 ? face_gap<T, W>(box1, box2, axis) : face_gap<T, W>(box2, box1, axis - 3);
+    const double size = axis < 3 ? size_along_face(box1, box2, axis) : size_along_face(box2, box1, axis - 3);
     if (is_accurate_length<T>(gap, 16 * size)) return Measure<T>{T(leading_part(gap))};
   } else {
-    const AlongCrossAxis<T, W> along(box1, box2, (axis - 6) / 3, (axis - 6) % 3);
-    const W gap = along.gap / (along.norm1 * along.norm1 * along.norm2);
-    if (is_accurate_length<T>(gap, 32 * size)) return Measure<T>{T(leading_part(gap))};
+    const std::size_t i = (axis - 6) / 3, j = (axis - 6) % 3;
+    const CrossGap<W> gap = cross_gap<T, W>(box1, box2, i, j);
+    const W value = gap.by_sine / gap.norm;
+    if (is_accurate_length<T>(value, 16 * size_along_cross(box1, box2, i, j)))
+      return Measure<T>{T(leading_part(value))};
   }
   return std::nullopt;
 }
@@ -146,22 +258,21 @@ std::optional<Measure<T>> projected_distance_in(const Box<T>& box1, const Box<T>
 template <class T>
 std::optional<Measure<T>> filtered_projected_distance(const Box<T>& given1, const Box<T>& given2, int axis) {
   const Box<T> box1 = with_rescaled_rotation(given1), box2 = with_rescaled_rotation(given2);
-  const double size = size_of_pair(box1, box2);
-  if (!(axis >= 0 && axis < box_box_axes && size > 0)) return std::nullopt;
+  if (!(axis >= 0 && axis < box_box_axes && size_of_pair(box1, box2) > 0)) return std::nullopt;
   const auto n = std::size_t(axis);
   if constexpr (has_wider<T>) {
-    if (const auto answer = projected_distance_in<T, Wider<T>>(box1, box2, n, size)) return answer;
+    if (const auto answer = projected_distance_in<T, Wider<T>>(box1, box2, n)) return answer;
   }
-  if constexpr (std::same_as<T, double>) return projected_distance_in<T, DoubleWord<double>>(box1, box2, n, size);
+  if constexpr (std::same_as<T, double>) return projected_distance_in<T, DoubleWord<double>>(box1, box2, n);
   return std::nullopt;
 }
 
 /// The penetration of two boxes that overlap least along axis i of box 1, or nullopt. `side`: on which side of box 1
 /// box 2 lies along the axis, +1 or -1. The normal points to that side.
 ///
-/// The depth has an error of 16 u S and 9 u of itself; half of it moves the contact. A scaled axis times a half extent
-/// and by its squared length has an error of 12 u of the half extent. So the contact has an error of less than 32 u S,
-/// and of 1 u of itself for each of five sums.
+/// The depth has an error of 16 u (d + h + H2) and 9 u of itself; half of it moves the contact. A scaled axis times a
+/// half extent and by its squared length has an error of 12 u of the half extent. So the contact has an error of less
+/// than 32 u S, and of 1 u of itself for each of five sums.
 template <class T, class W>
 std::optional<BoxPenetration<T>> face_penetration(const Box<T>& box1, const Box<T>& box2, std::size_t i, int side,
                                                   double size) {
@@ -179,7 +290,9 @@ std::optional<BoxPenetration<T>> face_penetration(const Box<T>& box1, const Box<
     contact[k] = contact[k] + normal[k] * half_depth;
   }
   const Vec3<T> place = from_cyclic_order<T>(contact, i);
-  if (!(is_accurate_length<T>(along.gap, 16 * size) && is_accurate_place<T, W>(place, 32 * size))) return std::nullopt;
+  if (!(is_accurate_length<T>(along.gap, 16 * size_along_face(box1, box2, i)) &&
+        is_accurate_place<T, W>(place, 32 * size)))
+    return std::nullopt;
   return BoxPenetration<T>{-T(leading_part(along.gap)), -1, from_cyclic_order<T>(normal, i), place};
 }
 

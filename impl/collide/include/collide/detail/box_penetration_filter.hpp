@@ -86,17 +86,18 @@ std::optional<BoxPenetration<T>> penetration_along(const Box<T>& box1, const Box
   if (n >= 6) {
     const std::size_t i = (n - 6) / 3, j = (n - 6) % 3;
     if (!least.apart) return edge_penetration<T, W>(box1, box2, i, j, size);
-    const AlongCrossAxis<T, W> along(box1, box2, i, j);
-    const W gap = along.gap / (along.norm1 * along.sine);
-    const auto sine = double(leading_part(along.sine / (along.norm1 * along.norm2)));
-    if (!is_accurate_length<T>(gap, 64 * size / sine)) return std::nullopt;
+    // A gap is at most the distance of the centers, so the error of the sine counts as 12 u of the size, by the sine.
+    const CrossGap<W> cross = cross_gap<T, W>(box1, box2, i, j);
+    const W gap = cross.by_sine / cross.sine;
+    const auto sine = double(leading_part(cross.sine / cross.norm));
+    if (!is_accurate_length<T>(gap, 28 * size_along_cross(box1, box2, i, j) / sine)) return std::nullopt;
     return BoxPenetration<T>{-T(leading_part(gap)), least.axis, {}, {}};
   }
   const bool first = n < 3;
   const Box<T>&box = first ? box1 : box2, &other = first ? box2 : box1;
   if (least.apart) {
-    const W gap = AlongFaceAxis<T, W>(box, other, n % 3).gap;
-    if (!is_accurate_length<T>(gap, 16 * size)) return std::nullopt;
+    const W gap = face_gap<T, W>(box, other, n % 3);
+    if (!is_accurate_length<T>(gap, 16 * size_along_face(box, other, n % 3))) return std::nullopt;
     return BoxPenetration<T>{-T(leading_part(gap)), least.axis, {}, {}};
   }
   auto answer = face_penetration<T, W>(box, other, n % 3, first ? least.side : -least.side, size);
