@@ -66,6 +66,48 @@ ScaledAxis<W> scaled_axis(const Quaternion<T>& q, std::size_t i) {
   return {{(ww - zz) + (xx - yy), x * v[1] + twice * v[2], x * v[2] - twice * v[1]}, (ww + zz) + (xx + yy)};
 }
 
+/// A quaternion q, for one number of a rotated vector at a time: registers of the wider type are few. Vectors have five
+/// numbers, of the coordinates x, y, z, x and y, so that the next two coordinates follow each.
+template <class T, class W>
+struct AxesOneByOne {
+  std::array<T, 5> v;
+  T w;
+  W w2, norm2;  ///< the square of w, and |q|^2
+
+  explicit AxesOneByOne(const Quaternion<T>& q) : v{q.x, q.y, q.z, q.x, q.y}, w(q.w), w2(W(q.w) * W(q.w)) {
+    norm2 = (w2 + W(q.x) * W(q.x)) + (W(q.y) * W(q.y) + W(q.z) * W(q.z));
+  }
+  /// The numbers i, i + 1 and i + 2 of axis i, times |q|^2, with the errors of ScaledAxis.
+  W own(std::size_t i) const {
+    return (w2 - W(v[i + 2]) * W(v[i + 2])) + (W(v[i]) * W(v[i]) - W(v[i + 1]) * W(v[i + 1]));
+  }
+  W next(std::size_t i) const {
+    const W half = W(v[i]) * W(v[i + 1]) + W(w) * W(v[i + 2]);
+    return half + half;
+  }
+  W last(std::size_t i) const {
+    const W half = W(v[i]) * W(v[i + 2]) - W(w) * W(v[i + 1]);
+    return half + half;
+  }
+  std::array<W, 5> axis(std::size_t i) const {
+    std::array<W, 5> all;
+    const std::size_t following = (i + 1) % 3, last_one = (i + 2) % 3;
+    all[i] = own(i), all[following] = next(i), all[last_one] = last(i);
+    all[3] = all[0], all[4] = all[1];
+    return all;
+  }
+  /// Number i of the vector x in the rotated frame, times |q|^2.
+  W along(std::size_t i, const std::array<W, 5>& x) const {
+    return own(i) * x[i] + next(i) * x[i + 1] + last(i) * x[i + 2];
+  }
+  /// Number i of the vector that is x in the rotated frame, times |q|^2.
+  W out_of(std::size_t i, const std::array<W, 5>& x) const {
+    const W next_half = W(v[i]) * W(v[i + 1]) - W(w) * W(v[i + 2]);
+    const W last_half = W(v[i]) * W(v[i + 2]) + W(w) * W(v[i + 1]);
+    return own(i) * x[i] + ((next_half + next_half) * x[i + 1] + (last_half + last_half) * x[i + 2]);
+  }
+};
+
 #if defined(COLLIDE_LANES)
 
 /// Where the center of a sphere certainly lies: beyond the faces of a box (bit i of `outside`: beyond one of those
@@ -89,7 +131,7 @@ CenterAndBox certain_side(const Sphere<T>& sphere, const Box<T>& box) {
   const L local = FrameInLanes<double>::scaled(q).into(between);
   const L to_face = half * norm2 - absolute(local), size = sum_of_three(absolute(between) + absolute(half));
   const L bound = L::splat(0x1p-49) * norm2 * size;
-  const bool in_range = is_in_safe_range(norm2.first()) && size.first() >= 0x1p-900 && size.first() <= 0x1p900;
+  const bool in_range = is_in_safe_range(norm2.first()) && size.first() >= 0x1p-400 && size.first() <= 0x1p400;
   if (!(in_range && all_three(bound < absolute(to_face)))) return {};
   CenterAndBox place{true, (to_face < zero).bits() & 7, 3};
   const L most = smallest_of_three(to_face) + bound + bound;
@@ -102,14 +144,13 @@ CenterAndBox certain_side(const Sphere<T>& sphere, const Box<T>& box) {
 
 /// The penetration of a sphere and a box for a center beyond one face alone (`outside`), or inside and nearest to it.
 ///
-/// Let D be the sum of the magnitudes of the vector between the centers. Its component along the axis has an error of
-/// 7 u D, and after the division by |q|^2 of 12 u D. The excess over the half extent has one of 1 u of itself more: it
-/// is at most D outside, and at most the depth inside. So the depth has an error of 13 u D and 2 u of itself, the
-/// normal one of 8 u, and the contact one of 22 u D and 1 u of itself outside, of 9 u of the radius and 1 u of itself
-/// inside.
+/// Let d be the distance of the centers. The component of the vector between them along the axis has an error of 9 u d,
+/// and after the division by |q|^2 of 13 u d. The excess over the half extent has one of 1 u of itself more: it is at
+/// most d outside, and at most the depth inside. So the depth has an error of 14 u d and 2 u of itself, the normal one
+/// of 8 u, and the contact one of 23 u d and 1 u of itself outside, of 9 u of the radius and 1 u of itself inside.
 template <class T>
 std::optional<Penetration<T>> penetration_along_axis(const Sphere<T>& sphere, const Box<T>& box, std::size_t i,
-                                                     bool outside, Wider<T> size) {
+                                                     bool outside, double apart) {
   using W = Wider<T>;
   const ScaledAxis<W> axis = scaled_axis<W>(box.orientation, i);
   const std::array<W, 3> center = in_cyclic_order<W>(sphere.center, i), middle = in_cyclic_order<W>(box.center, i);
@@ -117,46 +158,53 @@ std::optional<Penetration<T>> penetration_along_axis(const Sphere<T>& sphere, co
   for (std::size_t k = 1; k < 3; ++k) along = along + axis.along[k] * (center[k] - middle[k]);
   const W inverse = W(along < W(0) ? 1 : -1) / axis.norm2, radius = W(sphere.radius);
   const W excess = -(along * inverse) - W(components(box.half)[i]), depth = radius - excess;
-  if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, double(size) / 4, 0);
+  if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, apart / 4, 0);
   const W way = outside ? excess : radius;
   std::array<W, 3> normal, contact;
   for (std::size_t k = 0; k < 3; ++k) {
     normal[k] = axis.along[k] * inverse;
     contact[k] = center[k] + normal[k] * way;
   }
-  return accurate_penetration<T>(T(depth), from_cyclic_order<T>(normal, i), from_cyclic_order<T>(contact, i),
-                                 double(size) / 4, double(outside ? size / 2 : radius / 4));
+  return accurate_penetration<T>(T(depth), from_cyclic_order<T>(normal, i), from_cyclic_order<T>(contact, i), apart / 4,
+                                 outside ? apart * 3 / 8 : double(radius) / 4);
 }
 
 /// The penetration of a sphere and a box for a center beyond two or three faces.
 ///
-/// As above, each excess has an error of 13 u D; as a vector they have one of 23 u D. Turned into the world it has one
-/// of 41 u D, and its length one of 26 u D. So the depth has an error of 26 u D and 1 u of itself, the contact one of
-/// 41 u D and 1 u of itself, and the normal one of less than 69 u D by the length. That is accurate where D is at most
-/// half_ulp / 128 of the length: the largest number of a unit vector is at least 0.57.
+/// As above, each excess has an error of 14 u d; as a vector e they have one of 24 u d. Turned into the world it has
+/// one of 21 u |e| more, and its length one of 24 u d and 4 u of itself. So the depth has an error of 28 u d and 1 u of
+/// itself, the contact one of 45 u d and 1 u of itself. The normal is the computed e, turned and divided by its own
+/// length: it has an error of 24 u d by |e|, and of 30 u. The largest number of a unit vector is at least 0.57.
 template <class T>
 std::optional<Penetration<T>> penetration_beyond_edge(const Sphere<T>& sphere, const Box<T>& box, int outside,
-                                                      Wider<T> size) {
+                                                      double apart) {
   using W = Wider<T>;
-  std::array<W, 3> away{};
+  const AxesOneByOne<T, W> axes(box.orientation);
+  const std::array<T, 3> center = components(sphere.center), middle = components(box.center);
+  const std::array<T, 3> half = components(box.half);
+  const auto between = [&](std::size_t i) COLLIDE_INLINE { return W(center[i]) - W(middle[i]); };
+  const std::array<W, 5> to_center{between(0), between(1), between(2), between(0), between(1)};
+  const W inverse = W(1) / axes.norm2;
+  std::array<W, 5> away{};
   W distance2 = W(0);
   for (std::size_t i = 0; i < 3; ++i) {
     if ((outside >> i & 1) == 0) continue;
-    const ScaledAxis<W> axis = scaled_axis<W>(box.orientation, i);
-    const std::array<W, 3> center = in_cyclic_order<W>(sphere.center, i), middle = in_cyclic_order<W>(box.center, i);
-    W along = axis.along[0] * (center[0] - middle[0]);
-    for (std::size_t k = 1; k < 3; ++k) along = along + axis.along[k] * (center[k] - middle[k]);
-    const W inverse = W(along < W(0) ? -1 : 1) / axis.norm2;
-    const W excess = along * inverse - W(components(box.half)[i]), step = excess * inverse;
-    distance2 = distance2 + excess * excess;
-    for (std::size_t k = 0; k < 3; ++k) away[(i + k) % 3] = away[(i + k) % 3] + axis.along[k] * step;
+    const W along = axes.along(i, to_center) * inverse;
+    away[i] = along < W(0) ? along + W(half[i]) : along - W(half[i]);
+    distance2 = distance2 + away[i] * away[i];
   }
   const W distance = detail::sqrt(distance2), depth = W(sphere.radius) - distance;
-  if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, double(size) / 2, 0);
-  if (!(size <= half_ulp<T> / 128 * distance)) return std::nullopt;
-  const Vec3<W> to_center{away[0], away[1], away[2]};
-  return accurate_penetration<T>(T(depth), rounded_to<T>(to_center * (W(-1) / distance)),
-                                 rounded_to<T>(in_wider(sphere.center) - to_center), double(size) / 2, double(size));
+  if (depth < W(0)) return accurate_penetration<T>(T(depth), {}, {}, apart / 2, 0);
+  if (!(24 * apart <= (0.56 * double(half_ulp<T>) - 32) * double(distance))) return std::nullopt;
+  away[3] = away[0], away[4] = away[1];
+  const W per_distance = W(-1) / distance;
+  std::array<T, 3> normal, contact;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const W outward = axes.out_of(i, away) * inverse;
+    normal[i] = T(outward * per_distance), contact[i] = T(W(center[i]) - outward);
+  }
+  return accurate_penetration<T>(T(depth), {normal[0], normal[1], normal[2]}, {contact[0], contact[1], contact[2]},
+                                 apart / 2, apart * 3 / 4);
 }
 
 /// Filter: the penetration of a sphere and a box, or nullopt. In double.
@@ -165,16 +213,18 @@ inline std::optional<Penetration<double>> filtered_penetration(const Sphere<doub
     const Box<double> box = with_rescaled_rotation(given);
     const CenterAndBox place = certain_side(sphere, box);
     if (!place.certain) return std::nullopt;
-    const Wider<double> size = magnitudes(in_wider(sphere.center) - in_wider(box.center));
-    if (place.nearest < 3) return penetration_along_axis(sphere, box, place.nearest, place.outside != 0, size);
-    return penetration_beyond_edge(sphere, box, place.outside, size);
+    const Vec3<double> between = sphere.center - box.center;
+    const double apart = detail::sqrt(Plain::dot(between, between));
+    if (place.nearest < 3) return penetration_along_axis(sphere, box, place.nearest, place.outside != 0, apart);
+    return penetration_beyond_edge(sphere, box, place.outside, apart);
   }
   return std::nullopt;
 }
 
 /// The same in float, where doubles have digits enough for every case at once. The errors are those of
-/// penetration_beyond_edge. Inside, the distances from the faces have an error of 12 u D and 1 u of themselves: the
-/// nearest face is certain if all others are farther by more than 64 u D and 4 u of their distance.
+/// penetration_beyond_edge, with D, the sum of the magnitudes of the vector between the centers, for d. Inside, the
+/// distances from the faces have an error of 12 u D and 1 u of themselves: the nearest face is certain if all others
+/// are farther by more than 64 u D and 4 u of their distance.
 inline std::optional<Penetration<float>> filtered_penetration(const Sphere<float>& sphere, const Box<float>& given) {
   using L = Lanes<double>;
   const Box<float> box = with_rescaled_rotation(given);

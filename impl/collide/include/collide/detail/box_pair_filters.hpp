@@ -140,42 +140,6 @@ struct AlongCrossAxis {
   }
 };
 
-/// A quaternion q, for products of vectors with single axes of its rotation: without arrays of numbers of W, since
-/// registers of the wider type are few. Vectors have five numbers, of the coordinates x, y, z, x and y, so that the
-/// next two coordinates follow each.
-template <class T, class W>
-struct AxesOneByOne {
-  std::array<T, 5> v;
-  T w;
-  W w2, norm2;  ///< the square of w, and |q|^2
-
-  explicit AxesOneByOne(const Quaternion<T>& q) : v{q.x, q.y, q.z, q.x, q.y}, w(q.w), w2(W(q.w) * W(q.w)) {
-    norm2 = (w2 + W(q.x) * W(q.x)) + (W(q.y) * W(q.y) + W(q.z) * W(q.z));
-  }
-  /// The numbers i, i + 1 and i + 2 of axis i, times |q|^2, with the errors of ScaledAxis.
-  W own(std::size_t i) const {
-    return (w2 - W(v[i + 2]) * W(v[i + 2])) + (W(v[i]) * W(v[i]) - W(v[i + 1]) * W(v[i + 1]));
-  }
-  W next(std::size_t i) const {
-    const W half = W(v[i]) * W(v[i + 1]) + W(w) * W(v[i + 2]);
-    return half + half;
-  }
-  W last(std::size_t i) const {
-    const W half = W(v[i]) * W(v[i + 2]) - W(w) * W(v[i + 1]);
-    return half + half;
-  }
-  std::array<W, 5> axis(std::size_t i) const {
-    std::array<W, 5> all;
-    const std::size_t following = (i + 1) % 3, last_one = (i + 2) % 3;
-    all[i] = own(i), all[following] = next(i), all[last_one] = last(i);
-    all[3] = all[0], all[4] = all[1];
-    return all;
-  }
-  W along(std::size_t i, const std::array<W, 5>& x) const {
-    return own(i) * x[i] + next(i) * x[i + 1] + last(i) * x[i + 2];
-  }
-};
-
 /// d + h + H2: of the boxes along axis i of box 1, as AlongFaceAxis has them.
 template <class T>
 double size_along_face(const Box<T>& box1, const Box<T>& box2, std::size_t i) {
