@@ -34,11 +34,13 @@ std::optional<BoxOverlap<T>> filtered_overlap(const Box<T>& box1, const Box<T>& 
   const L bound = L::splat(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1,
           zero = L::splat(0.0);
   unsigned apart = 0, overlap = 0;
-  pair.for_each_axis([&](int n, const auto& s) {  // the bound also covers small cross products
+  const auto look_at = [&](int n, const auto& s) COLLIDE_INLINE {  // the bound also covers small cross products
     const L& least = n == 0 ? bound : of_others;
     apart |= unsigned((least < s.gap).bits() & 7) << 3 * n;
     overlap |= unsigned((s.gap < zero - least).bits() & 7) << 3 * n;
-  });
+  };
+  pair.for_each_face_axis(look_at);
+  if (apart == 0) pair.for_each_cross_axis(look_at);
   if (apart != 0) return BoxOverlap<T>{false, axis_of_bit(first_bit(apart))};
   if (overlap == (1u << box_box_axes) - 1) return BoxOverlap<T>{true, -1};
   return std::nullopt;

@@ -231,13 +231,23 @@ struct BoxPairInLanes {
   /// false if a cross product is so small that products of its components underflow.
   template <class Each>
   bool for_each_axis(Each each) const {
+    for_each_face_axis(each);
+    return for_each_cross_axis(each);
+  }
+  /// The same for axes 0-5 alone.
+  template <class Each>
+  void for_each_face_axis(Each each) const {
     const auto frame = FrameInLanes<T>::scaled(relative), sizes = frame.magnitudes();
     const L scale = norm1 * norm2;
     const L toward1 = between * norm2, toward2 = frame.into(between);
     each(0, SeparationsInLanes<T>{absolute(toward1) - (half1 * scale + sizes.out_of(half2)), toward1, norm2 * norm2});
     each(1, SeparationsInLanes<T>{absolute(toward2) - (sizes.into(half1) * norm1 + half2 * norm1 * scale), toward2,
                                   scale * scale});
-
+  }
+  /// The same for the cross products alone.
+  template <class Each>
+  bool for_each_cross_axis(Each each) const {
+    const L scale = norm1 * norm2;
     const L v = relative, v1 = yzx(relative), v2 = zxy(relative), w = relative.template broadcast<3>();
     const L b1 = yzx(between), b2 = zxy(between), near1 = yzx(half1), near2 = zxy(half1);
     // A threshold far above underflow, independent of the lengths of the quaternions.

@@ -41,12 +41,19 @@ CertainAxis certain_axis(const Box<T>& box1, const Box<T>& box2) {
   const L bound = L::splat(0x1p-45 * lengths) * pair.norm1 * pair.norm2, of_others = bound * pair.norm1;
   std::array<SeparationsInLanes<double>, 5> all;
   unsigned apart = 0, overlap = 0;
-  pair.for_each_axis([&](int n, const auto& s) {
+  const auto look_at = [&](int n, const auto& s) COLLIDE_INLINE {
     const L& least = n == 0 ? bound : of_others;
     all[std::size_t(n)] = s;
     apart |= unsigned((least < s.gap).bits() & 7) << 3 * n;
     overlap |= unsigned((s.gap < zero - least).bits() & 7) << 3 * n;
-  });
+  };
+  pair.for_each_face_axis(look_at);
+  if (apart != 0) {  // a gap of some size has enough digits: the other axes need no look
+    const L gap1 = all[0].gap * pair.norm1, widest = largest_of_three(larger(gap1, all[1].gap));
+    const unsigned is_widest = unsigned((gap1 == widest).bits() & 7) | unsigned((all[1].gap == widest).bits() & 7) << 3;
+    if (widest.first() > 0x1p39 * of_others.first()) return {axis_of_bit(first_bit(is_widest & apart)), true, 1};
+  }
+  pair.for_each_cross_axis(look_at);
   if (apart == 0 && overlap != (1u << box_box_axes) - 1) return {};
   const auto square = [&](std::size_t n, double by)
                           COLLIDE_INLINE {  // of the gap, closer to zero or farther by the bound
