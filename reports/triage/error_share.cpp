@@ -10,6 +10,7 @@
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/triage/ratios.hpp"
+#include "reports/triage/touch_cases.hpp"
 #include "reports/triage/written_constant.hpp"
 
 namespace nearmiss {
@@ -50,9 +51,9 @@ class ErrorShare : public TestOfCause {
     if (largest < least) return std::nullopt;
     // A search along a motion that ends too early has small errors too.
     if (!parts_of(trials().query()).velocities.empty()) return std::nullopt;
-    constexpr double of_floats = 0x1p-22;                                // two numbers, each rounded to a float
-    const bool gives_numbers = trials().query().kind != Kind::decision;  // others may compare with any tolerance
-    if (largest <= of_floats && gives_numbers && trials().subject().scalar == Scalar::float64)
+    constexpr double of_floats = 0x1p-22;  // two numbers, each rounded to a float
+    const bool may_be_floats = largest <= of_floats && trials().subject().scalar == Scalar::float64;
+    if (may_be_floats && (trials().query().kind != Kind::decision || errs_on_both_sides()))
       return Named{
           CauseKind::rounding, "single precision",
           fmt::format("Every wrong answer is right for numbers that differ by less than {:.2g} of their size, at "
@@ -229,6 +230,13 @@ class ErrorShare : public TestOfCause {
   double share_of(const Trial& t) const {
     const Finding full = trials().in_full(t);
     return full.backward ? full.backward->above * 2 * unit_roundoff(question().scalar) : 1;
+  }
+  bool errs_on_both_sides() {
+    const bool both = errs_beyond_touches(trials(), asked_.sample());
+    saw("Generated cases were moved to where the exact decision changes.",
+        both ? "There are false hits and false misses: a tolerance errs to one side."
+             : "All wrong decisions are of one kind.");
+    return both;
   }
   bool is_same_at_every_scale() const {
     return std::none_of(asked_.scans().begin(), asked_.scans().end(),

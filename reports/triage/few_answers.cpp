@@ -73,6 +73,8 @@ class FewAnswers : public TestOfCause {
   std::optional<double> end_of_plateau(const std::string& operand) {
     constexpr int finest = -34, coarsest = -4, step = 2;
     const double own = trials().base().answer.values[number_];
+    const auto& inputs = question().values;
+    if (std::find(inputs.begin(), inputs.end(), own) != inputs.end()) return std::nullopt;  // a corner, not a step
     std::vector<Case> cases;
     std::vector<double> lengths;
     for (int order = finest; order <= coarsest; order += step) {

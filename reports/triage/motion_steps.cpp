@@ -73,6 +73,7 @@ class MotionSteps : public TestOfCause {
         fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
                     of_text(right, later.size()), changes));
     constexpr std::size_t least_changes = 3, least_in_all = 4;
+    if (has_one_wrong_contact(later)) return std::nullopt;
     const bool ends = changes == 1 && last_wrong + 1 < later.size();
     if (!ends && changes < least_changes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
     return Named{CauseKind::iteration_limit, "steps along the motion",
@@ -133,6 +134,23 @@ class MotionSteps : public TestOfCause {
     const Finding full = trials().in_full(trials().base());
     const MemberFinding* member = full.headline_member();
     return member != nullptr && member->worst == 0 && trials().base().answer.yes && !asked_.is_wrong_decision();
+  }
+  /// Wherever the motion begins, a wrong contact is the same one: a search that ends too early finds another one from
+  /// each start.
+  bool has_one_wrong_contact(const std::vector<Trial>& later) {
+    constexpr std::size_t least = 4;
+    constexpr double tolerated = 1e-6;  // of the error, for the rounding of the starts
+    const auto own = error_of_time(trials().base());
+    if (!own || *own == 0) return false;
+    std::size_t wrong = 0, alike = 0;
+    for (const Trial& t : later) {
+      if (has_ended(t) || t.outcome == Outcome::none) continue;
+      const auto error = error_of_time(t);
+      ++wrong, alike += error && std::abs(*error - *own) <= tolerated * std::abs(*own);
+    }
+    if (wrong < least || alike != wrong) return false;
+    saw("The wrong contacts of the later starts were compared.", "They are at one place.");
+    return true;
   }
   /// The given time less the exact one; empty where one of them is no contact.
   static std::optional<double> error_of_time(const Trial& t) {

@@ -224,6 +224,14 @@ Fits counted_from_one(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_output(c, a, Role::index, is_right, [](double x) { return x - 1; });
 }
 
+/// The index of another one of three edges, or of three axes of a box, in cyclic order: an edge may have the number of
+/// the vertex at its end, or of the opposite one.
+template <int steps>
+Fits of_another(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_output(c, a, Role::index, is_right,
+                     [](double x) { return x < 0 ? x : x - std::fmod(x, 3) + std::fmod(x + steps, 3); });
+}
+
 constexpr Reading of_answers[] = {
     {"normal reversed", "its normal points the other way", CauseKind::convention, false, reversed_normal},
     {"normal not of unit length", "its normal is divided by its length", CauseKind::convention, false,
@@ -250,6 +258,8 @@ constexpr Reading of_answers[] = {
      start_inside_is_a_hit},
     {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, ends_at_time_one},
     {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
+    {"index of the one before", "its index is that of the one before", CauseKind::convention, false, of_another<1>},
+    {"index of the next one", "its index is that of the next one", CauseKind::convention, false, of_another<2>},
 };
 
 /// After all others: a flag that is ignored says more.

@@ -86,4 +86,19 @@ std::vector<Trial> cases_at_touches(Trials& trials, std::span<const Trial> from,
   return found;
 }
 
+bool errs_beyond_touches(Trials& trials, std::span<const Trial> from) {
+  constexpr std::size_t most_tries = 32, axes = 3;
+  if (!decides(trials.query().kind)) return false;
+  const auto is_wrong = [](const Trial& t) {
+    const bool is_bad = t.outcome == Outcome::same || t.outcome == Outcome::other;
+    return is_bad && t.answer.status == Answer::Status::answered && t.answer.yes != t.finding.truth_yes;
+  };
+  for (std::size_t i = 0; i < std::min(from.size(), most_tries) && !trials.is_over(); ++i) {
+    const TouchOfCase touch(from[i].question, i % axes);
+    const std::vector<Trial> asked = trials.ask(touch.with_decision(!trials.base().finding.truth_yes));
+    if (std::any_of(asked.begin(), asked.end(), is_wrong)) return true;
+  }
+  return false;
+}
+
 }  // namespace nearmiss

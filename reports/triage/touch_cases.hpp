@@ -13,4 +13,8 @@ namespace nearmiss {
 /// the finding allows, to a factor of 64. None where the query decides nothing.
 std::vector<Trial> cases_at_touches(Trials& trials, std::span<const Trial> from, std::size_t most);
 
+/// Whether a decision is wrong on the other side of the border too: that of the given trials, moved as above, to the
+/// other decision than the exact one of `trials`. A tolerance errs to one side, rounding errs to both.
+bool errs_beyond_touches(Trials& trials, std::span<const Trial> from);
+
 }  // namespace nearmiss
