@@ -111,22 +111,38 @@ TEST(CauseOfSteps, AreFewTimesOfALongMotion) {
   expect_cause(c, CauseKind::iteration_limit, "steps along the motion");
 }
 
-/// closest_point_rectangle_perimeter: v0, v1, v2, v3, point.
-Answer nearest_corner(Numbers q) {
-  Answer a = exact_answer("closest_point_rectangle_perimeter", q);
+/// closest_point_triangle_perimeter: v0, v1, v2, point. The edge is that whose infinite line is nearest.
+Answer edge_by_its_line(Numbers q) {
+  Answer best = exact_answer("closest_point_triangle_perimeter", q);
   double least = INFINITY;
-  for (std::size_t i = 0; i < 12; i += 3) {
-    const double distance = std::hypot(q[i] - q[12], q[i + 1] - q[13], q[i + 2] - q[14]);
-    if (distance < least) least = distance, std::copy_n(q.begin() + std::ptrdiff_t(i), 3, a.values.begin());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double *from = &q[3 * i], *to = &q[3 * ((i + 1) % 3)];
+    double along[3], away[3], cross2 = 0, length2 = 0;
+    for (std::size_t k = 0; k < 3; ++k) along[k] = to[k] - from[k], away[k] = q[9 + k] - from[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+      cross2 += std::pow(along[a] * away[b] - along[b] * away[a], 2), length2 += along[k] * along[k];
+    }
+    if (!(cross2 / length2 < least)) continue;
+    const double segment[] = {from[0], from[1], from[2], to[0], to[1], to[2], q[9], q[10], q[11]};
+    least = cross2 / length2, best = exact_answer("closest_point_segment", segment);
   }
-  return a;
+  return best;
 }
 
+/// The ends of edges are some of the given numbers.
 TEST(CauseOfSteps, AreNotTheCornersOfAShape) {
-  const Subject s = subject_with("closest_point_rectangle_perimeter", nearest_corner);
-  const Cause c = cause_found(s, in_double("closest_point_rectangle_perimeter",
-                                           {0.1, 0, 0, 0.9, 0.1, 0, 1, 1.3, 0.2, 0, 1, 0.1, 0.3, 0.1, 0.4}));
-  EXPECT_NE(c.kind, CauseKind::iteration_limit) << cause_text(c);
+  const Subject s = subject_with("closest_point_triangle_perimeter", edge_by_its_line);
+  Workers workers;
+  std::size_t found = 0;
+  for (std::uint64_t i = 0; found < 8; ++i) {
+    Case c;
+    generate_inside(c, *find_query(s.offerings[0].query), s.scalar, 1, i, {});
+    if (has_extreme_mutator(c) || !is_bad(examine(c, s, workers).finding)) continue;
+    const Cause named = cause_found(s, c);
+    EXPECT_NE(named.kind, CauseKind::iteration_limit) << cause_text(named);
+    ++found;
+  }
 }
 
 /// moving_sphere_sphere: center, radius, velocity, fixed center, fixed radius. The fixed sphere is too large for one
