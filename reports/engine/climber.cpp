@@ -135,7 +135,8 @@ std::string update_worst_case(const Climb& c) {
   const std::filesystem::path file = worst_case_file(c.query(), c.subject().name, c.kind());
   if (c.stored() && !c.stored_now()) return "";  // interrupted before the stored case was asked
   const double before = c.stored() ? c.stored()->error : 0, after = c.record() ? c.record()->error : 0;
-  if (before == after || was_overtaken(file, c)) return "";
+  const bool changed_today = c.stored_now().value_or(before) != before;
+  if ((before == after && !changed_today) || was_overtaken(file, c)) return "";
   if (c.record_is_violation()) return fmt::format("{}: not stored: the worst case breaks the contract", file.string());
   if (c.record()) {
     make_folder(file.parent_path());
@@ -143,7 +144,6 @@ std::string update_worst_case(const Climb& c) {
   } else {
     std::filesystem::remove(file);
   }
-  const bool changed_today = c.stored_now().value_or(before) != before;
   return fmt::format("{}: {} {}{}", file.string(), c.record() ? fmt::format("{}", after) : "no error left,",
                      unit_of(c.kind()),
                      !c.stored()     ? ", new"

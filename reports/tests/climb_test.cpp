@@ -281,6 +281,32 @@ TEST(RunClimb, StoresWorseCasesOnly) {
   EXPECT_LT(read_worst_case(file).error, 100);
 }
 
+TEST(RunClimb, StoresAnEqualErrorWhereTheStoredCaseHasItNoLonger) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "worst/sphere_sphere_penetration/collide-fast-float-backward.json";
+  const auto update = [&] {
+    const Ran ran = run_climb(folder.path(), folder / "r", {"--update-worst", "--cases", "4000", "--seed", "1"});
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return ran.out;
+  };
+  update();
+  WorstCase stored = read_worst_case(file);
+  stored.question.values = {0, 0, 0, 1, 1, 0, 0, 1};  // without an error
+  const auto store = [&](double error) {
+    stored.error = error;
+    write_file(file, worst_case_to_json(stored).dump());
+  };
+  store(100);
+  update();
+  const double found = read_worst_case(file).error;
+  store(found);
+  EXPECT_NE(update().find("which today is 0"), std::string::npos);
+  const WorstCase now = read_worst_case(file);
+  const Subject& s = *find_subject("collide-fast-float");
+  EXPECT_EQ(now.error, found);
+  EXPECT_EQ(error_of(now.question, ask_here(s, now.question), s.standard_for(query().name), now.kind), found);
+}
+
 TEST(RunClimb, StoresWhatItFoundWhenInterrupted) {
   const TemporaryFolder folder;
   const std::string out = (folder / "r").string();
