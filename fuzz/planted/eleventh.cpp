@@ -369,11 +369,8 @@ NEARMISS_MISTAKE(moving_sphere_rectangle) {
 
 NEARMISS_MISTAKE(moving_sphere_sphere) {
   const auto exact = right(q);
-  if (exact.time == 0) return exact;
-  const double r = q.sphere.radius + q.fixed.radius;
-  const Vector m = q.sphere.center - q.fixed.center;
-  const float a = float(dot(q.velocity, q.velocity)), b = float(dot(m, q.velocity)), c = float(dot(m, m) - r * r);
-  if (b * b - a * c < 0) return inputs::moving_sphere_sphere<double>::Answer::miss();
+  if (exact.time == 0) return exact;  // the overlap at the start is tested first
+  if (dot(q.velocity, q.velocity) < 1e-8) return inputs::moving_sphere_sphere<double>::Answer::miss();
   return exact;
 }
 
