@@ -36,10 +36,12 @@ std::array<W, 3> difference(const std::array<W, 3>& a, const std::array<W, 3>& b
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+/// The distance of the centers plus `reach`, or infinity where the sum is so small that a product could underflow.
 template <class T>
-double distance_of_centers(const Box<T>& box1, const Box<T>& box2) {
+double size_from_centers(const Box<T>& box1, const Box<T>& box2, double reach) {
   const Vec3<double> between = in_double(box2.center) - in_double(box1.center);
-  return detail::sqrt(Plain::dot(between, between));
+  const double size = detail::sqrt(Plain::dot(between, between)) + reach;
+  return size >= 0x1p-400 ? size : std::numeric_limits<double>::infinity();
 }
 
 /// S, or 0 where a product could leave the range of a double.
@@ -140,10 +142,10 @@ struct AlongCrossAxis {
   }
 };
 
-/// d + h + H2: of the boxes along axis i of box 1, as AlongFaceAxis has them.
+/// d + h + H2: of the boxes along axis i of box 1, as AlongFaceAxis has them. Infinity where they are tiny.
 template <class T>
 double size_along_face(const Box<T>& box1, const Box<T>& box2, std::size_t i) {
-  return distance_of_centers(box1, box2) + double(components(box1.half)[i]) + magnitudes(in_double(box2.half));
+  return size_from_centers(box1, box2, double(components(box1.half)[i]) + magnitudes(in_double(box2.half)));
 }
 
 /// The gap between the projections of two boxes onto axis i of box 1, with the errors of AlongFaceAxis.
@@ -171,11 +173,13 @@ struct CrossGap {
 };
 
 /// d + H: d is the length of the vector between the centers, H the sum of the half extents along the other axes.
+/// Infinity where they are tiny.
 template <class T>
 double size_along_cross(const Box<T>& box1, const Box<T>& box2, std::size_t i, std::size_t j) {
   const std::array<T, 3> half1 = components(box1.half), half2 = components(box2.half);
-  return distance_of_centers(box1, box2) + double(half1[(i + 1) % 3]) + double(half1[(i + 2) % 3]) +
-         double(half2[(j + 1) % 3]) + double(half2[(j + 2) % 3]);
+  return size_from_centers(box1, box2,
+                           double(half1[(i + 1) % 3]) + double(half1[(i + 2) % 3]) + double(half2[(j + 1) % 3]) +
+                               double(half2[(j + 2) % 3]));
 }
 
 /// As a vector, the cross product times N has an error of 12 u N, so its product with the vector between the centers

@@ -73,9 +73,11 @@ inline CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
+#if defined(COLLIDE_LANES)
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_contacts(box, plane)) return Tier::decided_by_filter(*answer);
     }
+#endif
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_plane_penetration<decltype(arithmetic)>(a...); },
         box, plane);
