@@ -124,7 +124,10 @@ constexpr std::string_view with_numbers[] = {
     "box_box_penetration",
     "box_box_info",
     "box_box_projected_distance",
+    "box_box_separating_axis",
     "box_box_conservative",
+    "closest_point_rectangle",
+    "closest_point_rectangle_perimeter",
     "point_in_triangle",
     "point_in_rectangle",
 };

@@ -43,7 +43,7 @@ class ExplainCommand : public Command {
     selection_.declare_subjects(app);
     add_measure(app, measure_);
     add_whole_number(app, "--questions", questions_,
-                     "How often a subject is asked at most for a finding. Default: 4,000", 1, 1'000'000'000);
+                     "How often a subject is asked at most for a finding. Default: 24,000", 1, 1'000'000'000);
     add_positive_number(app, "--seconds", seconds_, "The most time for a finding. Default: 20", "S", 1e6);
     add_output_folder(app, out_, "The folder. Default: reports/runs/explained of the source tree");
     app.add_flag("--json", json_, "Print a JSON array with the reports")->disable_flag_override();

@@ -154,6 +154,38 @@ Answer opposite_vertex(Numbers q) {
   return a;
 }
 
+/// Corners 2 and 3 are exchanged.
+Answer corners_of_a_strip(Numbers q) {
+  std::vector<double> values(q.begin(), q.end());
+  std::swap_ranges(values.begin() + 6, values.begin() + 9, values.begin() + 9);
+  return exact_answer("closest_point_rectangle_perimeter", values);
+}
+/// moving_point_aabox: point, velocity, and the corners of the box.
+Answer size_of_the_box(Numbers q) {
+  std::vector<double> values(q.begin(), q.end());
+  for (std::size_t k = 6; k < 9; ++k) values[k + 3] = q[k] + std::max(q[k + 3], 0.0);
+  return exact_answer("moving_point_aabox", values);
+}
+/// moving_point_sphere: point, velocity, and others.
+Answer end_of_the_motion(Numbers q) {
+  std::vector<double> values(q.begin(), q.end());
+  for (std::size_t k = 0; k < 3; ++k) values[3 + k] -= q[k];
+  return exact_answer("moving_point_sphere", values);
+}
+/// sphere_triangle_overlap: center, radius, triangle. A center behind the face overlaps nothing.
+Answer culled_from_behind(Numbers q) {
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double normal =
+        (q[7 + i] - q[4 + i]) * (q[10 + j] - q[4 + j]) - (q[7 + j] - q[4 + j]) * (q[10 + i] - q[4 + i]);
+    height += normal * (q[k] - q[4 + k]);
+  }
+  Answer a = exact_answer("sphere_triangle_overlap", q);
+  if (height < 0) a.yes = false;
+  return a;
+}
+
 TEST(CauseOfAReading, OfAContactBeforeTheStart) {
   const Subject s = subject_with("moving_point_triangle", along_the_line);
   const Case c =
@@ -180,6 +212,10 @@ TEST(CauseOfAReading, OfAnotherContactOrValue) {
       {"point_in_triangle", weights_rotated, CauseKind::convention, "weights in another order"},
       {"closest_point_triangle_perimeter_edges", opposite_vertex, CauseKind::convention, "index of the one before"},
       {"moving_sphere_passes_sphere", until_time_one, CauseKind::convention, "motion ends at time 1"},
+      {"closest_point_rectangle_perimeter", corners_of_a_strip, CauseKind::convention, "corners of a strip"},
+      {"moving_point_aabox", size_of_the_box, CauseKind::convention, "size in place of a corner"},
+      {"moving_point_sphere", end_of_the_motion, CauseKind::convention, "end in place of the velocity"},
+      {"sphere_triangle_overlap", culled_from_behind, CauseKind::unsupported, "a hit from behind the triangle"},
   };
   for (const Planted& p : all) {
     SCOPED_TRACE(p.query);

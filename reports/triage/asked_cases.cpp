@@ -24,14 +24,17 @@ const std::vector<Trial>& AskedCases::similar() {
   return *similar_;
 }
 
+double AskedCases::rank_of(const Case& c) const {
+  if (is_wrong_decision()) return -gap_of(c) / std::ldexp(1.0, largest_exponent_of(c));
+  return double(feature_regions_of(c).names().size());
+}
+
 const Trial* AskedCases::plainest() {
   const Trial* best = nullptr;
   double least = INFINITY;
   const auto see = [&](const Trial& t) {
     if (t.outcome != Outcome::same || t.question.values == question().values) return;
-    const auto regions = double(feature_regions_of(t.question).names().size());
-    const double size = std::ldexp(1.0, largest_exponent_of(t.question));
-    const double rank = is_wrong_decision() ? -gap_of(t.question) / size : regions;
+    const double rank = rank_of(t.question);
     if (rank < least) least = rank, best = &t;
   };
   for (const Trial& t : similar()) see(t);
@@ -39,18 +42,38 @@ const Trial* AskedCases::plainest() {
   return best;
 }
 
-const std::vector<Trial>& AskedCases::sample() {
-  constexpr std::size_t size = 256;
-  if (sample_) return *sample_;
-  const Preconditions required = trials_.subject().offering(trials_.query().name).required;
-  std::vector<Case> cases(size);
+std::vector<Trial> AskedCases::generated_with_finding(std::size_t most) {
+  constexpr std::size_t batch = 512;
+  std::vector<std::pair<double, Trial>> found;
   std::uint64_t index = 0;
+  while (found.size() < most && !trials_.is_over()) {
+    for (Trial& t : trials_.ask(generated(batch, index))) {
+      if (t.outcome != Outcome::same || t.question.values == question().values || found.size() == most) continue;
+      const double rank = rank_of(t.question);
+      found.emplace_back(rank, std::move(t));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Trial> ordered;
+  for (auto& [rank, trial] : found) ordered.push_back(std::move(trial));
+  return ordered;
+}
+
+std::vector<Case> AskedCases::generated(std::size_t count, std::uint64_t& index) const {
+  const Preconditions required = trials_.subject().offering(trials_.query().name).required;
+  std::vector<Case> cases(count);
   for (Case& c : cases) {
     do {
       generate_inside(c, trials_.query(), trials_.subject().scalar, seed_, index++, required);
     } while (has_extreme_mutator(c));
   }
-  sample_ = trials_.ask(cases);
+  return cases;
+}
+
+const std::vector<Trial>& AskedCases::sample() {
+  constexpr std::size_t size = 256;
+  std::uint64_t first = 0;
+  if (!sample_) sample_ = trials_.ask(generated(size, first));
   return *sample_;
 }
 

@@ -29,6 +29,8 @@ class AskedCases {
   /// Another case with the finding, of as few regions as there is; nullptr if there is none. For a wrong decision, the
   /// case furthest from a change of the exact decision.
   const Trial* plainest();
+  /// At most `most` generated cases with the finding, ordered as for plainest().
+  std::vector<Trial> generated_with_finding(std::size_t most);
   /// 256 generated cases, of ordinary numbers.
   const std::vector<Trial>& sample();
   /// 64 cases a few ulps away.
@@ -57,6 +59,11 @@ class AskedCases {
   void set_rounding_seen(RoundingSeen seen) { rounding_seen_ = seen; }
 
  private:
+  /// Less for a plainer case.
+  double rank_of(const Case& c) const;
+  /// Cases of ordinary numbers, from the generator's case `index` on, which becomes that of the next one.
+  std::vector<Case> generated(std::size_t count, std::uint64_t& index) const;
+
   Trials& trials_;
   std::uint64_t seed_;
   IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };

@@ -1,9 +1,12 @@
 #include "reports/triage/cause.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <iterator>
 
+#include "reports/engine/interrupt.hpp"
 #include "reports/triage/convention.hpp"
 #include "reports/triage/error_share.hpp"
 #include "reports/triage/few_answers.hpp"
@@ -52,30 +55,84 @@ std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evide
   return std::nullopt;
 }
 
+class CauseSearch {
+ public:
+  CauseSearch(const Subject& subject, const CauseLimits& limits, Workers& workers)
+      : subject_(subject), limits_(limits), workers_(workers) {}
+
+  Cause result(const Case& question) {
+    cause_.text = "No hypothesis passed its test.";
+    Trials trials(question, subject_, left(), workers_);
+    AskedCases asked(trials);
+    auto named = first_named(asked, cause_.evidence);
+    count(trials);
+    if (!named && !interrupted() && is_bad(trials.base().finding)) named = named_from_others(question, asked);
+    if (named) cause_.kind = named->kind, cause_.key = named->key, cause_.text = named->text;
+    return std::move(cause_);
+  }
+
+ private:
+  static constexpr std::uint64_t questions_of_a_case = 4000;
+  static constexpr std::size_t most_others = 4;
+
+  /// For one case, of what is left.
+  CauseLimits left() const {
+    const std::uint64_t questions = limits_.questions - std::min(limits_.questions, cause_.questions);
+    return {std::min(questions, questions_of_a_case), limits_.time - (Clock::now() - begin_)};
+  }
+  bool is_over() const { return interrupted() || left().questions == 0 || left().time.count() <= 0; }
+  void count(const Trials& trials) { cause_.questions += trials.questions(); }
+
+  /// Makes the tests again with other cases that have the finding. The evidence is that of the case that names a cause.
+  std::optional<Named> named_from_others(const Case& question, AskedCases& asked) {
+    std::size_t tried = 0;
+    for (const Case& other : others(question, asked)) {
+      if (is_over()) break;
+      Trials trials(other, subject_, left(), workers_);
+      AskedCases of_other(trials);
+      std::vector<Evidence> evidence;
+      const auto named = first_named(of_other, evidence);
+      count(trials), ++tried;
+      if (!named) continue;
+      cause_.evidence.push_back(
+          {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
+           "The tests were made again, as follows."});
+      std::move(evidence.begin(), evidence.end(), std::back_inserter(cause_.evidence));
+      return named;
+    }
+    if (tried > 0)
+      cause_.evidence.push_back({"Other cases with the same finding were taken in place of the case.",
+                                 fmt::format("The tests were made again with {}, and none passed.", tried)});
+    return std::nullopt;
+  }
+  /// The plainest of the cases that were asked, and generated cases, the plainest first.
+  std::vector<Case> others(const Case& question, AskedCases& asked) {
+    std::vector<Case> chosen;
+    if (const Trial* t = asked.plainest()) chosen.push_back(t->question);
+    if (is_over()) return chosen;
+    Trials trials(question, subject_, left(), workers_);
+    AskedCases more(trials);
+    for (Trial& t : more.generated_with_finding(2 * most_others)) {
+      if (chosen.size() < most_others && (chosen.empty() || t.question.values != chosen.front().values))
+        chosen.push_back(std::move(t.question));
+    }
+    count(trials);
+    return chosen;
+  }
+
+  using Clock = std::chrono::steady_clock;
+
+  const Subject& subject_;
+  const CauseLimits& limits_;
+  Workers& workers_;
+  Clock::time_point begin_ = Clock::now();
+  Cause cause_;
+};
+
 }  // namespace
 
 Cause cause_of(const Report& report, const Subject& subject, const CauseLimits& limits, Workers& workers) {
-  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
-  Trials trials(report.question, subject, limits, workers);
-  AskedCases asked(trials);
-  Cause cause;
-  cause.text = "No hypothesis passed its test.";
-  auto named = first_named(asked, cause.evidence);
-  cause.questions = trials.questions();
-  const bool goes_on = !named && !trials.is_over() && is_bad(trials.base().finding);
-  if (const Trial* other = goes_on ? asked.plainest() : nullptr) {
-    cause.evidence.push_back(
-        {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
-         "The tests were made again, as follows."});
-    Trials more(other->question, subject,
-                {limits.questions - trials.questions(), limits.time - (std::chrono::steady_clock::now() - begin)},
-                workers);
-    AskedCases asked_more(more);
-    named = first_named(asked_more, cause.evidence);
-    cause.questions += more.questions();
-  }
-  if (named) cause.kind = named->kind, cause.key = named->key, cause.text = named->text;
-  return cause;
+  return CauseSearch(subject, limits, workers).result(report.question);
 }
 
 std::string_view name_of(CauseKind kind) {

@@ -135,6 +135,48 @@ Fits exchanged_operands(const Case& c, const Answer& a, const IsRight& is_right)
   return opinion_on(c, other, a, is_right);
 }
 
+/// A rectangle whose corners are read as those of a strip of two triangles.
+Fits corners_of_a_strip(const Case& c, const Answer& a, const IsRight& is_right) {
+  Case other = c;
+  for (const auto& corners : parts_of(*c.query).rectangles) {
+    for (std::size_t k = 0; k < 3; ++k) std::swap(other.values[corners[2] + k], other.values[corners[3] + k]);
+  }
+  return opinion_on(c, other, a, is_right);
+}
+
+/// The case with the vector at `changed` replaced by a sum: itself times `by_itself`, and the one at `with` times `by`.
+void add_vector(Case& c, std::size_t changed, double by_itself, std::size_t with, double by) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = c.values[changed + k] * by_itself + c.values[with + k] * by;
+    c.values[changed + k] = c.scalar == Scalar::float32 ? double(float(x)) : x;
+  }
+}
+
+/// The upper corner of an axis-aligned box is its size.
+Fits size_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
+  Case other = c;
+  for (const std::size_t low : parts_of(*c.query).aaboxes) add_vector(other, low + 3, 1, low, 1);
+  return opinion_on(c, other, a, is_right);
+}
+/// The corners of an axis-aligned box are its center and half extents.
+Fits center_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
+  Case other = c;
+  for (const std::size_t low : parts_of(*c.query).aaboxes) {
+    add_vector(other, low, 1, low + 3, -1);
+    add_vector(other, low + 3, 2, low, 1);
+  }
+  return opinion_on(c, other, a, is_right);
+}
+/// The velocity, or the direction of a ray, is the place where the motion ends.
+Fits end_for_way(const Case& c, const Answer& a, const IsRight& is_right) {
+  const Parts& parts = parts_of(*c.query);
+  if (!parts.start) return std::nullopt;
+  Case other = c;
+  for (const auto* ways : {&parts.velocities, &parts.directions})
+    for (const std::size_t way : *ways) add_vector(other, way, 1, parts.start->place, -1);
+  return opinion_on(c, other, a, is_right);
+}
+
 /// A limit of time that is taken for a length of the motion.
 Fits length_for_limit(const Case& c, const Answer& a, const IsRight& is_right) {
   const auto& velocities = parts_of(*c.query).velocities;
@@ -220,6 +262,14 @@ constexpr Reading table_of_inputs[] = {
     {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, limit_of_one},
     {"axis ignored", "the given axis is not read", CauseKind::unsupported, false, no_axis},
     {"time ignored", "the time is ignored", CauseKind::unsupported, false, zero_input<Role::time>},
+    {"corners of a strip", "the corners of the rectangle are those of a strip of two triangles", CauseKind::convention,
+     false, corners_of_a_strip},
+    {"size in place of a corner", "the upper corner of the box is its size", CauseKind::convention, false,
+     size_for_corner},
+    {"center and half extents in place of corners", "the two corners of the box are its center and half extents",
+     CauseKind::convention, false, center_for_corner},
+    {"end in place of the velocity", "the velocity is the place where the motion ends", CauseKind::convention, false,
+     end_for_way},
 };
 
 }  // namespace

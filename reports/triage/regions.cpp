@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "corpus/feature_regions.hpp"
+#include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -60,6 +62,38 @@ bool is_along_axes(const Case& c, std::size_t way) {
   return zeros == 1 || zeros == 2;
 }
 
+/// Twice the area of a triangle times the height of a place over it, in doubles.
+double height_over(const Case& c, const std::array<std::size_t, 3>& corners, std::size_t place) {
+  std::array<double, 3> a{}, b{}, to{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double origin = c.values[corners[0] + k];
+    a[k] = c.values[corners[1] + k] - origin, b[k] = c.values[corners[2] + k] - origin;
+    to[k] = c.values[place + k] - origin;
+  }
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    height += to[k] * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+  return height;
+}
+
+/// Hits of the first operand from one side of a triangle, or of a rectangle: an implementation may leave them out.
+void add_sides(std::vector<Region>& regions, const Query& query) {
+  const auto& triangles = parts_of(query).triangles;
+  if (triangles.empty() || !parts_of(query).aaboxes.empty() || !decides(query.kind)) return;
+  const auto& corners = triangles.front();
+  for (const auto& [a, b] : places_of_two_operands(query)) {
+    if (b != corners[0]) continue;
+    const std::string of = query.inputs[b].name.substr(0, query.inputs[b].name.find('.'));
+    regions.push_back({fmt::format("a hit from behind the {}", of),
+                       [=, a = a](const Case& c) { return height_over(c, corners, a) < 0 && exact_decision(c); },
+                       false});
+    regions.push_back({fmt::format("a hit from in front of the {}", of),
+                       [=, a = a](const Case& c) { return height_over(c, corners, a) > 0 && exact_decision(c); },
+                       false});
+    return;
+  }
+}
+
 bool is_turned(const Case& c) {
   const auto& all = parts_of(*c.query).quaternions;
   return std::any_of(all.begin(), all.end(),
@@ -97,6 +131,7 @@ std::vector<Region> regions_of(const Query& query) {
   for (const FeatureRegion r : {FeatureRegion::flat, FeatureRegion::parallel})
     regions.push_back({std::string(name_of(r)), [r](const Case& c) { return feature_regions_of(c).has(r); }});
   if (!parts_of(query).quaternions.empty()) regions.push_back({"a turned box", is_turned, false});
+  add_sides(regions, query);
   return regions;
 }
 

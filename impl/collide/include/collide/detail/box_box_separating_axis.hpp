@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/box_pair.hpp>
+#include <collide/detail/box_pair_filters.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
@@ -16,6 +17,10 @@ namespace kernels {
 template <class Tier, class T>
 inline Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis) {
   if constexpr (Tier::template lifts<T>) {
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_separating_axis(box1, box2, axis))
+        return Tier::decided_by_filter(*answer);
+    }
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::box_box_separating_axis<decltype(arithmetic)>(a...); },
         box1, box2, axis);

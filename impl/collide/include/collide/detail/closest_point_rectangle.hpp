@@ -3,6 +3,7 @@
 
 #include <collide/answers.hpp>
 #include <collide/detail/edges.hpp>
+#include <collide/detail/rectangle_filters.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -15,6 +16,11 @@ namespace kernels {
 template <class Tier, class T>
 inline ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
+#if defined(COLLIDE_LANES)
+    if constexpr (uses_filter<Tier, T>) {
+      if (const auto answer = detail::filtered_closest_point(rectangle, point)) return Tier::decided_by_filter(*answer);
+    }
+#endif
     return Tier::lift(
         [](auto arithmetic, const auto&... a) { return kernels::closest_point_rectangle<decltype(arithmetic)>(a...); },
         rectangle, point);
