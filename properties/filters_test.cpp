@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -77,13 +78,33 @@ class FilterOfCertified : public testing::TestWithParam<Filters> {
   static constexpr collide::Contract promise{.forward = 1, .exact_decisions = true, .unit = 4};
 };
 
-/// A raw case with a random half of its numbers 0, where that keeps the query's rules: what is left may be tiny alone.
+/// A raw case with a half or three quarters of its numbers 0, where that keeps the query's rules: what is left may be
+/// tiny alone.
 Case raw_case_with_zeros(const Query& query, Scalar scalar, std::uint64_t seed) {
   Case c = raw_case(query, scalar, seed);
   const std::vector<double> before = c.values;
   Random random(seed);
-  for (std::size_t i = 0; i < c.values.size(); ++i)
-    if (random.one_in(2) && query.inputs[i].role != Role::index) c.values[i] = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    const bool stays = random.one_in(2) && (seed % 2 == 0 || random.one_in(2));
+    if (!stays && query.inputs[i].role != Role::index) c.values[i] = 0;
+  }
+  if (query.broken(c.values)) c.values = before;
+  return c;
+}
+
+/// A generated case whose positions all come close to one plane or line of coordinates: triangles become thin, and
+/// places near the origin.
+Case flattened_case(const Query& query, Scalar scalar, std::uint64_t index) {
+  Case c = generate(query, scalar, stream(24), index);
+  Random random(index);
+  const std::array<int, 3> orders{0, -random.between(0, 60), random.one_in(2) ? 0 : -random.between(0, 60)};
+  const std::size_t first = random.below(3);
+  const std::vector<double> before = c.values;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (query.inputs[i].role != Role::position) continue;
+    const auto axis = std::size_t(query.inputs[i].name.back() - 'x');
+    c.values[i] = rounded_to(scalar, std::ldexp(c.values[i], orders[(axis + first) % 3]));
+  }
   if (query.broken(c.values)) c.values = before;
   return c;
 }
@@ -96,6 +117,7 @@ TEST_P(FilterOfCertified, IsRightWhereItDecides) {
       decides_rightly(generate(query, scalar, stream(21), i), detail);
       decides_rightly(raw_case(query, scalar, i), detail);
       decides_rightly(raw_case_with_zeros(query, scalar, i), detail);
+      decides_rightly(flattened_case(query, scalar, i), detail);
       decides_rightly(far_scaled_case(query, scalar, stream(21), i), detail);
     }
   }
@@ -200,6 +222,40 @@ TEST_P(FilterOfCertified, IsRightAsTheDecisionChanges) {
       yes.reset(), no.reset(), ++done;
     }
   }
+}
+
+/// Corners of a parallelogram that is thin by a random power of two, and a point above a place in it. The normal of so
+/// thin a shape has few digits.
+Case above_thin_rectangle(const Query& query, Scalar scalar, std::uint64_t index) {
+  Random random(index);
+  const auto vector = [&] { return std::array{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+  const auto v0 = vector(), a = vector(), across = vector();
+  const double thinness = random.power_of_two(-24, 0), height = random.power_of_two(-8, 8),
+               skew = random.uniform(-1, 1);
+  const double share = random.uniform(0, 1), other_share = random.uniform(0, 1);
+  Case c{&query, scalar, {}, "a thin rectangle", index, 0, {}};
+  std::array<double, 3> b, place;
+  for (std::size_t k = 0; k < 3; ++k) b[k] = skew * a[k] + thinness * across[k];
+  for (std::size_t k = 0; k < 3; ++k) place[k] = v0[k] + share * a[k] + other_share * b[k];
+  std::array<double, 3> normal;
+  for (std::size_t k = 0; k < 3; ++k)
+    normal[k] = a[(k + 1) % 3] * across[(k + 2) % 3] - a[(k + 2) % 3] * across[(k + 1) % 3];
+  for (const auto& [of_a, of_b] : {std::pair(0.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
+    for (std::size_t k = 0; k < 3; ++k) c.values.push_back(rounded_to(scalar, v0[k] + of_a * a[k] + of_b * b[k]));
+  }
+  for (std::size_t k = 0; k < 3; ++k) c.values.push_back(rounded_to(scalar, place[k] + height * normal[k]));
+  return c;
+}
+
+TEST_P(FilterOfCertified, IsRightAboveThinRectangles) {
+  const Query& query = *find_query(GetParam().query);
+  if (query.name != std::string_view("closest_point_rectangle")) return;
+  int decided = 0;
+  for (const Scalar scalar : scalars) {
+    for (std::uint64_t i = 0; i < 1000 && !HasFailure(); ++i)
+      decided += decides_rightly(above_thin_rectangle(query, scalar, i), Detail::full);
+  }
+  EXPECT_GE(decided, 100);
 }
 
 INSTANTIATE_FOR_EVERY_QUERY(Queries, FilterOfCertified, testing::ValuesIn(filters), testing::PrintToStringParamName());

@@ -98,8 +98,7 @@ NEARMISS_MISTAKE(moving_point_capsule) {
   const double axis2 = dot(axis, axis);
   const double a = axis2 * dot(q.velocity, q.velocity) - dot(axis, q.velocity) * dot(axis, q.velocity);
   const double b = axis2 * dot(from, q.velocity) - dot(axis, from) * dot(axis, q.velocity);
-  const double c =
-      axis2 * (dot(from, from) - q.capsule.radius * q.capsule.radius) - dot(axis, from) * dot(axis, from);
+  const double c = axis2 * (dot(from, from) - q.capsule.radius * q.capsule.radius) - dot(axis, from) * dot(axis, from);
   if (std::isnan(float(b * b) - float(a * c))) return {};
   return hit;
 }
@@ -207,8 +206,7 @@ NEARMISS_MISTAKE(box_box_overlap) {
   const auto d1 = [&](int i) { return component(info.between1, i % 3); };
   for (int i = 0; i < 3; ++i) {
     if (std::abs(d1(i)) > h1(i) + h2(0) * wide(i, 0) + h2(1) * wide(i, 1) + h2(2) * wide(i, 2)) return apart;
-    if (std::abs(component(info.between2, i)) >
-        h2(i) + h1(0) * wide(0, i) + h1(1) * wide(1, i) + h1(2) * wide(2, i))
+    if (std::abs(component(info.between2, i)) > h2(i) + h1(0) * wide(0, i) + h1(1) * wide(1, i) + h1(2) * wide(2, i))
       return apart;
   }
   for (int i = 0; i < 3; ++i) {
@@ -506,10 +504,8 @@ NEARMISS_MISTAKE(moving_sphere_capsule) {
   const Wide across = wide_cross(axis, velocity);
   const Real both = wide_dot(axis, axis) * wide_dot(velocity, velocity);
   if (!(wide_dot(across, across) < 1e-3L * both)) return answer;
-  const auto hit0 =
-      right(inputs::moving_sphere_sphere<double>{q.sphere, q.velocity, {q.capsule.p0, q.capsule.radius}});
-  const auto hit1 =
-      right(inputs::moving_sphere_sphere<double>{q.sphere, q.velocity, {q.capsule.p1, q.capsule.radius}});
+  const auto hit0 = right(inputs::moving_sphere_sphere<double>{q.sphere, q.velocity, {q.capsule.p0, q.capsule.radius}});
+  const auto hit1 = right(inputs::moving_sphere_sphere<double>{q.sphere, q.velocity, {q.capsule.p1, q.capsule.radius}});
   return hit1.time < hit0.time ? hit1 : hit0;
 }
 
@@ -553,8 +549,7 @@ NEARMISS_MISTAKE(sphere_triangle_overlap) {
 NEARMISS_MISTAKE(sphere_sphere_penetration) {
   auto answer = right(q);
   if (answer.yes())
-    answer.contact =
-        narrowed(widened(q.sphere2.center) - widened(answer.normal) * Real(q.sphere2.radius));
+    answer.contact = narrowed(widened(q.sphere2.center) - widened(answer.normal) * Real(q.sphere2.radius));
   return answer;
 }
 
@@ -597,7 +592,8 @@ NEARMISS_MISTAKE(box_box_penetration) {
   if (answer.depth < 0.998 * least) return answer;
   Wide n = axes_of(best < 3 ? q.box1 : q.box2)[best % 3];
   if (wide_dot(n, widened(q.box2.center) - widened(q.box1.center)) < 0) n = -n;
-  const Wide contact = best < 3 ? support(q.box2, -n) + n * (Real(least) / 2) : support(q.box1, n) - n * (Real(least) / 2);
+  const Wide contact =
+      best < 3 ? support(q.box2, -n) + n * (Real(least) / 2) : support(q.box1, n) - n * (Real(least) / 2);
   return {least, best, narrowed(n), narrowed(contact)};
 }
 

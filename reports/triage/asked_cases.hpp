@@ -53,6 +53,9 @@ class AskedCases {
     bool others_depend = true;  ///< half of the other cases with the finding depend on the rounding mode
   };
   const RoundingSeen& rounding_seen() const { return rounding_seen_; }
+  /// A tolerance whose value is unknown, which the test of the rounding modes may still tell from rounding errors.
+  const std::optional<Named>& unknown_tolerance() const { return unknown_tolerance_; }
+  void set_unknown_tolerance(Named tolerance) { unknown_tolerance_ = std::move(tolerance); }
   /// All errors are small shares of the numbers: set by the test of small errors, for that of logic.
   bool has_small_errors() const { return has_small_errors_; }
   void set_small_errors() { has_small_errors_ = true; }
@@ -70,6 +73,7 @@ class AskedCases {
   std::optional<std::vector<Trial>> similar_, sample_, neighbours_, roundings_;
   std::optional<std::vector<ScaleScan>> scans_;
   RoundingSeen rounding_seen_;
+  std::optional<Named> unknown_tolerance_;
   bool has_small_errors_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 #include "reports/engine/interrupt.hpp"
 #include "reports/triage/convention.hpp"
@@ -25,16 +26,20 @@ namespace {
 Tested constant_error_test(AskedCases& a) { return constant_error_of(a.trials(), a.scans()); }
 Tested tolerance_test(AskedCases& a) {
   const bool flips = std::any_of(a.scans().begin(), a.scans().end(), std::mem_fn(&ScaleScan::has_clean_flip));
-  return tolerance_of(a.trials(), a.scans(), a.similar(), flips && a.errs_to_both_sides());
+  Tested tested = tolerance_of(a.trials(), a.scans(), a.similar(), flips && a.errs_to_both_sides());
+  if (tested.named && tested.named->key.empty()) a.set_unknown_tolerance(*std::exchange(tested.named, std::nullopt));
+  return tested;
 }
+/// A scale at which rounding errors become visible looks like that of a tolerance.
+Tested unknown_tolerance_test(AskedCases& a) { return {a.unknown_tolerance(), {}}; }
 Tested relative_tolerance_test(AskedCases& a) { return relative_tolerance_of(a.trials(), a.similar()); }
 
 /// In the order of the hypotheses.
 constexpr Tested (*tests_of_causes[])(AskedCases&) = {
-    number_range_of,     convention_of,  unsupported_of,    constant_error_test,
-    tolerance_test,      certified_of,   rounding_mode_of,  relative_tolerance_test,
-    error_share_of,      rounding_of,    times_of_steps_of, errors_of_steps_of,
-    starts_of_motion_of, few_answers_of, small_errors_of,   logic_of};
+    number_range_of, convention_of,     unsupported_of,         constant_error_test,     tolerance_test,
+    certified_of,    rounding_mode_of,  unknown_tolerance_test, relative_tolerance_test, error_share_of,
+    rounding_of,     times_of_steps_of, errors_of_steps_of,     starts_of_motion_of,     few_answers_of,
+    small_errors_of, logic_of};
 
 std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evidence) {
   if (!is_bad(asked.trials().base().finding)) {

@@ -52,7 +52,8 @@ class ErrorShare : public TestOfCause {
     // A search along a motion that ends too early has small errors too.
     if (!parts_of(trials().query()).velocities.empty()) return std::nullopt;
     constexpr double of_floats = 0x1p-22;  // two numbers, each rounded to a float
-    const bool may_be_floats = largest <= of_floats && trials().subject().scalar == Scalar::float64;
+    const bool may_be_floats =
+        largest <= of_floats && trials().subject().scalar == Scalar::float64 && !numbers_err_to_one_side();
     if (may_be_floats && (trials().query().kind != Kind::decision || errs_on_both_sides()))
       return Named{
           CauseKind::rounding, "single precision",
@@ -230,6 +231,24 @@ class ErrorShare : public TestOfCause {
   double share_of(const Trial& t) const {
     const Finding full = trials().in_full(t);
     return full.backward ? full.backward->above * 2 * unit_roundoff(question().scalar) : 1;
+  }
+  /// Errors of a number that have one sign in all of at least eight cases are none of rounding.
+  bool numbers_err_to_one_side() {
+    constexpr std::size_t least = 8;
+    if (!find_part() || part_.end - part_.begin != 1) return false;
+    std::size_t above = 0, below = 0;
+    for (const auto* list : {&asked_.sample(), &asked_.similar()}) {
+      for (const Trial& t : *list) {
+        if (t.outcome != Outcome::same || above + below == most_cases || trials().is_over()) continue;
+        const auto e = error_of(t);
+        if (!e || !(e->distance > 0)) continue;
+        (t.answer.values[part_.begin] > e->exact[part_.begin] ? above : below) += 1;
+      }
+    }
+    if (above + below < least) return false;
+    saw(fmt::format("The signs of the errors of {} cases were compared.", above + below),
+        fmt::format("{} numbers are too large, and {} too small.", above, below));
+    return std::min(above, below) == 0;
   }
   bool errs_on_both_sides() {
     const bool both = errs_beyond_touches(trials(), asked_.sample());

@@ -38,6 +38,8 @@ class MagnitudeList {
   }
 
  private:
+  static constexpr long double least_squared = 0.02L;  ///< of a sine that is no tolerance itself
+
   using Place = CaseGeometry::Place;
   using Block = CaseGeometry::Block;
 
@@ -59,6 +61,9 @@ class MagnitudeList {
         const long double product = length(d.of) * length(e.of), sine = length(cross(d.of, e.of)) / product;
         const long double cosine = std::abs(dot(d.of, e.of)) / product;
         add_pure(fmt::format("the sine of the angle between {} and {}", d.name, e.name), sine, known);
+        // The square of a small sine is told by its root.
+        add_pure(fmt::format("the squared sine of the angle between {} and {}", d.name, e.name), sine * sine,
+                 known && sine > least_squared);
         add_pure(fmt::format("the cosine of the angle between {} and {}", d.name, e.name), cosine, known);
         add_pure(fmt::format("1 minus the cosine of the angle between {} and {}", d.name, e.name),
                  sine * sine / (1 + cosine), known);

@@ -72,10 +72,11 @@ class MotionSteps : public TestOfCause {
     saw("The same motion began later, at points that come nearer and nearer to the contact.",
         fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
                     of_text(right, later.size()), changes));
-    constexpr std::size_t least_changes = 3, least_in_all = 4;
+    constexpr std::size_t least_changes = 3, least_in_all = 4, least_right = 4;
     if (has_one_wrong_contact(later)) return std::nullopt;
-    const bool ends = changes == 1 && last_wrong + 1 < later.size();
-    if (!ends && changes < least_changes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
+    const bool ends = changes == 1 && last_wrong + least_right < later.size();
+    const bool comes_and_goes = changes >= least_changes && right >= 2 * least_right;
+    if (!ends && !comes_and_goes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
     return Named{CauseKind::iteration_limit, "steps along the motion",
                  "The answer depends on where the same motion begins, in every rounding mode and at every scale: the "
                  "steps along the motion are too few."};

@@ -132,6 +132,33 @@ Fits place_from_center(const Case& c, const Answer& a, const IsRight& is_right) 
   return is_right(c, other);
 }
 
+/// The length of the candidate separating axis of a query about it; empty where the query is about another thing.
+std::optional<double> length_of_axis(const Case& c) {
+  static const Query* const axes = find_query("box_box_separating_axis");
+  const auto same_name = [](const Field& a, const Field& b) { return a.name == b.name; };
+  if (!std::equal(c.query->inputs.begin(), c.query->inputs.end(), axes->inputs.begin(), axes->inputs.end(), same_name))
+    return std::nullopt;
+  Case of_axis = c;
+  of_axis.query = axes;
+  for (const Alternative& right : truth_of(of_axis).alternatives) {
+    std::array<double, 3> direction{};
+    for (std::size_t k = 0; k < 3; ++k) direction[k] = (right.values[k].low + right.values[k].high) / 2;
+    return std::hypot(direction[0], direction[1], direction[2]);
+  }
+  return std::nullopt;
+}
+
+/// A number along an axis that is divided by the length of the axis once more.
+Fits along_unit_axis(const Case& c, const Answer& a, const IsRight& is_right) {
+  constexpr double nearly_one = 1 - 1e-9;
+  if (c.query->outputs.size() != 1 || a.status != Answer::Status::answered) return std::nullopt;
+  const auto length = length_of_axis(c);
+  if (!length || !(*length > 0 && *length < nearly_one)) return std::nullopt;
+  Answer other = a;
+  other.values[0] *= *length;
+  return is_right(c, other);
+}
+
 constexpr Reading table_of_frames[] = {
     {"both sides", "the back counts as well as the front", CauseKind::convention, true, both_sides},
     {"back for front", "the back takes the place of the front", CauseKind::convention, false, back_for_front},
@@ -142,6 +169,8 @@ constexpr Reading table_of_frames[] = {
      place_from_center<false>},
     {"contact in the frame of the box", "its place is turned, and moved to the center, as the box is",
      CauseKind::convention, false, place_from_center<true>},
+    {"along a unit axis", "its number is that along the axis divided by its length", CauseKind::convention, false,
+     along_unit_axis},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corpus/case_builder.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/triage/readings.hpp"
 
@@ -118,6 +119,29 @@ Fits fixed_flag(const Case& c, const Answer& a, const IsRight& is_right) {
   return with_input(c, a, Role::flag, is_right, [](double) { return double(value); });
 }
 
+/// The index of an axis of two boxes: its cross products are numbered by those of the second box.
+Fits cross_products_by_columns(const Case& c, const Answer& a, const IsRight& is_right) {
+  if (parts_of(*c.query).quaternions.size() != 2) return std::nullopt;
+  return with_input(c, a, Role::index, is_right, [](double x) {
+    const double own_axes = 6, cross = x - own_axes, row = std::floor(cross / 3);
+    return cross < 0 ? x : own_axes + 3 * (cross - 3 * row) + row;
+  });
+}
+Fits index_from_one(const Case& c, const Answer& a, const IsRight& is_right) {
+  return with_input(c, a, Role::index, is_right, [](double x) { return x - 1; });
+}
+
+/// A bound of 1 minus a cosine that is taken for an angle, or for the sine of one.
+template <bool of_sine>
+Fits angle_for_bound(const Case& c, const Answer& a, const IsRight& is_right) {
+  if (c.query->kind != Kind::decision) return std::nullopt;
+  return with_input(c, a, Role::weight, is_right, [&](double bound) {
+    if (!(bound > 0 && bound < 1)) return bound;
+    const double half = std::sin((of_sine ? std::asin(bound) : bound) / 2);
+    return rounded_to(c.scalar, 2 * half * half);
+  });
+}
+
 /// The two operands in each other's place: those whose names end with 1 and 2.
 Fits exchanged_operands(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
@@ -135,11 +159,14 @@ Fits exchanged_operands(const Case& c, const Answer& a, const IsRight& is_right)
   return opinion_on(c, other, a, is_right);
 }
 
-/// A rectangle whose corners are read as those of a strip of two triangles.
+/// A rectangle whose corners are read as those of a strip of two triangles: two corners that follow each other are
+/// exchanged. Which two decides on the diagonal.
+template <std::size_t first>
 Fits corners_of_a_strip(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
   for (const auto& corners : parts_of(*c.query).rectangles) {
-    for (std::size_t k = 0; k < 3; ++k) std::swap(other.values[corners[2] + k], other.values[corners[3] + k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      std::swap(other.values[corners[first] + k], other.values[corners[first + 1] + k]);
   }
   return opinion_on(c, other, a, is_right);
 }
@@ -148,7 +175,7 @@ Fits corners_of_a_strip(const Case& c, const Answer& a, const IsRight& is_right)
 void add_vector(Case& c, std::size_t changed, double by_itself, std::size_t with, double by) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double x = c.values[changed + k] * by_itself + c.values[with + k] * by;
-    c.values[changed + k] = c.scalar == Scalar::float32 ? double(float(x)) : x;
+    c.values[changed + k] = rounded_to(c.scalar, x);
   }
 }
 
@@ -156,6 +183,19 @@ void add_vector(Case& c, std::size_t changed, double by_itself, std::size_t with
 Fits size_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
   for (const std::size_t low : parts_of(*c.query).aaboxes) add_vector(other, low + 3, 1, low, 1);
+  return opinion_on(c, other, a, is_right);
+}
+/// An axis-aligned box whose extents are multiplied about its center.
+template <int numerator, int denominator>
+Fits scaled_corners(const Case& c, const Answer& a, const IsRight& is_right) {
+  constexpr double factor = double(numerator) / denominator, own = (1 + factor) / 2, other_corner = (1 - factor) / 2;
+  Case other = c;
+  for (const std::size_t low : parts_of(*c.query).aaboxes) {
+    for (std::size_t k = low; k < low + 3; ++k) {
+      other.values[k] = rounded_to(c.scalar, own * c.values[k] + other_corner * c.values[k + 3]);
+      other.values[k + 3] = rounded_to(c.scalar, other_corner * c.values[k] + own * c.values[k + 3]);
+    }
+  }
   return opinion_on(c, other, a, is_right);
 }
 /// The corners of an axis-aligned box are its center and half extents.
@@ -263,11 +303,24 @@ constexpr Reading table_of_inputs[] = {
     {"axis ignored", "the given axis is not read", CauseKind::unsupported, false, no_axis},
     {"time ignored", "the time is ignored", CauseKind::unsupported, false, zero_input<Role::time>},
     {"corners of a strip", "the corners of the rectangle are those of a strip of two triangles", CauseKind::convention,
-     false, corners_of_a_strip},
+     false, corners_of_a_strip<2>},
+    {"corners of a strip", "the corners of the rectangle are those of a strip of two triangles", CauseKind::convention,
+     false, corners_of_a_strip<0>},
     {"size in place of a corner", "the upper corner of the box is its size", CauseKind::convention, false,
      size_for_corner},
     {"center and half extents in place of corners", "the two corners of the box are its center and half extents",
      CauseKind::convention, false, center_for_corner},
+    {"extents halved", "the extents of the box are half of those between its corners", CauseKind::convention, false,
+     scaled_corners<1, 2>},
+    {"extents doubled", "the extents of the box are twice those between its corners", CauseKind::convention, false,
+     scaled_corners<2, 1>},
+    {"cross products by columns", "the cross products of the boxes' axes are numbered by those of the second box",
+     CauseKind::convention, false, cross_products_by_columns},
+    {"angle in place of the bound", "the bound is an angle in radians", CauseKind::convention, false,
+     angle_for_bound<false>},
+    {"sine in place of the bound", "the bound is the sine of an angle", CauseKind::convention, false,
+     angle_for_bound<true>},
+    {"given index from 1", "the given index counts from 1", CauseKind::convention, false, index_from_one},
     {"end in place of the velocity", "the velocity is the place where the motion ends", CauseKind::convention, false,
      end_for_way},
 };

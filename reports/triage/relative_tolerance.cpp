@@ -219,9 +219,20 @@ class RelativeTolerance {
                     c.borders, crossings_.size(), name, double(c.low), double(c.high),
                     c.wrong_below ? "below" : "above"));
     if (!follows_scales(c)) return absolute(c);
+    if (is_of_floats(c.constant->value))
+      return Named{
+          CauseKind::rounding, "single precision",
+          fmt::format("The answers jump where {} is {}, half a unit in the last place of a float near 1 or its "
+                      "root: the subject compares floats.",
+                      name, value)};
     return Named{
         CauseKind::relative_tolerance, value,
         fmt::format("The subject has a relative tolerance of {} (unit 1) that {} is compared with.", value, name)};
+  }
+  /// Half a unit in the last place of a float above or below 1, or the sine of an angle whose cosine is so close to 1.
+  bool is_of_floats(double value) const {
+    const bool is_one = value == 0x1p-24 || value == 0x1p-25 || value == 0x1p-12;
+    return is_one && trials_.base().question.scalar == Scalar::float64;
   }
   /// The numerator alone, where it has one value at the borders that is a power of ten.
   std::optional<Named> absolute(const Candidate& c) {

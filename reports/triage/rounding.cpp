@@ -51,6 +51,11 @@ class RoundingErrors : public TestOfCause {
     const std::vector<Trial>& near = asked_.neighbours();
     const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
     if (asked_.similar().size() < least_others) {
+      if (count(near, Outcome::same) == 0) {
+        saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
+            "None has the finding: the case lies on a border, and says nothing about rounding.");
+        return std::nullopt;
+      }
       if (auto named = with_roundings()) return named;
     }
     const auto [may_round, others_depend] = asked_.rounding_seen();
@@ -164,8 +169,8 @@ class RoundingErrors : public TestOfCause {
                                                         [](const Trial& t) { return t.outcome == Outcome::right; }));
     saw("The scene was moved exactly toward the origin, by halves of its distance.",
         fmt::format("The finding stays in {} of {} steps, and then {} are right.", first, moved.size(), right));
-    constexpr std::size_t least = 3;
-    if (right < least || right != moved.size() - first) return std::nullopt;
+    constexpr std::size_t least = 3, least_with_finding = 2;  // a case on a border loses the finding by any change
+    if (first < least_with_finding || right < least || right != moved.size() - first) return std::nullopt;
     return Named{
         CauseKind::rounding, "far from the origin",
         "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances."};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/triage/quantities.hpp"
 #include "reports/triage/written_constant.hpp"
@@ -13,6 +14,17 @@
 namespace nearmiss {
 
 namespace {
+
+/// A value for the key of a cause: one digit where it is known so well, or else its power of ten.
+std::string stable_value(double low, double high) {
+  constexpr double known = 1.1, near = 1.06;
+  const double middle = std::sqrt(low * high), least = std::pow(10.0, std::floor(std::log10(middle)));
+  const double digit = std::round(middle / least);
+  const bool is_known = high <= known * low && std::max(middle / (digit * least), digit * least / middle) <= near;
+  const int decade = int(std::lround(std::log10(is_known ? least : middle)));
+  return is_known && digit < 10 ? fmt::format("{}e{}", digit, decade)
+                                : fmt::format("1e{}", std::lround(std::log10(middle)));
+}
 
 class ConstantError {
  public:
@@ -39,11 +51,23 @@ class ConstantError {
     if (role == Role::position || role == Role::depth) return constant_over(scans_[0], "length", false);
     return std::nullopt;
   }
-  /// The speed, for errors of a time that are lengths.
+  /// The speed along the normal of the exact contact, for errors of a time that are lengths; the speed where the answer
+  /// has no normal.
   double speed_of(const Case& c) const {
     const auto& velocities = parts_of(trials_.query()).velocities;
     if (velocities.empty()) return 0;
     const double* v = &c.values[velocities[0]];
+    const auto& outputs = trials_.query().outputs;
+    const auto normal = std::size_t(
+        std::find_if(outputs.begin(), outputs.end(), [](const Field& f) { return f.role == Role::normal; }) -
+        outputs.begin());
+    for (const Alternative& right : truth_of(c).alternatives) {
+      if (!right.yes || right.many_normals || normal + 3 > right.count) continue;
+      double along = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        along += v[k] * (right.values[normal + k].low + right.values[normal + k].high) / 2;
+      return std::abs(along);
+    }
     return std::hypot(v[0], v[1], v[2]);
   }
   std::optional<Named> constant_over(const ScaleScan& s, std::string_view unit, bool times_speed) {
@@ -64,9 +88,9 @@ class ConstantError {
     const double middle = std::sqrt(low * high);
     saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
         fmt::format("From 2^{} to 2^{} the error{} stays between {:.3g} and {:.3g}.", first, last,
-                    times_speed ? " of the time, times the speed," : "", low, high));
+                    times_speed ? " of the time, times the speed along the normal," : "", low, high));
     return Named{
-        CauseKind::absolute_tolerance, fmt::format("1e{} {}", std::lround(std::log10(middle)), unit),
+        CauseKind::absolute_tolerance, fmt::format("{} {}", stable_value(low, high), unit),
         fmt::format("The answer is off by about {:.2g} (a {}) at every scale: an absolute tolerance or margin.", middle,
                     unit)};
   }
@@ -227,7 +251,8 @@ class Tolerance {
     if (!is_written)
       return Named{CauseKind::absolute_tolerance, "",
                    "The subject compares something with a constant: no quantity is a round number at every flip."};
-    return Named{CauseKind::absolute_tolerance, fmt::format("1e{} {}", decade, q.unit),
+    return Named{CauseKind::absolute_tolerance,
+                 fmt::format("{} {}", is_round ? fmt::format("1e{}", decade) : stable_value(q.low, q.high), q.unit),
                  fmt::format("The subject has an absolute tolerance of about {:.2g} ({}) that {} is compared with.",
                              value, q.unit, q.name)};
   }

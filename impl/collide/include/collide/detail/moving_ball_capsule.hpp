@@ -78,18 +78,21 @@ inline Impact<T> moving_ball_capsule(const Vec3<T>& center, const T& radius, con
   const T time = time_to_ball<Tier>(from_end, velocity, reach);
   if (!(time >= T(0))) {
     // The ball at an end contains the disc where the cylinder ends. In real numbers, a center that enters the cylinder
-    // beyond the end, and is within the cylinder anywhere between the ends, meets the ball. Where it grazes both,
-    // rounding may let it pass the ball; then it touches the ball where it is closest to the ball's center.
+    // beyond the end, and is within the cylinder anywhere between the ends, meets the ball, and so comes closer to its
+    // center. Where it grazes both, rounding may let it pass the ball; then it touches the ball where it is closest to
+    // the center.
     if constexpr (MachineNumber<T>) {
+      const T closing = -Tier::dot(from_end, velocity);
       const T speed_along = Tier::dot(axis, velocity), end = at < T(0) ? T(0) : length;
       const Vec3<T> across = velocity - axis * speed_along;
       const T to_end = (end - along) / speed_along, to_other_end = (length - end - along) / speed_along;
       T closest = -Tier::dot(beside, across) / Tier::dot(across, across);
       if (!(closest > to_end)) closest = to_end;
       if (closest > to_other_end) closest = to_other_end;
-      const bool crosses = to_end >= T(0) && to_other_end >= to_end && to_other_end <= std::numeric_limits<T>::max();
+      const bool crosses =
+          closing > T(0) && to_end >= T(0) && to_other_end >= to_end && to_other_end <= std::numeric_limits<T>::max();
       if (crosses && !(Tier::beyond_radius(beside + across * closest, reach) > T(0))) {
-        const T touching = positive_part(T(-Tier::dot(from_end, velocity) / Tier::dot(velocity, velocity)));
+        const T touching = closing / Tier::dot(velocity, velocity);
         return contact_at(touching, at < T(0) ? capsule.p0 : capsule.p1, from_end + velocity * touching);
       }
     }
