@@ -54,7 +54,7 @@ TEST(CauseOfAShare, OfANumberOfTheAnswer) {
 template <int digits>
 Answer nearly_right_depth(Numbers q) {
   Answer a = exact_answer("sphere_sphere_penetration", q);
-  if (a.yes) a.values[0] *= 1 + std::ldexp(2 + a.values[1] * a.values[2], -digits);
+  if (a.yes) a.values[0] *= 1 + std::ldexp(std::copysign(2.0, a.values[1]) + a.values[1] * a.values[2], -digits);
   return a;
 }
 
@@ -66,6 +66,18 @@ TEST(CauseOfAShare, SmallErrorsAreATolerance) {
 TEST(CauseOfAShare, ErrorsOfFloatsAreRounding) {
   const Subject s = subject_with("sphere_sphere_penetration", nearly_right_depth<26>);
   expect_cause(cause_found(s, first_wrong(s)), CauseKind::rounding, "single precision");
+}
+
+Answer longer_distance(Numbers q) {
+  Answer a = exact_answer("box_box_projected_distance", q);
+  const double reach = q[3] + q[4] + q[5] + q[13] + q[14] + q[15];
+  a.values[0] -= std::ldexp(reach + q[4] * std::abs(std::sin(q[0])), -27);
+  return a;
+}
+
+TEST(CauseOfAShare, SmallErrorsToOneSideAreNoFloats) {
+  const Subject s = subject_with("box_box_projected_distance", longer_distance);
+  expect_cause(cause_found(s, first_wrong(s)), CauseKind::relative_tolerance, "");
 }
 
 // closest_point_segment: v0, v1, point.
@@ -219,6 +231,59 @@ TEST(Ratios, OfOneNumberAreAFamily) {
   }
   for (std::size_t i = 0; i < ratios.size(); ++i) with_one_number += ratios.family(i) == family;
   EXPECT_EQ(with_one_number, 15u);  // not every gap with every reach
+}
+
+/// moving_sphere_sphere: center, radius, velocity and others; the answer is a time, a place and a normal.
+Answer misses_grazing_contacts(Numbers q) {
+  Answer a = exact_answer("moving_sphere_sphere", q);
+  const double along = q[4] * a.values[4] + q[5] * a.values[5] + q[6] * a.values[6];
+  if (a.yes && a.values[0] > 0 && std::abs(along) < 0.13 * std::hypot(q[4], q[5], q[6])) a.yes = false;
+  return a;
+}
+
+TEST(CauseOfAShare, ContactsThatGrazeAreStepsAlongTheMotion) {
+  const Subject s = subject_with("moving_sphere_sphere", misses_grazing_contacts);
+  expect_cause(cause_found(s, first_wrong(s)), CauseKind::iteration_limit, "steps along the motion");
+}
+
+double distance2_of(Numbers q) {
+  const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6];
+  return x * x + y * y + z * z;
+}
+Answer squares_in_the_range_of_floats(Numbers q) {
+  constexpr double highest = 0x1p128, lowest = 0x1p-149;
+  const double d2 = distance2_of(q), r2 = (q[3] + q[7]) * (q[3] + q[7]);
+  Answer a = exact_answer("sphere_sphere_overlap", q);
+  if (std::min(d2, r2) > highest || std::max(d2, r2) < lowest) a.yes = true;
+  return a;
+}
+Answer root_in_a_few_steps(Numbers q) {
+  const double d2 = distance2_of(q);
+  double root = 1;
+  for (int i = 0; i < 16; ++i) root = (root + d2 / root) / 2;
+  Answer a = exact_answer("sphere_sphere_overlap", q);
+  if (a.yes && d2 > 0) a.yes = root <= q[3] + q[7];
+  return a;
+}
+
+TEST(CauseOfAShare, WhatIsWrongForLargeAndForSmallNumbersIsARange) {
+  const Subject floats = subject_with("sphere_sphere_overlap", squares_in_the_range_of_floats);
+  const Case far = in_double("sphere_sphere_overlap", {0x1p66, 0, 0, 0x1p64, 0, 0x1p65, 0, 0x1p64});
+  expect_cause(cause_found(floats, far), CauseKind::overflow, "lengths and velocities");
+  const Subject steps = subject_with("sphere_sphere_overlap", root_in_a_few_steps);
+  const Case large = in_double("sphere_sphere_overlap", {0x1p17, 0, 0, 0x1p16, 0, 0x1p15, 0, 0x1p16});
+  expect_cause(cause_found(steps, large), CauseKind::iteration_limit, "steps from a fixed start");
+}
+
+Answer no_point(Numbers q) {
+  Answer a = exact_answer("sphere_sphere_overlap", q);
+  if (q[7] == 0) a.yes = false;
+  return a;
+}
+
+TEST(CauseOfAShare, ARegionMayBeWrongForOneDecisionAlone) {
+  const Subject s = subject_with("sphere_sphere_overlap", no_point);
+  expect_cause(cause_found(s, first_wrong(s)), CauseKind::unsupported, "sphere2.radius of zero");
 }
 
 }  // namespace

@@ -35,11 +35,24 @@ Tested unknown_tolerance_test(AskedCases& a) { return {a.unknown_tolerance(), {}
 Tested relative_tolerance_test(AskedCases& a) { return relative_tolerance_of(a.trials(), a.similar()); }
 
 /// In the order of the hypotheses.
-constexpr Tested (*tests_of_causes[])(AskedCases&) = {
-    number_range_of, convention_of,     unsupported_of,         constant_error_test,     tolerance_test,
-    certified_of,    rounding_mode_of,  unknown_tolerance_test, relative_tolerance_test, error_share_of,
-    rounding_of,     times_of_steps_of, errors_of_steps_of,     starts_of_motion_of,     few_answers_of,
-    small_errors_of, logic_of};
+constexpr Tested (*tests_of_causes[])(AskedCases&) = {number_range_of,
+                                                      convention_of,
+                                                      unsupported_of,
+                                                      constant_error_test,
+                                                      tolerance_test,
+                                                      certified_of,
+                                                      rounding_mode_of,
+                                                      unknown_tolerance_test,
+                                                      relative_tolerance_test,
+                                                      error_share_of,
+                                                      rounding_of,
+                                                      times_of_steps_of,
+                                                      errors_of_steps_of,
+                                                      starts_of_motion_of,
+                                                      grazing_contacts_of,
+                                                      few_answers_of,
+                                                      small_errors_of,
+                                                      logic_of};
 
 std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evidence) {
   if (!is_bad(asked.trials().base().finding)) {

@@ -82,8 +82,56 @@ class MotionSteps : public TestOfCause {
                  "steps along the motion are too few."};
   }
 
+  /// Steps as long as the gap converge slowly where the motion grazes. A search that then gives up misses contacts
+  /// below an angle, and finds those above it.
+  std::optional<Named> grazing_contacts() {
+    constexpr std::size_t least_missed = 8, least_found = 16;
+    constexpr double least_sine = 0.02, most_sine = 0.5;  // a smaller one may be a tolerance of the angle
+    if (trials().query().kind != Kind::impact || trials().base().finding.disagreement != Disagreement::false_miss)
+      return std::nullopt;
+    std::vector<double> missed, found;
+    add_sine(trials().base(), missed);
+    for (const auto* list : {&asked_.similar(), &asked_.sample()}) {
+      for (const Trial& t : *list) {
+        if (t.outcome == Outcome::same) add_sine(t, missed);
+        if (t.outcome == Outcome::right) add_sine(t, found);
+      }
+    }
+    if (missed.size() < least_missed || found.size() < least_found) return std::nullopt;
+    const double steepest = *std::max_element(missed.begin(), missed.end());
+    const auto below = std::size_t(std::count_if(found.begin(), found.end(), [&](double s) { return s < steepest; }));
+    saw("The angles between the motion and the surface at the contact were compared.",
+        fmt::format("The {} missed contacts have sines of at most {:.2g}; {} found ones have a smaller one.",
+                    missed.size(), steepest, of_text(below, found.size())));
+    if (steepest < least_sine || steepest > most_sine || !nearly_all(found.size() - below, found.size()))
+      return std::nullopt;
+    return Named{
+        CauseKind::iteration_limit, "steps along the motion",
+        "Contacts are missed where the motion grazes, in every rounding mode and at every scale: a search that "
+        "converges slowly there ends too early."};
+  }
+
  private:
   static constexpr std::size_t samples = 64;
+
+  /// The sine of the angle between the velocity and the surface at the exact contact, unless it is at the start.
+  static void add_sine(const Trial& t, std::vector<double>& sines) {
+    const auto& velocities = parts_of(*t.question.query).velocities;
+    const auto& outputs = t.question.query->outputs;
+    const auto normal = std::size_t(
+        std::find_if(outputs.begin(), outputs.end(), [](const Field& f) { return f.role == Role::normal; }) -
+        outputs.begin());
+    if (velocities.empty() || !t.finding.truth_yes) return;
+    const double* v = &t.question.values[velocities[0]];
+    for (const Alternative& right : truth_of(t.question).alternatives) {
+      if (!right.yes || right.many_normals || normal + 3 > right.count || right.values[0].low <= 0) continue;
+      double along = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        along += v[k] * (right.values[normal + k].low + right.values[normal + k].high) / 2;
+      sines.push_back(std::abs(along) / std::hypot(v[0], v[1], v[2]));
+      return;
+    }
+  }
 
   /// A contact within a time is one within each longer time.
   std::optional<Named> limits_of_time() {
@@ -320,6 +368,11 @@ Tested errors_of_steps_of(AskedCases& asked) {
 Tested starts_of_motion_of(AskedCases& asked) {
   MotionSteps test(asked);
   return test.finished(test.starts_of_motion());
+}
+
+Tested grazing_contacts_of(AskedCases& asked) {
+  MotionSteps test(asked);
+  return test.finished(test.grazing_contacts());
 }
 
 }  // namespace nearmiss

@@ -11,5 +11,7 @@ Tested times_of_steps_of(AskedCases& asked);
 Tested errors_of_steps_of(AskedCases& asked);
 /// The answer depends on where the same motion begins.
 Tested starts_of_motion_of(AskedCases& asked);
+/// Contacts are missed where the motion grazes, below an angle that is no tolerance, and found elsewhere.
+Tested grazing_contacts_of(AskedCases& asked);
 
 }  // namespace nearmiss

@@ -171,18 +171,13 @@ Fits corners_of_a_strip(const Case& c, const Answer& a, const IsRight& is_right)
   return opinion_on(c, other, a, is_right);
 }
 
-/// The case with the vector at `changed` replaced by a sum: itself times `by_itself`, and the one at `with` times `by`.
-void add_vector(Case& c, std::size_t changed, double by_itself, std::size_t with, double by) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = c.values[changed + k] * by_itself + c.values[with + k] * by;
-    c.values[changed + k] = rounded_to(c.scalar, x);
-  }
-}
-
-/// The upper corner of an axis-aligned box is its size.
+/// The upper corner of an axis-aligned box is its size; a negative one is 0.
 Fits size_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
-  for (const std::size_t low : parts_of(*c.query).aaboxes) add_vector(other, low + 3, 1, low, 1);
+  for (const std::size_t low : parts_of(*c.query).aaboxes) {
+    for (std::size_t k = low; k < low + 3; ++k)
+      other.values[k + 3] = rounded_to(c.scalar, c.values[k] + std::max(c.values[k + 3], 0.0));
+  }
   return opinion_on(c, other, a, is_right);
 }
 /// An axis-aligned box whose extents are multiplied about its center.
@@ -198,12 +193,15 @@ Fits scaled_corners(const Case& c, const Answer& a, const IsRight& is_right) {
   }
   return opinion_on(c, other, a, is_right);
 }
-/// The corners of an axis-aligned box are its center and half extents.
+/// The corners of an axis-aligned box are its center and half extents; negative ones are 0.
 Fits center_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
   for (const std::size_t low : parts_of(*c.query).aaboxes) {
-    add_vector(other, low, 1, low + 3, -1);
-    add_vector(other, low + 3, 2, low, 1);
+    for (std::size_t k = low; k < low + 3; ++k) {
+      const double half = std::max(c.values[k + 3], 0.0);
+      other.values[k] = rounded_to(c.scalar, c.values[k] - half);
+      other.values[k + 3] = rounded_to(c.scalar, c.values[k] + half);
+    }
   }
   return opinion_on(c, other, a, is_right);
 }
@@ -212,8 +210,12 @@ Fits end_for_way(const Case& c, const Answer& a, const IsRight& is_right) {
   const Parts& parts = parts_of(*c.query);
   if (!parts.start) return std::nullopt;
   Case other = c;
-  for (const auto* ways : {&parts.velocities, &parts.directions})
-    for (const std::size_t way : *ways) add_vector(other, way, 1, parts.start->place, -1);
+  for (const auto* ways : {&parts.velocities, &parts.directions}) {
+    for (const std::size_t way : *ways) {
+      for (std::size_t k = 0; k < 3; ++k)
+        other.values[way + k] = rounded_to(c.scalar, c.values[way + k] - c.values[parts.start->place + k]);
+    }
+  }
   return opinion_on(c, other, a, is_right);
 }
 
