@@ -271,7 +271,7 @@ TEST(CauseOfAShare, WhatIsWrongForLargeAndForSmallNumbersIsARange) {
   const Case far = in_double("sphere_sphere_overlap", {0x1p66, 0, 0, 0x1p64, 0, 0x1p65, 0, 0x1p64});
   expect_cause(cause_found(floats, far), CauseKind::overflow, "lengths and velocities");
   const Subject steps = subject_with("sphere_sphere_overlap", root_in_a_few_steps);
-  const Case large = in_double("sphere_sphere_overlap", {0x1p17, 0, 0, 0x1p16, 0, 0x1p15, 0, 0x1p16});
+  const Case large = in_double("sphere_sphere_overlap", {0x1p17, 0, 0, 0x1.8p16, 0, 0x1p15, 0, 0x1.8p16});
   expect_cause(cause_found(steps, large), CauseKind::iteration_limit, "steps from a fixed start");
 }
 

@@ -52,7 +52,7 @@ class NumberRange : public TestOfCause {
   /// A tolerance is exceeded on one side. The range of a smaller type is left on both, and so is the range of numbers
   /// for which a search with a fixed start and number of steps ends.
   std::optional<Named> right_between(const ScaleScan& s) {
-    constexpr int least_between = 16, furthest = 96;  // about the range of floats
+    constexpr int least_between = 16, furthest = 128;  // the range of floats
     if (!s.has_clean_flip() || largest_of(question(), *s.group) == 0) return std::nullopt;
     const int direction = s.flip->right > s.flip->wrong ? 1 : -1, base = std::ilogb(largest_of(question(), *s.group));
     std::optional<int> again;  // the nearest scale beyond the right answers with the finding

@@ -262,6 +262,8 @@ constexpr Reading table_of_inputs[] = {
     {"offset of the other sign", "the plane's offset has the other sign", CauseKind::convention, false,
      negative_offset},
     {"velocity reversed", "the velocity has the other sign", CauseKind::convention, false, reversed_velocity},
+    {"end in place of the velocity", "the velocity is the place where the motion ends", CauseKind::convention, false,
+     end_for_way},
     {"flag inverted", "the flag has the other value", CauseKind::convention, false, other_flag},
     {"rotation ignored", "rotations are ignored", CauseKind::unsupported, false, changed_rotation<no_turn>},
     {"radius ignored", "radii are ignored", CauseKind::unsupported, false, scaled_sizes<0, 1, false>},
@@ -323,8 +325,6 @@ constexpr Reading table_of_inputs[] = {
     {"sine in place of the bound", "the bound is the sine of an angle", CauseKind::convention, false,
      angle_for_bound<true>},
     {"given index from 1", "the given index counts from 1", CauseKind::convention, false, index_from_one},
-    {"end in place of the velocity", "the velocity is the place where the motion ends", CauseKind::convention, false,
-     end_for_way},
 };
 
 }  // namespace
