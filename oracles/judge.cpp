@@ -133,8 +133,9 @@ class Examination {
     for (std::size_t i = 0; i < e.members.size(); ++i) r.may_match_member |= std::uint32_t{e.members[i].may_match} << i;
     return r;
   }
-  /// Widening an input never shrinks its enclosure, so the rungs that pass come first. Starts from what earlier
-  /// searches saw, walks away from `about` in steps that double, and then halves.
+  /// What a rung excludes, every lower one excludes too, though its enclosure may not show this: the computation may
+  /// take another branch there. Starts from what earlier searches saw, walks away from `about` in steps that double,
+  /// and then halves.
   template <class Passes>
   std::optional<Backward> highest_rung(int about, Passes passes) const {
     int low = -1, high = rungs;  // passes at low, fails at high
@@ -227,6 +228,7 @@ class Judgement {
   void decide() {
     constexpr double vague_ulps = 0.1;
     here_ = x_.within(0);
+    ulps_of_intervals_ = here_.ulps;
     const bool vague = !(here_.ulps_at_most_of_any - here_.ulps <= vague_ulps);
     if (!here_.decided() || detail_ == Detail::full || (detail_ == Detail::forward && vague)) {
       if (!here_.decided()) f_.decided_by = Stage::exact;
@@ -246,11 +248,12 @@ class Judgement {
     // The exact stage excludes a match at the input itself where the lowest rung cannot.
     if (!here_.may_match) f_.backward = x_.backward(likely_rung()).value_or(Backward{0});
   }
-  /// A guess at the backward bound. It changes the cost of the search, not the result.
+  /// A guess at the backward bound. Where a wider enclosure excludes what a narrower one cannot, the result of the
+  /// search depends on the guess: it is the same for every detail.
   int likely_rung() const {
     const int wrong_by_as_much_as_the_inputs = -std::ilogb(unit_roundoff(question_.scalar));
-    if (decision_differs_ || !(here_.ulps < HUGE_VAL)) return wrong_by_as_much_as_the_inputs;
-    return std::clamp(std::ilogb(std::max(here_.ulps, 1.0)) - 1, 0, wrong_by_as_much_as_the_inputs);
+    if (decision_differs_ || !(ulps_of_intervals_ < HUGE_VAL)) return wrong_by_as_much_as_the_inputs;
+    return std::clamp(std::ilogb(std::max(ulps_of_intervals_, 1.0)) - 1, 0, wrong_by_as_much_as_the_inputs);
   }
   /// The rung of the bound of the whole answer: no member has a higher one.
   int rung_of_whole() const { return f_.backward ? rung_of(*f_.backward) : 0; }
@@ -482,6 +485,7 @@ class Judgement {
   const Detail detail_;
   const Examination x_;
   Enclosure here_;
+  double ulps_of_intervals_ = 0;  ///< of the answer, from the enclosure of the input itself by intervals
   bool decision_differs_ = false;
   Finding f_;
 };

@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
 #include "oracles/exact/oracle.hpp"
+#include "oracles/judge.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {
@@ -149,6 +152,42 @@ TEST_P(Oracles, SettleWhatIsCountedAtTheFirstLook) {
 }
 
 INSTANTIATE_FOR_EVERY_QUERY(Every, Oracles, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+/// A sliver, and a normal that a wide enclosure excludes and a narrow one does not. Where the search for the widest one
+/// begins must not depend on the detail: the judgement in full confirms the first one.
+TEST(Ladder, GivesTheSameBoundForEveryDetail) {
+  const Case c{find_query("moving_sphere_triangle"),
+               Scalar::float64,
+               {2.673568372020115, -4.210780566366187, 0.970226339084638, 0.7359656483765311, -2594.9245215392007,
+                -1895.623435166865, -7048.872840423524, 2.880987193299314, -4.178365306874187, 1.3983350347480976,
+                2.3278703373937164, -4.264805998852852, 0.25671184632599875, 2.327870337406373, -4.264805999385797,
+                0.2567118463943404},
+               "test",
+               0,
+               0,
+               {}};
+  Answer a;
+  a.yes = true;
+  const double given[] = {0,
+                          0x1.56377d09443f5p+1,
+                          -0x1.0d7d6dc5cdda3p+2,
+                          0x1.f0c181b72032cp-1,
+                          -0x1.cd0467a6cf55fp-1,
+                          0x1.1863474dda324p-5,
+                          0x1.bc127da5e5d58p-2,
+                          0x1.3fffffff0b484p-1,
+                          0x1.80000001e96f9p-2,
+                          0};
+  std::copy(std::begin(given), std::end(given), a.values.begin());
+  Standard promise;
+  promise.contract = collide::Contract{.backward = 128, .unit = 4};
+  promise.promised = true;
+  const Finding first = judge(c, a, promise, Detail::verdict), full = judge(c, a, promise, Detail::full);
+  EXPECT_EQ(first.verdict, Verdict::violates_contract);
+  EXPECT_EQ(full.verdict, first.verdict);
+  ASSERT_TRUE(first.backward && full.backward);
+  EXPECT_EQ(full.backward->above, first.backward->above);
+}
 
 }  // namespace
 }  // namespace nearmiss
