@@ -20,7 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> aabox_triangle_overlap(const AABox<T>& box,
                                                         const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  return kernels::aabox_triangle_overlap<Tier>(box, triangle);
+  return kernels::aabox_triangle_overlap<TierOfDecisions<Tier>>(box, triangle);
 }
 
 namespace contracts {

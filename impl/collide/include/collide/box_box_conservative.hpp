@@ -19,13 +19,13 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> box_box_conservative(const Box<T>& box1,
                                                       const Box<T>& box2) noexcept(Tier::never_throws) {
-  return kernels::box_box_conservative<Tier>(box1, box2);
+  return kernels::box_box_conservative<TierOfDecisions<Tier>>(box1, box2);
 }
 
 /// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) noexcept(Tier::never_throws) {
-  return kernels::box_box_conservative<Tier>(info);
+  return kernels::box_box_conservative<TierOfDecisions<Tier>>(info);
 }
 
 namespace contracts {

@@ -25,7 +25,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2,
                                                    int hint = -1) noexcept(Tier::never_throws) {
-  return kernels::box_box_overlap<Tier>(box1, box2, hint);
+  return kernels::box_box_overlap<TierOfDecisions<Tier>>(box1, box2, hint);
 }
 
 namespace contracts {

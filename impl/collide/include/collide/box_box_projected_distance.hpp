@@ -20,14 +20,14 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2,
                                                            int axis) noexcept(Tier::never_throws) {
-  return kernels::box_box_projected_distance<Tier>(box1, box2, axis);
+  return kernels::box_box_projected_distance<TierOfNumbers<Tier>>(box1, box2, axis);
 }
 
 /// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info,
                                                            int axis) noexcept(Tier::never_throws) {
-  return kernels::box_box_projected_distance<Tier>(info, axis);
+  return kernels::box_box_projected_distance<TierOfNumbers<Tier>>(info, axis);
 }
 
 namespace contracts {

@@ -20,7 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_rectangle_perimeter(
     const Rectangle<T>& rectangle, const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_rectangle_perimeter<Tier>(rectangle, point);
+  return kernels::closest_point_rectangle_perimeter<TierOfNumbers<Tier>>(rectangle, point);
 }
 
 namespace contracts {

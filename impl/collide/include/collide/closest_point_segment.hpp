@@ -19,7 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_segment(const Segment<T>& segment,
                                                            const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_segment<Tier>(segment, point);
+  return kernels::closest_point_segment<TierOfNumbers<Tier>>(segment, point);
 }
 
 namespace contracts {

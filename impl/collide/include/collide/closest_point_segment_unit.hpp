@@ -19,7 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared,
                                                                 const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_segment_unit<Tier>(prepared, point);
+  return kernels::closest_point_segment_unit<TierOfNumbers<Tier>>(prepared, point);
 }
 
 namespace contracts {

@@ -19,7 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_triangle_perimeter(
     const Triangle<T>& triangle, const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_triangle_perimeter<Tier>(triangle, point);
+  return kernels::closest_point_triangle_perimeter<TierOfNumbers<Tier>>(triangle, point);
 }
 
 namespace contracts {

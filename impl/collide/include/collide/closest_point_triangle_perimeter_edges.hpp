@@ -22,7 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline EdgePoint<T> closest_point_triangle_perimeter_edges(
     const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_triangle_perimeter_edges<Tier>(prepared, point);
+  return kernels::closest_point_triangle_perimeter_edges<TierOfNumbers<Tier>>(prepared, point);
 }
 
 namespace contracts {

@@ -21,7 +21,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoints<T> closest_points_lines(const Line<T>& line1,
                                                            const Line<T>& line2) noexcept(Tier::never_throws) {
-  return kernels::closest_points_lines<Tier>(line1, line2);
+  return kernels::closest_points_lines<TierOfNumbers<Tier>>(line1, line2);
 }
 
 namespace contracts {

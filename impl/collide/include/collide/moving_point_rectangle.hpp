@@ -25,7 +25,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                                       const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
-  return kernels::moving_point_rectangle<Tier>(point, velocity, rectangle);
+  return kernels::moving_point_rectangle<TierOfDecisions<Tier>>(point, velocity, rectangle);
 }
 
 namespace contracts {

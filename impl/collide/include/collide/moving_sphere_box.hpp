@@ -26,7 +26,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                  const Box<T>& box) noexcept(Tier::never_throws) {
-  return kernels::moving_sphere_box<Tier>(sphere, velocity, box);
+  return kernels::moving_sphere_box<TierOfDecisions<Tier>>(sphere, velocity, box);
 }
 
 namespace contracts {

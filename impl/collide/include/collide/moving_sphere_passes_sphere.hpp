@@ -19,7 +19,7 @@ template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                              const Sphere<T>& fixed,
                                                              const T& limit) noexcept(Tier::never_throws) {
-  return kernels::moving_sphere_passes_sphere<Tier>(sphere, velocity, fixed, limit);
+  return kernels::moving_sphere_passes_sphere<TierOfDecisions<Tier>>(sphere, velocity, fixed, limit);
 }
 
 namespace contracts {

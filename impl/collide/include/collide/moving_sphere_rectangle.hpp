@@ -22,7 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                        const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
-  return kernels::moving_sphere_rectangle<Tier>(sphere, velocity, rectangle);
+  return kernels::moving_sphere_rectangle<TierOfDecisions<Tier>>(sphere, velocity, rectangle);
 }
 
 namespace contracts {

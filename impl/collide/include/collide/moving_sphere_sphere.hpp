@@ -24,7 +24,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                     const Sphere<T>& fixed) noexcept(Tier::never_throws) {
-  return kernels::moving_sphere_sphere<Tier>(sphere, velocity, fixed);
+  return kernels::moving_sphere_sphere<TierOfDecisions<Tier>>(sphere, velocity, fixed);
 }
 
 namespace contracts {

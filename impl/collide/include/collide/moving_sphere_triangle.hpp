@@ -30,7 +30,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline TriangleImpact<T> moving_sphere_triangle(
     const Sphere<T>& sphere, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  return kernels::moving_sphere_triangle<Tier>(sphere, velocity, triangle);
+  return kernels::moving_sphere_triangle<TierOfDecisions<Tier>>(sphere, velocity, triangle);
 }
 
 namespace contracts {

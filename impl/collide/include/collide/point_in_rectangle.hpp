@@ -20,7 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal,
                                                     const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::point_in_rectangle<Tier>(rectangle, normal, point);
+  return kernels::point_in_rectangle<TierOfDecisions<Tier>>(rectangle, normal, point);
 }
 
 namespace contracts {

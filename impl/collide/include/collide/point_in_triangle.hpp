@@ -22,7 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis,
                                                       const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::point_in_triangle<Tier>(triangle, normal, axis, point);
+  return kernels::point_in_triangle<TierOfDecisions<Tier>>(triangle, normal, axis, point);
 }
 
 namespace contracts {

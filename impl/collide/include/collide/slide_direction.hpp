@@ -22,7 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
                                                   const Vec3<T>& location) noexcept(Tier::never_throws) {
-  return kernels::slide_direction<Tier>(sphere, velocity, time, location);
+  return kernels::slide_direction<TierOfNumbers<Tier>>(sphere, velocity, time, location);
 }
 
 namespace contracts {

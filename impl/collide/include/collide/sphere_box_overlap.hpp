@@ -19,7 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> sphere_box_overlap(const Sphere<T>& sphere,
                                                     const Box<T>& box) noexcept(Tier::never_throws) {
-  return kernels::sphere_box_overlap<Tier>(sphere, box);
+  return kernels::sphere_box_overlap<TierOfDecisions<Tier>>(sphere, box);
 }
 
 namespace contracts {

@@ -19,7 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere,
                                                          const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  return kernels::sphere_triangle_overlap<Tier>(sphere, triangle);
+  return kernels::sphere_triangle_overlap<TierOfDecisions<Tier>>(sphere, triangle);
 }
 
 namespace contracts {

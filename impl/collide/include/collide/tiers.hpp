@@ -1,11 +1,15 @@
 /// The tiers `Fast` and `Accurate`. A tier fixes the precision, and so the cost, of a query; it is the first template
-/// argument of every query. The third tier, `Certified`, has its own header (certified.hpp).
+/// argument of every query. The tiers `Certified` and `Decisive` have headers of their own (certified.hpp,
+/// decisive.hpp).
 ///
 /// When to use which:
 ///   Fast       where a decision may go either way within the rounding error: games, sampling, broad phases.
 ///   Accurate   where inputs are large or nearly degenerate. For float it computes in double; for double it computes
 ///              sums of products that cancel in twice the precision.
-///   Certified  where every decision must be exact: tests, geometry kernels, reference results. Needs GMP and MPFR.
+///   Decisive   where every decision must be exact, and numbers may have the rounding errors of Fast.
+///   Certified  where numbers must be accurate to the last place too: tests, geometry kernels,
+///              reference results.
+/// Decisive and Certified need GMP and MPFR.
 /// README.md of collide compares the tiers.
 ///
 /// Each query has one kernel (detail/QUERY.hpp), which all tiers use. A tier converts the arguments to a number type,
@@ -120,6 +124,50 @@ inline constexpr bool in_lanes = std::same_as<Tier, Fast> && MachineNumber<T>;
 /// True if the tier tries the filter of queries that have one before it calls the kernel.
 template <class Tier, class T>
 inline constexpr bool uses_filter = MachineNumber<T> && requires { Tier::decided_by_filter(true); };
+
+namespace detail {
+/// The tiers whose kernels answer queries in `Tier`: those with a decision, and those that always say yes. A tier that
+/// leaves queries to others names both (decisive.hpp).
+template <class Tier>
+struct Answering {
+  using Decisions = Tier;
+  using Numbers = Tier;
+};
+template <class Tier>
+  requires requires {
+    typename Tier::Decisions;
+    typename Tier::Numbers;
+  }
+struct Answering<Tier> {
+  using Decisions = typename Tier::Decisions;
+  using Numbers = typename Tier::Numbers;
+};
+}  // namespace detail
+template <class Tier>
+using TierOfDecisions = typename detail::Answering<Tier>::Decisions;
+template <class Tier>
+using TierOfNumbers = typename detail::Answering<Tier>::Numbers;
+
+/// True if the tier takes the numbers of an answer from another tier than the one that decides: a query's kernel calls
+/// that of TierOfNumbers, and that of TierOfDecisions where the decision of the answer is not certain.
+template <class Tier, class T>
+inline constexpr bool splits_answers = MachineNumber<T> && !std::same_as<Tier, TierOfNumbers<Tier>>;
+
+/// `answer_in(tier)` for the tier of numbers, if `certain(answer)` tells that the decision of this answer is exact;
+/// else for the tier of decisions.
+template <class Tier, class AnswerIn, class Certain>
+auto split_answer(const AnswerIn& answer_in, const Certain& certain) {
+  const auto answer = answer_in(TierOfNumbers<Tier>{});
+  return certain(answer) ? answer : answer_in(TierOfDecisions<Tier>{});
+}
+
+/// The sizes for which the bounds of `splits_answers` hold: no product overflows, and underflow costs less than a
+/// rounding error.
+template <class T>
+constexpr bool is_moderate_size(T size) {
+  constexpr T least = std::same_as<T, float> ? T(0x1p-30) : T(0x1p-400);
+  return size >= least && size <= 1 / least;
+}
 
 /// Keeps the decision when a negative depth rounds to zero: replaces such a depth by the negative number nearest to
 /// zero, since the sign of the depth is the decision. `yes` is the decision before rounding.

@@ -4,6 +4,7 @@
 #include <collide/answers.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/detail/plane_contacts_filter.hpp>
+#include <collide/detail/rotation_range.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -56,6 +57,24 @@ inline CornerContacts<T> corner_contacts_in_lanes(const Lanes<T>& middle, const 
 
 #endif
 
+namespace detail {
+
+/// Whether the decision of the answer of `Fast` is exact. With u the unit roundoff, N, M and H the length of the normal
+/// and the sums of the magnitudes of the normal and of the half extents, and B the sum of the magnitudes of the terms
+/// of the height of the center times N, and of M H: an axis has an error of 16 u, so a height of a corner above the
+/// center times N has one of 21 u M H, and the height of the center times N one of 4 u B. Four sums add 4 u B. So the
+/// height of the lowest corner has an error of less than 32 u B / N. N is at least the largest number of the normal.
+template <class T>
+bool is_certain(const CornerContacts<T>& answer, const Box<T>& box, const Plane<T>& plane) {
+  const Vec3<T>&n = plane.normal, &middle = box.center;
+  const T terms = magnitudes(Vec3<T>{n.x * middle.x, n.y * middle.y, n.z * middle.z}) + detail::abs(plane.offset);
+  const T steepness = largest_magnitude(n), size = terms + magnitudes(n) * magnitudes(box.half);
+  return is_accurate_rotation(box.orientation) && is_moderate_size(steepness) && is_moderate_size(size) &&
+         detail::abs(answer.depth) * steepness > T(32) * std::numeric_limits<T>::epsilon() * size;
+}
+
+}  // namespace detail
+
 namespace kernels {
 
 template <class Tier, class T>
@@ -106,6 +125,14 @@ inline CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>
     }
     return contacts;
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane) {
+  return split_answer<Tier>([&](auto tier) { return kernels::box_plane_penetration<decltype(tier)>(box, plane); },
+                            [&](const auto& answer) { return detail::is_certain(answer, box, plane); });
 }
 
 }  // namespace kernels

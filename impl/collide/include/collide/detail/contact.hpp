@@ -1,5 +1,5 @@
 /// Functions that the queries about moving points and spheres share: making an impact, choosing a normal where many are
-/// valid, and filters that certify a miss.
+/// valid, and filters that decide.
 #pragma once
 
 #include <cstddef>
@@ -114,23 +114,34 @@ T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
   return positive_part(nearest - sqrt(chord2) / sqrt(speed2));
 }
 
-/// Filter: true if a ball certainly moves away from the front of a plane, or certainly starts wholly behind it. A point
-/// is a ball of radius 0.
+/// A decision by a filter.
+struct CertainDecision {
+  bool decided = false;
+  bool yes = false;
+};
+
+/// Filter: whether a ball hits a plane from its front. A point is a ball of radius 0. A hit after the time
+/// `latest` is a miss.
 ///
 /// A sum of n products has an error of n u of the sum of their magnitudes (u = 2^-53), the length of the normal 3 u of
-/// itself, and each product 2^-1074 if it underflows. The filter uses a bound of 8 u.
-inline bool certainly_misses(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
-                             const Plane<double>& plane) {
+/// itself, and each product 2^-1074 if it underflows. The filter uses a bound of 8 u. Where an approach is certain, its
+/// error is less than half of it.
+inline CertainDecision certain_decision(const Vec3<double>& center, double radius, const Vec3<double>& velocity,
+                                        const Plane<double>& plane, double latest) {
   const Vec3<double>& n = plane.normal;
   const auto magnitudes = [&n](const Vec3<double>& v) {
     return detail::abs(n.x * v.x) + detail::abs(n.y * v.y) + detail::abs(n.z * v.z);
   };
   constexpr double error_bound = 0x1p-50, least = 0x1p-1000;
-  if (Plain::dot(n, velocity) > error_bound * magnitudes(velocity) + least) return true;
+  const double approach = -Plain::dot(n, velocity), of_approach = error_bound * magnitudes(velocity) + least;
+  if (-approach > of_approach) return {true, false};
   const double length2 = Plain::dot(n, n), reach = radius * detail::sqrt(length2);
-  if (!(length2 >= least)) return false;
+  if (!(length2 >= least)) return {};
   const double height = Plain::dot(n, center) + plane.offset;
-  return -height - reach > error_bound * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
+  const double of_height = error_bound * (magnitudes(center) + detail::abs(plane.offset) + reach) + least;
+  if (-height - reach > of_height) return {true, false};
+  const bool hits = approach > of_approach && height + reach > of_height;
+  return {hits && (height - reach) + of_height <= latest / 4 * approach, true};
 }
 
 /// What is certain about a moving point and a ball, and the terms of the equation of its contact. Without a flag,

@@ -80,8 +80,21 @@ inline EntryNumbers<double> entry_numbers(const MotionInLanes<double>& m, const 
   return numbers;
 }
 
-/// Filter: where and when a point certainly enters a box, starts in it, or misses it. `over(gap)` is the time in which
-/// the motion crosses a gap along each axis, with an error of 2 u of itself (u is the unit roundoff of T).
+/// Whether a moving point certainly enters a box, starts in it, or misses it, and the times of its entries between the
+/// pairs of faces (0 for a start between). Where `decided` is false, nothing is certain.
+template <class T>
+struct CertainPassageOfBox {
+  bool decided = false, inside = false, enters = false;
+  Lanes<T> entries{};
+  Pair<T> entry{};  ///< the last of them
+};
+
+/// The factor by which two times have to differ to be in the computed order.
+template <class T>
+inline constexpr T apart_in_time = T(1) + 4 * std::numeric_limits<T>::epsilon();
+
+/// Filter: what is certain about a moving point and a box. `over(gap)` is the time in which the motion crosses a gap
+/// along each axis, with an error of 2 u of itself (u is the unit roundoff of T).
 ///
 /// The point is between a pair of faces from its entry there to its exit, and in the box from the last entry to the
 /// first exit. A start in the box is decided by comparing inputs. A pair parallel to the motion has infinite times, of
@@ -90,36 +103,46 @@ inline EntryNumbers<double> entry_numbers(const MotionInLanes<double>& m, const 
 /// All numbers are at most `most`, and no step is below `least`, except 0. So no time overflows, and a gap has an error
 /// of 1 u: a time has an error of 3 u of itself, or lies below `least` and may have underflowed. Two times in which
 /// the later is at least `least` are in the computed order if they differ by more than 8 u. An exit before 0 is a miss
-/// without a bound, because signs do not round. The axis of the entry is certain if every other entry is earlier by
-/// more than 8 u.
+/// without a bound, because signs do not round.
 template <class T, class Over>
-inline CertainEntry<T> certain_entry(const MotionInLanes<T>& m, Over over) {
+COLLIDE_INLINE inline CertainPassageOfBox<T> certain_passage(const MotionInLanes<T>& m, Over over) {
   using L = Lanes<T>;
   using P = Pair<T>;
   constexpr T most = std::same_as<T, float> ? T(0x1p40) : T(0x1p400), least = T(1) / most;
-  constexpr T beyond = T(1) + 4 * std::numeric_limits<T>::epsilon();
   const L zero = L::splat(T(0)), speed = absolute(m.step);
   const L in_range = (absolute(m.at) + absolute(m.low) + absolute(m.high) + speed <= L::splat(most)) &
                      ((L::splat(least) <= speed) | (m.step == zero));
-  CertainEntry<T> answer;
-  if (!all_three(in_range)) return answer;
-  answer.inside = all_three((m.low <= m.at) & (m.at <= m.high));
+  CertainPassageOfBox<T> passage;
+  if (!all_three(in_range)) return passage;
+  passage.inside = all_three((m.low <= m.at) & (m.at <= m.high));
   const L to_low = over(m.low - m.at), to_high = over(m.high - m.at);
   // If one of two numbers is NaN, larger and smaller return the first. Exits are clamped to finite numbers, so an
   // infinite entry comes after every exit.
-  const L entries = larger(zero, smaller(to_low, to_high));
+  passage.entries = larger(zero, smaller(to_low, to_high));
   const L exits = smaller(L::splat(std::numeric_limits<T>::max()), larger(to_high, to_low));
-  const P entry = largest_of(entries), exit = smallest_of(exits), margin = P::splat(beyond);
-  const P known = P::splat(least) <= entry;
-  answer.enters = (known & (entry * margin < exit)).bits() & 1;
-  const bool misses = ((exit < P::splat(T(0))) | (known & (exit * margin < entry))).bits() & 1;
-  answer.decided = answer.inside || answer.enters || misses;
+  passage.entry = largest_of(passage.entries);
+  const P exit = smallest_of(exits), margin = P::splat(apart_in_time<T>);
+  const P known = P::splat(least) <= passage.entry;
+  passage.enters = (known & (passage.entry * margin < exit)).bits() & 1;
+  const bool misses = ((exit < P::splat(T(0))) | (known & (exit * margin < passage.entry))).bits() & 1;
+  passage.decided = passage.inside || passage.enters || misses;
+  return passage;
+}
+
+/// Filter: where and when a point certainly enters a box, starts in it, or misses it. The axis of the entry is certain
+/// if every other entry is earlier by more than 8 u.
+template <class T, class Over>
+inline CertainEntry<T> certain_entry(const MotionInLanes<T>& m, Over over) {
+  using L = Lanes<T>;
+  const CertainPassageOfBox<T> passage = certain_passage(m, over);
+  CertainEntry<T> answer;
+  answer.decided = passage.decided, answer.inside = passage.inside, answer.enters = passage.enters;
   if constexpr (std::same_as<T, double>) {  // two registers and long double cost more than a mispredicted branch
     if (!answer.enters) return answer;
   }
-  answer.axis = broadcast_first(entry) <= entries * L::splat(beyond);
+  answer.axis = broadcast_first(passage.entry) <= passage.entries * L::splat(apart_in_time<T>);
   const int axis = answer.axis.bits() & 7;
-  const L face = select(zero < m.step, m.low, m.high);
+  const L face = select(L::splat(T(0)) < m.step, m.low, m.high);
   const EntryNumbers<T> numbers = entry_numbers(m, face, answer.axis);
   answer.decided = answer.decided && (!answer.enters || (numbers.accurate && (axis & (axis - 1)) == 0));
   answer.time = numbers.time;

@@ -18,22 +18,54 @@ namespace collide {
 
 namespace detail {
 
-/// Filter: the certain answer, or nullopt. A quotient has an error of 1 u. A divisor of -0 becomes +0, because the sign
-/// of an infinite time tells on which side of a pair of faces the motion passes.
+template <class T>
+MotionInLanes<T> motion_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
+  return {lanes(point), lanes(velocity), lanes(aabox.min), lanes(aabox.max)};
+}
+
+/// The time in which the motion crosses a gap, with an error of 1 u of itself. A divisor of -0 becomes +0, because the
+/// sign of an infinite time tells on which side of a pair of faces the motion passes.
+template <class T>
+auto quotient_by_step(const MotionInLanes<T>& motion) {
+  return [divisor = motion.step + Lanes<T>::splat(T(0))](const Lanes<T>& gap) { return gap / divisor; };
+}
+
+/// The answer for a point that starts inside, for one that enters at a time and a place through a face across `axis` (a
+/// mask of one lane), and for one that misses.
+template <class T>
+Entry<T> entry_from_lanes(const MotionInLanes<T>& motion, bool inside, bool enters, T time, const Lanes<T>& at,
+                          const Lanes<T>& axis) {
+  using L = Lanes<T>;
+  const L entered = L::mask(enters), side = L::splat(T(1)) ^ (motion.step & L::splat(T(-0.0)));
+  Entry<T> answer;
+  answer.inside = inside;
+  answer.location = to_vec3(select(L::mask(inside), motion.at, at & entered));
+  answer.time = select(entered, L::splat(time), L::splat(std::numeric_limits<T>::infinity())).first();
+  answer.normal = to_vec3(((L::splat(T(0)) - side) & axis) & entered);
+  return answer;
+}
+
+/// Filter: the certain answer, or nullopt.
 template <class T>
 inline std::optional<Entry<T>> filtered_entry(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
-  using L = Lanes<T>;
-  const MotionInLanes<T> motion{lanes(point), lanes(velocity), lanes(aabox.min), lanes(aabox.max)};
-  const L divisor = motion.step + L::splat(T(0));
-  const CertainEntry<T> entry = certain_entry(motion, [&](const L& gap) { return gap / divisor; });
+  const MotionInLanes<T> motion = motion_in_lanes(point, velocity, aabox);
+  const CertainEntry<T> entry = certain_entry(motion, quotient_by_step(motion));
   if (!entry.decided) return std::nullopt;
-  const L enters = L::mask(entry.enters), side = L::splat(T(1)) ^ (motion.step & L::splat(T(-0.0)));
-  Entry<T> answer;
-  answer.inside = entry.inside;
-  answer.location = to_vec3(select(L::mask(entry.inside), motion.at, entry.at & enters));
-  answer.time = select(enters, L::splat(entry.time), L::splat(std::numeric_limits<T>::infinity())).first();
-  answer.normal = to_vec3(((L::splat(T(0)) - side) & entry.axis) & enters);
-  return answer;
+  return entry_from_lanes(motion, entry.inside, entry.enters, entry.time, entry.at, entry.axis);
+}
+
+/// Filter: an answer with a certain decision and the numbers of enter_box, or nullopt.
+template <class T>
+inline std::optional<Entry<T>> decided_entry(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
+  using L = Lanes<T>;
+  const MotionInLanes<T> motion = motion_in_lanes(point, velocity, aabox);
+  const CertainPassageOfBox<T> passage = certain_passage(motion, quotient_by_step(motion));
+  if (!passage.decided) return std::nullopt;
+  const L time = broadcast_first(passage.entry), axis = time == passage.entries;
+  const L face = select(L::splat(T(0)) < motion.step, motion.low, motion.high);
+  const L reached = smaller(larger(motion.at + motion.step * time, motion.low), motion.high);
+  return entry_from_lanes(motion, passage.inside, passage.enters && !passage.inside, time.first(),
+                          select(axis, face, reached), first_of_three(axis));
 }
 
 }  // namespace detail
@@ -88,6 +120,16 @@ inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity
     answer.normal = {normal[0], normal[1], normal[2]};
     return answer;
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox) {
+#if defined(COLLIDE_LANES)
+  if (const auto answer = detail::decided_entry(point, velocity, aabox)) return *answer;
+#endif
+  return kernels::moving_point_aabox<TierOfDecisions<Tier>>(point, velocity, aabox);
 }
 
 }  // namespace kernels

@@ -39,6 +39,16 @@ inline Impact<T> moving_point_plane_in_lanes(const Vec3<T>& point, const Vec3<T>
 
 #endif
 
+namespace detail {
+
+template <class T>
+CertainDecision certain_decision(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) {
+  return certain_decision(in_double(point), 0.0, in_double(velocity), {in_double(plane.normal), double(plane.offset)},
+                          double(std::numeric_limits<T>::max()));
+}
+
+}  // namespace detail
+
 namespace kernels {
 
 template <class Tier, class T>
@@ -55,8 +65,8 @@ inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocit
     }
 #endif
     if constexpr (uses_filter<Tier, T>) {
-      if (detail::certainly_misses(detail::in_double(point), 0.0, detail::in_double(velocity),
-                                   {detail::in_double(plane.normal), double(plane.offset)})) {
+      const auto decision = detail::certain_decision(point, velocity, plane);
+      if (decision.decided && !decision.yes) {
         return Tier::decided_by_filter(Impact<T>::miss());
       }
       if (const auto answer = detail::filtered_contact(point, T(0), velocity, plane))
@@ -71,6 +81,18 @@ inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocit
     const T time = height / approach;
     return detail::contact(time, point + velocity * time, unit<Tier>(plane.normal));
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) {
+  return split_answer<Tier>(
+      [&](auto tier) { return kernels::moving_point_plane<decltype(tier)>(point, velocity, plane); },
+      [&](const auto& answer) {
+        const auto decision = detail::certain_decision(point, velocity, plane);
+        return decision.decided && decision.yes == answer.yes();
+      });
 }
 
 }  // namespace kernels

@@ -114,7 +114,8 @@ COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, co
   return contact(time, point + velocity * time, unit<Plain>(n));
 }
 
-/// The kernel of `Fast` in lanes. Calls `fallback` where the edge tests are uncertain.
+/// The kernel of `Fast` in lanes. Calls `fallback` where the edge tests are uncertain; with `decides`, where the
+/// decision is.
 ///
 /// Let a = v0 - point, f = v0 - v2, n = f x edge1 and q = velocity x a. The signs of q . edge1, q . f and n . velocity
 /// - q . edge1 - q . f tell on which side of the three edges the motion passes; each is a signed volume (Moeller,
@@ -134,9 +135,12 @@ COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, co
 /// Contact. Moving the corners by less than 12 u l along the normal accounts for the products with n and their
 /// quotient. That changes the volumes of a hit by less than 24 u |velocity| l^2, so the location stays on the triangle.
 ///
+/// Decision. Where the motion certainly passes inside of all edges, n . velocity is certain too: it is the sum of the
+/// three volumes. n . a has an error of 8 u (|edge1|^2 + |f|^2) |a|. The bound is 64 u, as for the edges.
+///
 /// Overflow makes the edge tests uncertain. A triangle whose normal overflows is treated as thin. The `least` numbers
 /// are added to the squares so that the bounds lie far above numbers that underflow.
-template <class T, class Fallback>
+template <bool decides, class T, class Fallback>
 inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3<T>& velocity,
                                                 const Triangle<T>& triangle, const Fallback& fallback) {
   using L = Lanes<T>;
@@ -164,8 +168,16 @@ inline Impact<T> moving_point_triangle_in_lanes(const Vec3<T>& point, const Vec3
   const P n2 = nq_x * nq_x + nq_y * nq_y + nq_z * nq_z;
   const L normal = first_lanes(nq_x, nq_y, nq_z) / broadcast_first(sqrt(n2));
   if (!(bound2 < (outside * outside).first())) return fallback(point, velocity, triangle);
-  if (!((hit & e4).first() < T(thinness) * n2.first()))
-    return impact_with_thin_triangle(point, velocity, triangle, fallback);
+  if constexpr (decides) {
+    const T a2 = swapped(edge1_and_a2).first() + least_size2;
+    const T bound_of_behind2 = T(64 * 64) * u * u * (e4.first() * a2);
+    const bool is_certain = bound_of_behind2 < (behind * behind).first() && time.first() <= limits::max() / 4;
+    if (!(outside.first() > T(0) || is_certain)) return fallback(point, velocity, triangle);
+  }
+  if (!((hit & e4).first() < T(thinness) * n2.first())) {
+    const Impact<T> answer = impact_with_thin_triangle(point, velocity, triangle, fallback);
+    return !decides || answer.yes() == ((hit.bits() & 1) != 0) ? answer : fallback(point, velocity, triangle);
+  }
   return impact_where(hit, time, location, normal);
 }
 
@@ -219,7 +231,7 @@ inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velo
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_point_triangle_in_lanes(point, velocity, triangle, detail::out_of_line(fallback));
+      return detail::moving_point_triangle_in_lanes<false>(point, velocity, triangle, detail::out_of_line(fallback));
     }
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_impact(point, velocity, triangle))
@@ -245,6 +257,21 @@ inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velo
     if (!(time >= T(0))) return Impact<T>::miss();
     return detail::contact(time, point + velocity * time, unit<Tier>(n));
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
+  const auto asked_of_decisions = [](const auto&... inputs) {
+    return kernels::moving_point_triangle<TierOfDecisions<Tier>>(inputs...);
+  };
+#if defined(COLLIDE_LANES)
+  return detail::moving_point_triangle_in_lanes<true>(point, velocity, triangle,
+                                                      detail::out_of_line(asked_of_decisions));
+#else
+  return asked_of_decisions(point, velocity, triangle);
+#endif
 }
 
 }  // namespace kernels

@@ -42,6 +42,16 @@ inline Impact<T> moving_sphere_plane_in_lanes(const Sphere<T>& sphere, const Vec
 
 #endif
 
+namespace detail {
+
+template <class T>
+CertainDecision certain_decision(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
+  return certain_decision(in_double(sphere.center), double(sphere.radius), in_double(velocity),
+                          {in_double(plane.normal), double(plane.offset)}, double(std::numeric_limits<T>::max()));
+}
+
+}  // namespace detail
+
 namespace kernels {
 
 template <class Tier, class T>
@@ -58,8 +68,8 @@ inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& vel
     }
 #endif
     if constexpr (uses_filter<Tier, T>) {
-      if (detail::certainly_misses(detail::in_double(sphere.center), double(sphere.radius), detail::in_double(velocity),
-                                   {detail::in_double(plane.normal), double(plane.offset)})) {
+      const auto decision = detail::certain_decision(sphere, velocity, plane);
+      if (decision.decided && !decision.yes) {
         return Tier::decided_by_filter(Impact<T>::miss());
       }
       if (const auto answer = detail::filtered_contact(sphere.center, sphere.radius, velocity, plane))
@@ -85,6 +95,18 @@ inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& vel
     const T time = (height - reach) / approach;
     return detail::contact(time, (sphere.center + velocity * time) - normal * sphere.radius, normal);
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
+  return split_answer<Tier>(
+      [&](auto tier) { return kernels::moving_sphere_plane<decltype(tier)>(sphere, velocity, plane); },
+      [&](const auto& answer) {
+        const auto decision = detail::certain_decision(sphere, velocity, plane);
+        return decision.decided && decision.yes == answer.yes();
+      });
 }
 
 }  // namespace kernels

@@ -52,8 +52,10 @@ MotionInLanes<T> motion_in_lanes(const PreparedRay<T>& prepared, const PreparedA
 /// starts between. The time to a face in which the ray lies is NaN and is ignored.
 ///
 /// Every time has a relative error of 3 eps, as if the gap had it: moving the faces and the origin accounts for it.
-template <class T>
-inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box) {
+///
+/// Calls look(inverse, entry, exit) with the inverses of the direction and the times of the last entry and first exit.
+template <class T, class Look>
+inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const PreparedAABox<T>& box, const Look& look) {
   using L = Lanes<T>;
   using P = Pair<T>;
   const auto [origin, direction, low, high] = motion_in_lanes(prepared, box);
@@ -64,6 +66,7 @@ inline RayHit<T> ray_aabox_in_lanes(const PreparedRay<T>& prepared, const Prepar
   const L entries = larger(L::splat(T(0)), smaller(to_low, to_high));
   const L exits = smaller(L::splat(std::numeric_limits<T>::max()), larger(to_high, to_low));
   const P time = largest_of(entries), exit = smallest_of(exits);
+  look(inverse, time, exit);
   const bool hit = time.first() <= exit.first();
   const L location =
       smaller(larger(origin + direction * broadcast_first(time), low), high) & broadcast_first(time <= exit);
@@ -81,6 +84,29 @@ inline std::optional<RayHit<T>> filtered_ray_aabox(const PreparedRay<T>& prepare
   return RayHit<T>{to_vec3(location), entry.inside || entry.enters, entry.inside};
 }
 
+/// Whether the order of the last entry and the first exit is certain, for a ray with these inverses.
+///
+/// An inverse has an error of 1 u (u is the unit roundoff), unless it was clamped; none is below `least_inverse`. So a
+/// time has an error of 3 u of itself, or it has underflowed and is far below `least`, or it or its gap has overflowed
+/// and it is far above `most`; the infinite time of a ray parallel to a pair of faces is exact. Two such times are in
+/// the computed order if they differ by more than 8 u, the later one is at least `least`, and the earlier one at most
+/// `most`. An exit before 0 is a miss without a bound, because signs do not round. An entry of 0 stands for a start
+/// inside, or one outside by an underflow.
+template <class T>
+bool is_certain_order(const Lanes<T>& inverse, const Pair<T>& entry, const Pair<T>& exit) {
+  using L = Lanes<T>;
+  using P = Pair<T>;
+  using limits = std::numeric_limits<T>;
+  constexpr T most = std::same_as<T, float> ? T(0x1p80) : T(0x1p700), least = 1 / most;
+  constexpr T least_inverse = std::same_as<T, float> ? T(0x1p-40) : T(0x1p-300);
+  static_assert(limits::max() * least_inverse > most * 16);
+  const L steepness = absolute(inverse), clamped = steepness == L::splat(limits::max());
+  const P margin = P::splat(apart_in_time<T>), in_order = (entry * margin < exit) | (exit * margin < entry);
+  const P in_range = (P::splat(least) <= larger(entry, exit)) & (smaller(entry, exit) <= P::splat(most));
+  const P certain = (in_order & in_range) | (exit < P::splat(T(0)));
+  return all_three(and_not(L::splat(least_inverse) <= steepness, clamped) & broadcast_first(certain));
+}
+
 }  // namespace detail
 
 #endif
@@ -90,7 +116,7 @@ namespace kernels {
 template <class Tier, class T>
 inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
 #if defined(COLLIDE_LANES)
-  if constexpr (in_lanes<Tier, T>) return detail::ray_aabox_in_lanes(ray, box);
+  if constexpr (in_lanes<Tier, T>) return detail::ray_aabox_in_lanes(ray, box, [](const auto&...) {});
   if constexpr (uses_filter<Tier, T>) {
     if (const auto answer = detail::filtered_ray_aabox(ray, box)) return Tier::decided_by_filter(*answer);
   }
@@ -116,6 +142,19 @@ inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& bo
     if (entry.axis < 0) return {};
     return {{entry.at[0], entry.at[1], entry.at[2]}, true, false};
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box) {
+#if defined(COLLIDE_LANES)
+  bool is_certain = false;
+  const auto look = [&](const auto&... times) COLLIDE_INLINE { is_certain = detail::is_certain_order(times...); };
+  const RayHit<T> answer = detail::ray_aabox_in_lanes(ray, box, look);
+  if (is_certain) return answer;
+#endif
+  return kernels::ray_aabox<TierOfDecisions<Tier>>(ray, box);
 }
 
 }  // namespace kernels

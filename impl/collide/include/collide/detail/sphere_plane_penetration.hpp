@@ -11,6 +11,23 @@
 
 namespace collide {
 
+namespace detail {
+
+/// Whether the decision of the answer of `Fast` is exact. Let B be the sum of the magnitudes of the terms of the height
+/// times the length of the normal. That height has an error of 4 u B (u is the unit roundoff), the length one of 4 u of
+/// itself, the quotient 1 u more, and the depth 1 u of the radius and the height. So the depth has an error of 10 u of
+/// B by the length, and of the radius. The length is at least the largest number of the normal.
+template <class T>
+bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere, const Plane<T>& plane) {
+  const Vec3<T>&n = plane.normal, &center = sphere.center;
+  const T terms = magnitudes(Vec3<T>{n.x * center.x, n.y * center.y, n.z * center.z}) + detail::abs(plane.offset);
+  const T steepness = largest_magnitude(n), size = terms + sphere.radius * steepness;
+  return is_moderate_size(steepness) && is_moderate_size(size) &&
+         detail::abs(answer.depth) * steepness > T(16) * std::numeric_limits<T>::epsilon() * size;
+}
+
+}  // namespace detail
+
 namespace kernels {
 
 template <class Tier, class T>
@@ -29,6 +46,14 @@ inline Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Pl
     const Vec3<T> normal = plane.normal / norm;
     return {depth, normal, sphere.center - normal * sphere.radius};
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane) {
+  return split_answer<Tier>([&](auto tier) { return kernels::sphere_plane_penetration<decltype(tier)>(sphere, plane); },
+                            [&](const auto& answer) { return detail::is_certain(answer, sphere, plane); });
 }
 
 }  // namespace kernels

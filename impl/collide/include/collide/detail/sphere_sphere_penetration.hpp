@@ -11,6 +11,19 @@
 
 namespace collide {
 
+namespace detail {
+
+/// Whether the decision of the answer of `Fast` is exact. The distance has an error of 5 u of itself (u is the unit
+/// roundoff), the sum of the radii one of 1 u, and the depth one of 1 u of both. The distance is at most the sum of the
+/// magnitudes of the vector between the centers.
+template <class T>
+bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
+  const T size = magnitudes(sphere2.center - sphere1.center) + sphere1.radius + sphere2.radius;
+  return is_moderate_size(size) && detail::abs(answer.depth) > T(8) * std::numeric_limits<T>::epsilon() * size;
+}
+
+}  // namespace detail
+
 namespace kernels {
 
 template <class Tier, class T>
@@ -30,6 +43,15 @@ inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const 
     const Vec3<T> normal = distance > T(0) ? unit<Tier>(between) : Vec3<T>{T(1), T(0), T(0)};
     return {depth, normal, sphere1.center + normal * sphere1.radius};
   }
+}
+
+/// The kernel of a tier that takes numbers from another one.
+template <class Tier, class T>
+  requires splits_answers<Tier, T>
+inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
+  return split_answer<Tier>(
+      [&](auto tier) { return kernels::sphere_sphere_penetration<decltype(tier)>(sphere1, sphere2); },
+      [&](const auto& answer) { return detail::is_certain(answer, sphere1, sphere2); });
 }
 
 }  // namespace kernels
