@@ -2,8 +2,8 @@
 #pragma once
 
 #include <collide/tiers.hpp>
-#if __has_include(<collide/certified.hpp>)
-#include <collide/certified.hpp>
+#if __has_include(<collide/decisive.hpp>)
+#include <collide/decisive.hpp>
 #endif
 
 #include "benchmarks/contender.hpp"
@@ -20,7 +20,8 @@ template <class Q>
 void enter_tiers(const char* query) {
   enter_tier<collide::Fast, Q>(query, "fast");
   enter_tier<collide::Accurate, Q>(query, "accurate");
-#if __has_include(<collide/certified.hpp>)
+#if __has_include(<collide/decisive.hpp>)
+  enter_tier<collide::Decisive, Q>(query, "decisive");
   enter_tier<collide::Certified, Q>(query, "certified");
 #endif
 }

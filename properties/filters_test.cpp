@@ -19,6 +19,7 @@
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
 #include "properties/support.hpp"
+#include "properties/unlikely_cases.hpp"
 
 namespace nearmiss {
 namespace {
@@ -77,37 +78,6 @@ class FilterOfCertified : public testing::TestWithParam<Filters> {
   /// Half a unit before the last rounding, and half a unit by it.
   static constexpr collide::Contract promise{.forward = 1, .exact_decisions = true, .unit = 4};
 };
-
-/// A raw case with a half or three quarters of its numbers 0, where that keeps the query's rules: what is left may be
-/// tiny alone.
-Case raw_case_with_zeros(const Query& query, Scalar scalar, std::uint64_t seed) {
-  Case c = raw_case(query, scalar, seed);
-  const std::vector<double> before = c.values;
-  Random random(seed);
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const bool stays = random.one_in(2) && (seed % 2 == 0 || random.one_in(2));
-    if (!stays && query.inputs[i].role != Role::index) c.values[i] = 0;
-  }
-  if (query.broken(c.values)) c.values = before;
-  return c;
-}
-
-/// A generated case whose positions all come close to one plane or line of coordinates: triangles become thin, and
-/// places near the origin.
-Case flattened_case(const Query& query, Scalar scalar, std::uint64_t index) {
-  Case c = generate(query, scalar, stream(24), index);
-  Random random(index);
-  const std::array<int, 3> orders{0, -random.between(0, 60), random.one_in(2) ? 0 : -random.between(0, 60)};
-  const std::size_t first = random.below(3);
-  const std::vector<double> before = c.values;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (query.inputs[i].role != Role::position) continue;
-    const auto axis = std::size_t(query.inputs[i].name.back() - 'x');
-    c.values[i] = rounded_to(scalar, std::ldexp(c.values[i], orders[(axis + first) % 3]));
-  }
-  if (query.broken(c.values)) c.values = before;
-  return c;
-}
 
 TEST_P(FilterOfCertified, IsRightWhereItDecides) {
   const Query& query = *find_query(GetParam().query);
@@ -187,17 +157,6 @@ constexpr std::string_view with_cancellation[] = {
     "moving_sphere_triangle",   "sphere_box_penetration",    "box_box_penetration", "box_plane_penetration",
     "sphere_plane_penetration", "sphere_sphere_penetration",
 };
-
-/// The case half way between two of one scalar; a whole number, which may be an index, is that of `a`.
-Case half_way(const Case& a, const Case& b) {
-  Case middle = a;
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    if (a.values[i] == std::trunc(a.values[i])) continue;
-    const double x = a.values[i] / 2 + b.values[i] / 2;
-    middle.values[i] = a.scalar == Scalar::float32 ? double(float(x)) : x;
-  }
-  return middle;
-}
 
 /// A bound that is too small by a few digits shows only where just as many digits cancel: half way from a yes to a no
 /// again and again, every number of digits occurs.

@@ -29,7 +29,7 @@ std::optional<RelationFinding> examined(const Relation& r, const Case& c, std::u
 
 bool is_certified(const Subject& s) {
   return s.own && std::all_of(s.offerings.begin(), s.offerings.end(),
-                              [](const Offering& o) { return o.contract.exact_decisions; });
+                              [](const Offering& o) { return promises_every_digit(o.contract); });
 }
 
 class EveryTierRelated : public testing::TestWithParam<Pairing> {};

@@ -56,7 +56,7 @@ std::vector<Pairing> our_pairings() {
 std::vector<Pairing> certified_pairings() {
   std::vector<Pairing> certified = our_pairings();
   std::erase_if(certified, [](const Pairing& p) {
-    return !p.subject->own || !p.subject->offering(p.query->name).contract.exact_decisions;
+    return !p.subject->own || !promises_every_digit(p.subject->offering(p.query->name).contract);
   });
   return certified;
 }

@@ -154,7 +154,7 @@ class WhereNothingRounds : public testing::TestWithParam<Texts> {
       exact.push_back(asked.answer);
     };
     look("the text", text);
-    for (const char* tier : {"fast", "accurate", "certified"}) {
+    for (const char* tier : {"fast", "accurate", "decisive", "certified"}) {
       const Subject& subject = *find_subject(std::string("collide-") + tier + (is_float ? "-float" : "-double"));
       look(tier, ask(subject.offering(c.query->name).answer, c));
     }

@@ -85,7 +85,11 @@ std::string_view name_of(Breach b) {
   return "?";
 }
 
-bool claims_same_bits(const Subject& subject) { return subject.own; }
+bool claims_same_bits(const Subject& subject) {
+  return subject.own && std::none_of(subject.offerings.begin(), subject.offerings.end(), [](const Offering& o) {
+           return o.contract.exact_decisions && !promises_every_digit(o.contract);
+         });
+}
 
 bool offers_all(const Subject& subject, const FollowUps& follow_ups) {
   return std::all_of(follow_ups.cases.begin(), follow_ups.cases.end(),

@@ -41,7 +41,8 @@ struct RelationFinding {
 RelationFinding relate(const Relation& relation, const FollowUps& follow_ups, const Case& question,
                        std::vector<Answer> answers, const Subject& subject, bool bit_for_bit);
 
-/// Whether the subject claims bitwise equal answers to scaled cases: the tiers of `collide` do.
+/// Whether the subject claims bitwise equal answers to scaled cases: the tiers of `collide` do, but for those that
+/// promise exact decisions alone. Such a tier takes its numbers from one of two computations, by the size of the case.
 bool claims_same_bits(const Subject& subject);
 
 using Ask = std::function<Answer(const Case&)>;

@@ -22,4 +22,9 @@ inline bool promises_nothing(const collide::Contract& c) {
   return c.backward == none && c.forward == none && c.unit == none && !c.exact_decisions;
 }
 
+/// True for a contract with exact decisions and a bound on how far each number is from an exact one.
+inline bool promises_every_digit(const collide::Contract& c) {
+  return c.exact_decisions && c.forward < collide::Contract::none;
+}
+
 }  // namespace nearmiss

@@ -120,7 +120,7 @@ class ProfileReader {
 
 TierOfSubject tier_of(std::string_view subject) {
   static constexpr std::pair<std::string_view, std::string_view> tiers[] = {
-      {"fast", "Fast"}, {"accurate", "Accurate"}, {"certified", "Certified"}};
+      {"fast", "Fast"}, {"accurate", "Accurate"}, {"decisive", "Decisive"}, {"certified", "Certified"}};
   for (const auto& [word, tier] : tiers) {
     for (const std::string_view scalar : {"float", "double"}) {
       if (subject == fmt::format("collide-{}-{}", word, scalar)) return {std::string(tier), std::string(scalar)};

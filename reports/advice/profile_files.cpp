@@ -2,6 +2,7 @@
 #include <collide/version.hpp>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "reports/advice/profile.hpp"
@@ -26,13 +27,14 @@ std::string head_of_header(const Profile& p) {
 
 std::string includes_of_header(const Profile& p) {
   std::string text;
-  bool certified = false;
+  std::set<std::string> tiers;
   for (const ProfiledQuery& q : p.queries) {
     const TierOfSubject t = tier_of(q.subject);
-    certified |= t.tier == "Certified";
+    tiers.insert(t.tier);
     if (!t.tier.empty()) text += fmt::format("#include <collide/{}.hpp>\n", q.query->name);
   }
-  if (certified) text = "#include <collide/certified.hpp>\n" + text;
+  if (tiers.contains("Decisive")) text = "#include <collide/decisive.hpp>\n" + text;
+  if (tiers.contains("Certified")) text = "#include <collide/certified.hpp>\n" + text;
   return text + "#include <concepts>\n\n";
 }
 
@@ -77,9 +79,12 @@ std::string why_absent(const Profile& p, const Query& query) {
                      p.scene.name);
 }
 
+/// Whether a tier of the profile needs GMP and MPFR.
 bool needs_certified(const Profile& p) {
-  return std::any_of(p.queries.begin(), p.queries.end(),
-                     [](const ProfiledQuery& q) { return tier_of(q.subject).tier == "Certified"; });
+  return std::any_of(p.queries.begin(), p.queries.end(), [](const ProfiledQuery& q) {
+    const std::string tier = tier_of(q.subject).tier;
+    return tier == "Certified" || tier == "Decisive";
+  });
 }
 
 }  // namespace

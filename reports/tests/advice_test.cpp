@@ -124,20 +124,23 @@ Profile some_profile() {
           10,
           {{find_query("box_box_overlap"), "collide-fast-float", "Evidence."},
            {find_query("moving_sphere_box"), "collide-certified-double", "Evidence."},
+           {find_query("box_plane_penetration"), "collide-decisive-double", "Evidence."},
            {find_query("moving_point_triangle"), "bullet", "Evidence."}},
           {{find_query("box_box_penetration"), "nothing meets it"}}};
 }
 
 TEST(ProfileHeader, OffersItsQueriesAndSaysWhyOthersAreAbsent) {
   const std::string header = profile_header(some_profile());
-  for (const char* part : {"#include <collide/box_box_overlap.hpp>", "#include <collide/certified.hpp>",
-                           "return collide::box_box_overlap<collide::Fast>(arguments...);",
-                           "return collide::moving_sphere_box<collide::Certified>(arguments...);",
-                           "\"moving_sphere_box: the profile of the scene driving computes in double\"",
-                           "\"moving_point_triangle is answered by bullet, which is no tier of collide",
-                           "\"box_box_penetration is not in the profile of the scene driving: nothing meets it\"",
-                           "\"ray_aabox is not in the profile of the scene driving: add it to the scene and run "
-                           "'nearmiss scene advise'\""})
+  for (const char* part :
+       {"#include <collide/box_box_overlap.hpp>", "#include <collide/certified.hpp>", "#include <collide/decisive.hpp>",
+        "return collide::box_plane_penetration<collide::Decisive>(arguments...);",
+        "return collide::box_box_overlap<collide::Fast>(arguments...);",
+        "return collide::moving_sphere_box<collide::Certified>(arguments...);",
+        "\"moving_sphere_box: the profile of the scene driving computes in double\"",
+        "\"moving_point_triangle is answered by bullet, which is no tier of collide",
+        "\"box_box_penetration is not in the profile of the scene driving: nothing meets it\"",
+        "\"ray_aabox is not in the profile of the scene driving: add it to the scene and run "
+        "'nearmiss scene advise'\""})
     EXPECT_NE(header.find(part), std::string::npos) << part;
   EXPECT_EQ(header.find("#include <collide/ray_aabox.hpp>"), std::string::npos);
   for (const Query& q : catalogue())
@@ -148,6 +151,7 @@ TEST(ProfileHeader, OffersItsQueriesAndSaysWhyOthersAreAbsent) {
 TEST(ProfileHeader, KnowsTheTiersOfCollide) {
   EXPECT_EQ(tier_of("collide-accurate-double").tier, "Accurate");
   EXPECT_EQ(tier_of("collide-accurate-double").scalar, "double");
+  EXPECT_EQ(tier_of("collide-decisive-float").tier, "Decisive");
   EXPECT_EQ(tier_of("bullet").tier, "");
   for (const Subject& s : subjects()) {
     EXPECT_EQ(s.own, !tier_of(s.name).tier.empty()) << s.name;
@@ -179,7 +183,7 @@ TEST_F(SceneAdvice, FindsATierThatMeetsEverythingAndWritesItsProfile) {
   EXPECT_EQ(complaints(advice, "advice.schema.json"), "");
   EXPECT_EQ(complaints(profile, "profile.schema.json"), "");
   const json& query = advice["queries"][0];
-  EXPECT_EQ(query["candidates"].size(), 6u);
+  EXPECT_EQ(query["candidates"].size(), 8u);
   const std::string chosen = query["chosen"];
   EXPECT_NE(ran.out.find(chosen), std::string::npos);
   for (const json& c : query["candidates"]) {

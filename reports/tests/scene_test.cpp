@@ -64,7 +64,7 @@ TEST(Scene, NoTierOfCollideViolatesItsContractInAnyScene) {
   TemporaryFolder folder;
   for (const std::string& name : scenes::scene_names()) {
     std::vector<std::string> arguments{"run", "--scene", name, "--cases", "200", "--seed", "4"};
-    for (const char* tier : {"fast", "accurate", "certified"}) {
+    for (const char* tier : {"fast", "accurate", "decisive", "certified"}) {
       for (const char* scalar : {"float", "double"}) {
         arguments.insert(arguments.end(), {"-s", std::string("collide-") + tier + "-" + scalar});
       }

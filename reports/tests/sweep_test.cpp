@@ -303,7 +303,7 @@ TEST(SweepCommand, SaysWhatItSwept) {
   EXPECT_EQ(state["state"], "finished");
   EXPECT_EQ(state["valid"], position_of(1e-40f) + 1 - position_of(-0.0f)) << "-0.0 is valid";
   EXPECT_EQ(state["invalid"], position_of(-0.0f) - position_of(-1.0f));
-  EXPECT_EQ(state["subjects"].size(), 3u);
+  EXPECT_EQ(state["subjects"].size(), 4u);
   EXPECT_NE(ran.out.find("sphere_sphere_overlap, sphere1.radius through all 71,364 valid floats of a range: "
                          "collide-accurate-float: every decision is exact (partial: -1 to 1e-40)"),
             std::string::npos)

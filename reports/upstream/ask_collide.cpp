@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "reports/upstream/asking.hpp"
 
@@ -119,10 +121,19 @@ std::string expression_of(const std::string& field) {
   return text;
 }
 
+/// The header of a tier that needs GMP and MPFR; empty for another tier.
+std::string header_of(const std::string& tier) {
+  if (tier == "collide::Decisive") return "decisive.hpp";
+  return tier == "collide::Certified" ? "certified.hpp" : "";
+}
+
 std::string tier_of(const Subject& subject) {
-  return subject.name.find("certified") != std::string::npos  ? "collide::Certified"
-         : subject.name.find("accurate") != std::string::npos ? "collide::Accurate"
-                                                              : "collide::Fast";
+  static constexpr std::pair<std::string_view, const char*> tiers[] = {
+      {"accurate", "collide::Accurate"}, {"decisive", "collide::Decisive"}, {"certified", "collide::Certified"}};
+  for (const auto& [word, tier] : tiers) {
+    if (subject.name.find(word) != std::string::npos) return tier;
+  }
+  return "collide::Fast";
 }
 
 }  // namespace
@@ -132,13 +143,13 @@ Asking ask_collide(const Case& question, const Subject& subject) {
   using namespace collide_text;
   const Query& query = *question.query;
   const std::string tier = tier_of(subject);
-  const bool certified = tier == "collide::Certified";
+  const std::string header = header_of(tier);
   const Arguments arguments = arguments_of(question, tier);
   Asking asking;
   asking.style = Asking::Style::googletest;
   asking.suite = "Nearmiss";
-  asking.includes =
-      fmt::format("{}#include <collide/{}.hpp>\n", certified ? "#include <collide/certified.hpp>\n" : "", query.name);
+  asking.includes = (header.empty() ? "" : fmt::format("#include <collide/{}>\n", header)) +
+                    fmt::format("#include <collide/{}.hpp>\n", query.name);
   asking.statements = arguments.declarations +
                       fmt::format("const auto answer = collide::{}<{}>({});\n", query.name, tier, arguments.list);
   if (decides(query.kind)) asking.statements += "got_yes = answer.yes();\n";
@@ -152,7 +163,7 @@ Asking ask_collide(const Case& question, const Subject& subject) {
     }
   }
   asking.build =
-      std::string("g++ -std=c++20 test.cpp -lgtest -lgtest_main -lpthread") + (certified ? " -lmpfr -lgmp" : "");
+      std::string("g++ -std=c++20 test.cpp -lgtest -lgtest_main -lpthread") + (header.empty() ? "" : " -lmpfr -lgmp");
   return asking;
 }
 
