@@ -159,7 +159,9 @@ class BoundsOfDecisive : public testing::TestWithParam<BoundOf> {
   /// Whether a bound decided the case. What it decided must be right.
   bool decides_rightly(const Case& c) {
     const std::optional<Answer> answer = GetParam().decided(c);
-    if (answer) EXPECT_EQ(answer->yes, truth_is_yes(c)) << case_to_json(c).dump(2);
+    if (answer) {
+      EXPECT_EQ(answer->yes, truth_is_yes(c)) << case_to_json(c).dump(2);
+    }
     return answer.has_value();
   }
 };
