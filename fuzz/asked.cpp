@@ -8,6 +8,7 @@
 
 #include "fuzz/fuzzed_query.hpp"
 #include "fuzz/profiled_scene.hpp"
+#include "impl/adapters/decisive_kernels.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/subject/provenance.hpp"
 
@@ -38,6 +39,12 @@ bool has(const std::vector<std::string>& all, const std::string& name) {
 
 bool offers(const Subject& s, const Query& query) { return s.offering(query.name).offer != Offer::not_offered; }
 
+/// Whether the subject's answers to the query are those of another tier: fuzzing would find each mistake twice, and the
+/// second answer would cost a quarter of the time.
+bool repeats_a_tier(const Subject& s, const Query& query) {
+  return s.own && s.name.starts_with("collide-decisive-") && !adapters::has_decisive_kernel(query.name);
+}
+
 /// The named subject. A name must be that of a subject that offers the query.
 const Subject& named_subject(const std::string& name, const Query& query) {
   const Subject* s = find_subject(name);
@@ -59,7 +66,8 @@ std::vector<const Subject*> chosen_subjects(const Query& query) {
   const std::vector<std::string> added = added_subjects();
   std::vector<const Subject*> chosen;
   for (const Subject& s : subjects()) {
-    const bool wanted = (s.own && tiers) || s.host != nullptr || (has(names, "added") && has(added, s.name));
+    const bool wanted = (s.own && tiers && !repeats_a_tier(s, query)) || s.host != nullptr ||
+                        (has(names, "added") && has(added, s.name));
     if (wanted && offers(s, query)) chosen.push_back(&s);
   }
   for (const std::string& name : names) {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/raw_numbers.hpp"
+#include "impl/adapters/decisive_kernels.hpp"
 #include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"
 #include "properties/unlikely_cases.hpp"
@@ -51,14 +53,17 @@ TEST_P(DecisiveTier, DecidesNumbersOfAnyMagnitude) {
   }
 }
 
-TEST_P(DecisiveTier, IsFastWhereThereIsNoDecision) {
+/// Fuzz targets leave Decisive out where it has no kernel.
+TEST_P(DecisiveTier, IsAnotherTierWhereItHasNoKernel) {
   const Query& query = *GetParam().query;
-  if (decides(query.kind)) return;
+  if (adapters::has_decisive_kernel(query.name)) return;
   for (const Scalar scalar : scalars) {
+    const Subject& other = tier(decides(query.kind) ? "certified" : "fast", scalar);
     for (std::uint64_t i = 0; i < 200; ++i) {
       const Case c = generate(query, scalar, stream(32), i);
-      const Answer decisive = ask_here(tier("decisive", scalar), c), fast = ask_here(tier("fast", scalar), c);
-      EXPECT_TRUE(std::ranges::equal(decisive.values, fast.values, {}, bits_of, bits_of)) << case_to_json(c).dump(2);
+      const Answer decisive = ask_here(tier("decisive", scalar), c), same = ask_here(other, c);
+      EXPECT_EQ(decisive.yes, same.yes) << case_to_json(c).dump(2);
+      EXPECT_TRUE(std::ranges::equal(decisive.values, same.values, {}, bits_of, bits_of)) << case_to_json(c).dump(2);
     }
   }
 }
@@ -180,27 +185,13 @@ TEST_P(BoundsOfDecisive, AreEnoughForMostPlainScenes) {
   }
 }
 
-/// A bound that is too small by a few digits shows only where just as many digits cancel: half way from a yes to a no
-/// again and again, every number of digits occurs.
 TEST_P(BoundsOfDecisive, AreRightAsTheDecisionChanges) {
   const Query& query = *find_query(GetParam().query);
-  constexpr int pairs = 500;
   for (const Scalar scalar : scalars) {
-    const int steps = scalar == Scalar::float32 ? 24 : 53;  // the binary digits
-    std::optional<Case> yes, no;
-    int done = 0;
-    for (std::uint64_t i = 0; done < pairs && !HasFailure(); ++i) {
-      const Case c = generate(query, scalar, stream(34), i);
-      if (!c.moves.empty()) continue;
-      (truth_is_yes(c) ? yes : no) = c;
-      if (!yes || !no) continue;
-      for (int k = 0; k < steps; ++k) {
-        const Case middle = half_way(*yes, *no);
-        decides_rightly(middle);
-        (truth_is_yes(middle) ? yes : no) = middle;
-      }
-      yes.reset(), no.reset(), ++done;
-    }
+    check_as_the_decision_changes(query, scalar, stream(34), 500, [&](const Case& middle) {
+      decides_rightly(middle);
+      return !HasFailure();
+    });
   }
 }
 
@@ -240,6 +231,12 @@ TEST_P(BoundsOfDecisive, AreRightWhereAPointStartsOnATriangle) {
     EXPECT_GE(hits, 500);
     EXPECT_LE(hits, 1500);
   }
+}
+
+TEST(DecisiveAlone, HasABoundInEachKernel) {
+  std::set<std::string_view> with_bounds;
+  for (const BoundOf& b : bounds) with_bounds.insert(b.query);
+  EXPECT_TRUE(std::ranges::equal(with_bounds, adapters::decisive_kernels));
 }
 
 INSTANTIATE_TEST_SUITE_P(Queries, BoundsOfDecisive, testing::ValuesIn(bounds), testing::PrintToStringParamName());

@@ -158,28 +158,14 @@ constexpr std::string_view with_cancellation[] = {
     "sphere_plane_penetration", "sphere_sphere_penetration",
 };
 
-/// A bound that is too small by a few digits shows only where just as many digits cancel: half way from a yes to a no
-/// again and again, every number of digits occurs.
 TEST_P(FilterOfCertified, IsRightAsTheDecisionChanges) {
   const Query& query = *find_query(GetParam().query);
   if (!is_among(with_cancellation, query.name)) return;
-  constexpr int pairs = 40;
   for (const Scalar scalar : scalars) {
-    const int steps = scalar == Scalar::float32 ? 24 : 53;  // the binary digits
-    std::optional<Case> yes, no;
-    int done = 0;
-    for (std::uint64_t i = 0; done < pairs && !HasFailure(); ++i) {
-      const Case c = generate(query, scalar, stream(23), i);
-      if (!c.moves.empty()) continue;
-      (truth_is_yes(c) ? yes : no) = c;
-      if (!yes || !no) continue;
-      for (int k = 0; k < steps; ++k) {
-        const Case middle = half_way(*yes, *no);
-        decides_rightly(middle, Detail::full);
-        (truth_is_yes(middle) ? yes : no) = middle;
-      }
-      yes.reset(), no.reset(), ++done;
-    }
+    check_as_the_decision_changes(query, scalar, stream(23), 40, [&](const Case& middle) {
+      decides_rightly(middle, Detail::full);
+      return !HasFailure();
+    });
   }
 }
 

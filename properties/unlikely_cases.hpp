@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "corpus/case_builder.hpp"
@@ -55,6 +56,28 @@ inline Case half_way(const Case& a, const Case& b) {
     middle.values[i] = a.scalar == Scalar::float32 ? double(float(x)) : x;
   }
   return middle;
+}
+
+/// Calls `check` for cases half way from a yes to a no again and again, from `pairs` pairs of plain scenes of the
+/// stream. A bound that is too small by a few digits shows only where just as many digits cancel: here every number of
+/// digits does. Ends early where `check` returns false.
+template <class Check>
+void check_as_the_decision_changes(const Query& query, Scalar scalar, std::uint64_t stream, int pairs,
+                                   const Check& check) {
+  const int digits = scalar == Scalar::float32 ? 24 : 53;
+  std::optional<Case> yes, no;
+  for (std::uint64_t i = 0; pairs > 0; ++i) {
+    const Case c = generate(query, scalar, stream, i);
+    if (!c.moves.empty()) continue;
+    (truth_is_yes(c) ? yes : no) = c;
+    if (!yes || !no) continue;
+    for (int k = 0; k < digits; ++k) {
+      const Case middle = half_way(*yes, *no);
+      if (!check(middle)) return;
+      (truth_is_yes(middle) ? yes : no) = middle;
+    }
+    yes.reset(), no.reset(), --pairs;
+  }
 }
 
 }  // namespace nearmiss
