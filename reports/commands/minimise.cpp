@@ -55,9 +55,12 @@ class MinimiseCommand : public Command {
     std::vector<Task> tasks;
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "minimised"));
     catch_interrupts();
-    for_each_subject(tasks, [this](const Task& t, const Subject& s) { minimise_for(t, s); });
+    folder_ = folder_or_usual(out_, "minimised");
+    InternalErrors errors(folder_);
+    for_each_subject(tasks, errors, [this](const Task& t, const Subject& s) { minimise_for(t, s); });
     if (json_) fmt::print("{}", pretty_json(reports_));
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
+    if (errors.count() > 0) return InternalError::exit_code;
     return found_ > 0 ? 1 : interrupted() ? 2 : 0;
   }
 
@@ -80,7 +83,7 @@ class MinimiseCommand : public Command {
     Report& r = m.report;
     r.question.origin = "minimise";
     r.question.moves.clear();  // they made the case of the file
-    const std::filesystem::path file = file_for(r, out_, "minimised");
+    const std::filesystem::path file = file_for(r, folder_);
     r.replay = replay_command(subject, file.string());
     make_folder(file.parent_path());
     write_file(file, pretty_json(minimised_to_json(m)));
@@ -105,6 +108,7 @@ class MinimiseCommand : public Command {
   std::optional<double> measure_, seconds_;
   std::optional<std::uint64_t> questions_;
   std::string out_;
+  std::filesystem::path folder_;
   bool json_ = false, first_ = true;
   nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
   Workers workers_{[] { return !interrupted(); }};

@@ -34,18 +34,26 @@ std::optional<Case> case_for(const Task& t, const Subject& subject) {
   return std::nullopt;
 }
 
-void for_each_subject(const std::vector<Task>& tasks, const std::function<void(const Task&, const Subject&)>& work) {
+void for_each_subject(const std::vector<Task>& tasks, InternalErrors& errors,
+                      const std::function<void(const Task&, const Subject&)>& work) {
   for (const Task& t : tasks) {
     set_measure(t.measure);
     for (const Subject* s : t.subjects) {
-      if (!interrupted()) work(t, *s);
+      if (interrupted()) return;
+      try {
+        work(t, *s);
+      } catch (const InternalError& e) {
+        errors.add(*s, e);
+      }
     }
   }
 }
 
-std::filesystem::path file_for(const Report& r, const std::string& given_folder, const char* usual_folder) {
-  const std::filesystem::path folder =
-      given_folder.empty() ? runs_folder() / usual_folder : std::filesystem::path(given_folder);
+std::filesystem::path folder_or_usual(const std::string& given_folder, const char* usual_folder) {
+  return given_folder.empty() ? runs_folder() / usual_folder : std::filesystem::path(given_folder);
+}
+
+std::filesystem::path file_for(const Report& r, const std::filesystem::path& folder) {
   return folder / r.question.query->name / fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
 }
 

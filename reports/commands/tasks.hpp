@@ -9,6 +9,7 @@
 
 #include "impl/catalogue/case.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/internal_errors.hpp"
 #include "reports/findings/report.hpp"
 
 namespace nearmiss {
@@ -31,11 +32,15 @@ Task read_task(const std::string& file, const Selection& selection, std::optiona
 /// subject is the only one of the task.
 std::optional<Case> case_for(const Task& t, const Subject& subject);
 
-/// Calls `work` with each task and each of its subjects, judged by the measure of the task, until an interrupt.
-void for_each_subject(const std::vector<Task>& tasks, const std::function<void(const Task&, const Subject&)>& work);
+/// Calls `work` with each task and each of its subjects, judged by the measure of the task, until an interrupt. An
+/// internal error ends the work for its subject alone, and is added to `errors`.
+void for_each_subject(const std::vector<Task>& tasks, InternalErrors& errors,
+                      const std::function<void(const Task&, const Subject&)>& work);
 
-/// Where such a command keeps a report: FOLDER/QUERY/SUBJECT-FAULT-ID.json. Without a given folder, that of this name
-/// below the folder of runs.
-std::filesystem::path file_for(const Report& r, const std::string& given_folder, const char* usual_folder);
+/// The given folder or, without one, that of this name below the folder of runs.
+std::filesystem::path folder_or_usual(const std::string& given_folder, const char* usual_folder);
+
+/// Where such a command keeps a report: FOLDER/QUERY/SUBJECT-FAULT-ID.json.
+std::filesystem::path file_for(const Report& r, const std::filesystem::path& folder);
 
 }  // namespace nearmiss

@@ -1,4 +1,5 @@
 /// Every engine detects a judge that contradicts itself: it counts no finding and exits with code 3.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -117,6 +118,28 @@ TEST(InternalErrors, ReplayAgain) {
   EXPECT_EQ(lines_with("\n", again.err), 1u) << again.err;
   EXPECT_NE(again.err.find("at first \""), std::string::npos) << again.err;
   EXPECT_EQ(nearmiss({"replay", "--subject", "collide-fast-double", file}).exit_code, 0);
+}
+
+/// That of explain is about another case than the given one: the file has it.
+TEST(InternalErrors, EndTheWorkForTheirSubjectAlone) {
+  const TemporaryFolder folder;
+  for (const auto& [command, x] : {std::pair("explain", "-1"), std::pair("minimise", "1")}) {
+    const std::string question =
+        folder.file("case.json", fmt::format(R"({{"query": "sphere_sphere_overlap", "scalar": "double", "inputs": {{
+                          "sphere1": {{"center": [{}, 0, 0], "radius": 1}},
+                          "sphere2": {{"center": [0, 0, 0], "radius": 1}}}}}})",
+                                             x));
+    const fs::path out = folder / command;
+    const Ran ran = run_program(contradicting_program(), {command, "--subject", "collide-fast-double", "--subject",
+                                                          "collide-accurate-double", "--out", out.string(), question});
+    EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.out << ran.err;
+    for (const char* subject : {"collide-fast-double", "collide-accurate-double"}) {
+      EXPECT_NE(ran.err.find(std::string(subject) + ": the judge contradicts itself"), std::string::npos) << ran.err;
+    }
+    ASSERT_TRUE(fs::exists(out / "internal-errors")) << ran.err;
+    for (const auto& file : fs::directory_iterator(out / "internal-errors"))
+      EXPECT_GT(read_case_or_report(file.path()).values[0], 0) << file;
+  }
 }
 
 TEST(InternalErrors, AreToldInTheManuals) {
