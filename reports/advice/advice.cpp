@@ -26,20 +26,15 @@ TradeSettings trade_settings(const AdviceSettings& s) {
   return t;
 }
 
-/// The cost of a call that a requirement is about: of calls in sequence.
-std::optional<double> sequential_cost(const TradeSummary& s) {
-  return s.sequential ? std::optional(s.sequential->p50) : std::nullopt;
-}
-
 /// The timed subjects, the cheapest first.
 std::vector<RankedSubject> candidates_of(const TradedQuery& traded) {
   std::vector<RankedSubject> all;
   for (const TradeSummary& s : traded.subjects) {
-    if (s.cost()) all.push_back({&s, std::nullopt, s.requirements});
+    const RankedSubject c{&s, std::nullopt, s.requirements};
+    if (c.cost()) all.push_back(c);
   }
-  std::stable_sort(all.begin(), all.end(), [](const RankedSubject& a, const RankedSubject& b) {
-    return *a.measured->cost() < *b.measured->cost();
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const RankedSubject& a, const RankedSubject& b) { return *a.cost() < *b.cost(); });
   return all;
 }
 
@@ -102,7 +97,7 @@ AdvisedQuery Advice::advised(const TradedQuery& traded) {
     RankedSubject& c = a.candidates[i];
     if (!c.measured->meets_all()) continue;
     c.evidence = evidence_of(c.subject(), *a.query, settings_.source);
-    c.requirements = c.evidence->requirements(settings_.source.tolerance, sequential_cost(*c.measured));
+    c.requirements = c.evidence->requirements(settings_.source.tolerance, c.cost());
     if (c.meets_all()) a.chosen = i;
   }
   if (!a.candidates.empty() && a.chosen != std::size_t{0}) a.remedies = tried_remedies(a);
@@ -123,13 +118,13 @@ TriedRemedy Advice::tried(const Remedy& remedy, const AdvisedQuery& a) {
   for (std::size_t i = 0; i < end && !best.meets_all && !interrupted(); ++i) {
     const RankedSubject& c = a.candidates[i];
     SceneEvidence e = evidence_of(c.subject(), *a.query, remedy.source);
-    std::vector<MetRequirement> requirements = e.requirements(remedy.source.tolerance, sequential_cost(*c.measured));
+    std::vector<MetRequirement> requirements = e.requirements(remedy.source.tolerance, c.cost());
     const bool meets = e.is_complete() && none_failed(requirements);
     if (best.subject != nullptr && !meets && e.worst_use >= best.evidence.worst_use) continue;
     best.subject = &c.subject();
     best.evidence = std::move(e);
     best.requirements = std::move(requirements);
-    best.cost = c.measured->cost();
+    best.cost = c.cost();
     best.meets_all = meets;
   }
   return best;
@@ -139,7 +134,7 @@ std::optional<double> Advice::seconds_per_step() const {
   double nanoseconds = 0;
   for (const AdvisedQuery& a : advised_) {
     if (a.choice() == nullptr) return std::nullopt;
-    nanoseconds += a.share * sequential_cost(*a.choice()->measured).value_or(0);
+    nanoseconds += a.share * a.choice()->cost().value_or(0);
   }
   return nanoseconds * settings_.source.queries_per_step * 1e-9;
 }

@@ -32,6 +32,11 @@ struct RankedSubject {
   std::vector<MetRequirement> requirements;
 
   const Subject& subject() const { return *measured->subject; }
+  /// Nanoseconds of a call in sequence, of which a step consists: the mean over the cases, and the median of the
+  /// repeats. The median call would hide a subject that takes long in less than half of the cases.
+  std::optional<double> cost() const {
+    return measured->sequential ? std::optional(measured->sequential->p50) : std::nullopt;
+  }
   bool meets_all() const { return evidence && evidence->is_complete() && none_failed(requirements); }
   /// The requirements that failed, with the worst figure and the limit of each: "error of places and depths: 0.5 metre,
   /// at most 0.01".

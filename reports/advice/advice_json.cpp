@@ -23,15 +23,16 @@ Json requirements_to_json(const std::vector<MetRequirement>& all) {
   return array;
 }
 
-Json nanoseconds_to_json(const TradeSummary& s) {
-  return {{"p50", optional_to_json(s.cost())},
-          {"p99", s.nanoseconds ? optional_to_json(s.nanoseconds->p99) : Json(nullptr)},
-          {"sequential", s.sequential ? optional_to_json(s.sequential->p50) : Json(nullptr)}};
+Json nanoseconds_to_json(const RankedSubject& c) {
+  const std::optional<Quantiles>& call = c.measured->nanoseconds;
+  return {{"p50", optional_to_json(c.measured->cost())},
+          {"p99", call ? optional_to_json(call->p99) : Json(nullptr)},
+          {"sequential", optional_to_json(c.cost())}};
 }
 
 Json candidate_to_json(const RankedSubject& c) {
   return {{"subject", c.subject().name},
-          {"nanoseconds", nanoseconds_to_json(*c.measured)},
+          {"nanoseconds", nanoseconds_to_json(c)},
           {"error", c.measured->shift ? optional_to_json(c.measured->shift->max) : Json(nullptr)},
           {"beyond", rate_to_json(c.measured->beyond)},
           {"requirements", requirements_to_json(c.requirements)},
@@ -43,7 +44,7 @@ Json remedy_to_json(const TriedRemedy& r) {
           {"words", r.words},
           {"unit", r.unit},
           {"subject", r.subject == nullptr ? Json(nullptr) : Json(r.subject->name)},
-          {"p50", optional_to_json(r.cost)},
+          {"sequential", optional_to_json(r.cost)},
           {"meets_all", r.meets_all},
           {"requirements", requirements_to_json(r.requirements)},
           {"evidence", r.subject == nullptr ? Json(nullptr) : evidence_to_json(r.evidence)}};

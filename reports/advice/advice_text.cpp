@@ -15,7 +15,7 @@ constexpr std::size_t advice_width = 100;
 /// "12.3 ns".
 std::string nanoseconds_text(const std::optional<double>& x) { return three_digits(x) + " ns"; }
 
-double cost_of(const RankedSubject& c) { return c.measured->cost().value_or(0); }
+double cost_of(const RankedSubject& c) { return c.cost().value_or(0); }
 
 std::vector<std::string> row_of_advice(const AdvisedQuery& a) {
   const std::string query(a.query->name);
@@ -24,7 +24,7 @@ std::vector<std::string> row_of_advice(const AdvisedQuery& a) {
   const SceneEvidence& e = *choice->evidence;
   return {query,
           choice->subject().name,
-          three_digits(choice->measured->cost()),
+          three_digits(choice->cost()),
           three_digits(e.distance.proved),
           three_digits(e.time.proved),
           fmt::format("{} of {}", count_text(e.beyond), count_text(e.cases)),
@@ -117,6 +117,7 @@ std::string Advice::text() const {
   if (const auto step = seconds_per_step()) text += step_text(settings_.source, *step) + "\n";
   return text +
          wrapped_text(fmt::format("{} of each query with the seed {}; times and first errors on {} with the seed {}. "
+                                  "NS: of a call, of calls in sequence. "
                                   "ERROR: the largest proved error of a place or depth, in {}; TIME: of a time, in s. "
                                   "BEYOND: answers beyond what is tolerable; RATE BELOW: with 95 % confidence. All "
                                   "figures are sampled.",

@@ -53,7 +53,7 @@ Json profiled_to_json(const ProfiledQuery& p, const Advice& advice) {
           {"tier", tier.tier.empty() ? Json(nullptr) : Json(tier.tier)},
           {"scalar", name_of(a.choice()->subject().scalar)},
           {"share", a.share},
-          {"nanoseconds", optional_to_json(a.choice()->measured->cost())},
+          {"nanoseconds", optional_to_json(a.choice()->cost())},
           {"evidence", std::move(evidence)}};
 }
 

@@ -184,6 +184,9 @@ TEST_F(SceneAdvice, FindsATierThatMeetsEverythingAndWritesItsProfile) {
   EXPECT_EQ(complaints(profile, "profile.schema.json"), "");
   const json& query = advice["queries"][0];
   EXPECT_EQ(query["candidates"].size(), 8u);
+  EXPECT_TRUE(std::ranges::is_sorted(query["candidates"], {}, [](const json& c) {
+    return c["nanoseconds"]["sequential"].get<double>();
+  })) << query["candidates"];
   const std::string chosen = query["chosen"];
   EXPECT_NE(ran.out.find(chosen), std::string::npos);
   for (const json& c : query["candidates"]) {
@@ -229,6 +232,16 @@ TEST_F(SceneAdvice, TriesRemediesWhereNoTierMeetsARequirement) {
   EXPECT_NE(ran.out.find("then meets everything"), std::string::npos) << ran.out;
   EXPECT_EQ(profile["missing"][0]["query"], "moving_sphere_box");
   EXPECT_EQ(nearmiss({"scene", "verify", (folder_ / "out" / "profile.json").string(), "--cases", "10"}).exit_code, 1);
+}
+
+/// A step consists of calls in sequence, so a subject that takes long in less than half of the cases is dear.
+TEST(RankedSubjects, CostWhatACallInSequenceCosts) {
+  TradeSummary s;
+  s.nanoseconds = Quantiles{10, 1000, 1000};
+  const RankedSubject c{&s, std::nullopt, {}};
+  EXPECT_FALSE(c.cost().has_value());
+  s.sequential = Quantiles{300, 310, 310};
+  EXPECT_EQ(c.cost(), 300);
 }
 
 /// A profile of two queries of the scene recorded, each with another subject.
