@@ -32,8 +32,8 @@ struct RankedSubject {
   std::vector<MetRequirement> requirements;
 
   const Subject& subject() const { return *measured->subject; }
-  /// Nanoseconds of a call in sequence, of which a step consists: the mean over the cases, and the median of the
-  /// repeats. The median call would hide a subject that takes long in less than half of the cases.
+  /// Nanoseconds of a call in a sequence of calls, as a step makes them: the mean over the cases, and the median of the
+  /// repeats. The median call would hide that a subject takes long in less than half of the cases.
   std::optional<double> cost() const {
     return measured->sequential ? std::optional(measured->sequential->p50) : std::nullopt;
   }

@@ -117,7 +117,7 @@ std::string Advice::text() const {
   if (const auto step = seconds_per_step()) text += step_text(settings_.source, *step) + "\n";
   return text +
          wrapped_text(fmt::format("{} of each query with the seed {}; times and first errors on {} with the seed {}. "
-                                  "NS: of a call, of calls in sequence. "
+                                  "NS: of a call in a sequence of calls. "
                                   "ERROR: the largest proved error of a place or depth, in {}; TIME: of a time, in s. "
                                   "BEYOND: answers beyond what is tolerable; RATE BELOW: with 95 % confidence. All "
                                   "figures are sampled.",

@@ -234,7 +234,7 @@ TEST_F(SceneAdvice, TriesRemediesWhereNoTierMeetsARequirement) {
   EXPECT_EQ(nearmiss({"scene", "verify", (folder_ / "out" / "profile.json").string(), "--cases", "10"}).exit_code, 1);
 }
 
-/// A step consists of calls in sequence, so a subject that takes long in less than half of the cases is dear.
+/// A step makes calls in sequence, so a subject that takes long in less than half of the cases is dear.
 TEST(RankedSubjects, CostWhatACallInSequenceCosts) {
   TradeSummary s;
   s.nanoseconds = Quantiles{10, 1000, 1000};

@@ -120,7 +120,7 @@ TEST(InternalErrors, ReplayAgain) {
   EXPECT_EQ(nearmiss({"replay", "--subject", "collide-fast-double", file}).exit_code, 0);
 }
 
-/// That of explain is about another case than the given one: the file has it.
+/// The internal error of explain is about another case than the given one. The stored file has that case.
 TEST(InternalErrors, EndTheWorkForTheirSubjectAlone) {
   const TemporaryFolder folder;
   for (const auto& [command, x] : {std::pair("explain", "-1"), std::pair("minimise", "1")}) {
