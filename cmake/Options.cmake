@@ -62,6 +62,12 @@ function(nearmiss_unite target units)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
+# Compiles `target` with few optimisations: for code that mostly waits for subjects, oracles or programs, where more of them
+# take longer than they save.
+function(nearmiss_compile_for_a_short_wait target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # Warnings, and floating point according to IEEE 754. A contraction (a * b + c with one rounding) or a reassociation would
 # change the results of a tier and break the bounds of intervals, so that results would depend on the compiler.
 # oracles/environment.cpp checks the environment at build time and at start.
