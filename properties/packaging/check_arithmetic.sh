@@ -14,31 +14,7 @@ fail() {
   exit 1
 }
 
-batches=$(sed -nE 's/^void ([a-z_]+)\(SoaView.*/\1/p' "$include_folder/collide/batch.hpp")
-[[ -n $batches ]] || fail "batch.hpp has no batch form"
-
-# A program that contains every query of the tier Fast, called by a pointer to it, and every batch form.
-{
-  echo '#include <collide/batch.hpp>'
-  echo '#include <collide/collide.hpp>'
-  echo 'namespace collide {'
-  echo 'template <class... A> struct Call { template <class F> static auto of(F f) { return +f; } };'
-  for query in "$@"; do
-    # The parameters, from the declaration in the header; the first overload is enough.
-    parameters=$(sed -n "/^\[\[nodiscard\]\].* $query(/,/noexcept/{p;/noexcept/q}" "$include_folder/collide/$query.hpp" |
-      tr '\n' ' ' | sed -E "s/.* $query\((.*)\) noexcept.*/\1/; s/ = [^,)]*//g")
-    [[ -n $parameters ]] || fail "the declaration of $query was not found"
-    names=$(sed -E 's/([^,]*[ &])([a-z0-9_]+)(,|$)/\2\3/g; s/ +//g' <<<"$parameters")
-    for scalar in float double; do
-      concrete=$(sed -E "s/<T>/<$scalar>/g; s/\bT\b/$scalar/g" <<<"$parameters")
-      echo "auto call_${query}_$scalar($concrete) { return $query<Fast>($names); }"
-    done
-  done
-  for query in $batches; do
-    for scalar in float double; do echo "auto batch_of_${query}_$scalar = &batch::$query<$scalar>;"; done
-  done
-  echo '}'
-} >"$scratch/all.cpp"
+bash "$(dirname "${BASH_SOURCE[0]}")/every_query.sh" "$include_folder" Fast "$@" >"$scratch/all.cpp"
 
 fused() { # INCLUDE_FOLDER
   "$compiler" -std=c++20 -O2 -mfma -S -o - -I "$1" "$scratch/all.cpp" >"$scratch/all.s" || fail "the queries do not compile"

@@ -12,7 +12,7 @@ for header in "$include_folder"/collide/*.hpp "$include_folder"/collide/detail/*
   case $name in collide/detail/strict_*) continue ;; esac # no headers by themselves: a pair around functions
   # Included twice: a header guards itself.
   printf '#include <%s>\n#include <%s>\n' "$name" "$name" |
-    "$compiler" -std=c++20 -fsyntax-only -Wall -Wextra -Wshadow -pedantic -Werror "$@" -I "$include_folder" -x c++ - ||
+    "$compiler" -std=c++20 -fsyntax-only -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -pedantic -Werror "$@" -I "$include_folder" -x c++ - ||
     { echo "check_headers: $name does not compile alone${1+ with }$*" >&2; failed=1; }
   count=$((count + 1))
 done

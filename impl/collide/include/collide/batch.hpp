@@ -14,15 +14,15 @@
 /// after the other.
 ///
 /// The arguments and the answers have the same size. The arrays of answers overlap no other array. Units: those of the
-/// query. Errors: std::invalid_argument if two sizes differ; nothing is then written. Nothing is allocated.
+/// query. Errors: std::invalid_argument if two sizes differ; nothing is then written. With -fno-exceptions one line
+/// goes to standard error and the program aborts. Nothing is allocated.
 #pragma once
-
-#include <stdexcept>
 
 #include <collide/detail/batch_avx2.hpp>
 #include <collide/detail/batch_queries.hpp>
 #include <collide/detail/batch_simd.hpp>
 #include <collide/detail/batch_sse2.hpp>
+#include <collide/detail/refuse_argument.hpp>
 #include <collide/soa.hpp>
 
 namespace collide {
@@ -44,7 +44,7 @@ void answer_batch(Simd simd, std::size_t count, const void* const* in, void* con
 template <class Query, class T, class Answer, class... Arguments>
 void answer_batch(Simd simd, const SoaSpan<Answer>& answers, const SoaView<Arguments>&... arguments) {
   if (((arguments.size() != answers.size()) || ...))
-    throw std::invalid_argument("a batch has arguments and answers of different sizes");
+    refuse_argument("a batch has arguments and answers of different sizes");
   std::array<const void*, (leaf_count<Arguments> + ...)> in{};
   std::size_t next = 0;
   const auto append = [&](const auto& arrays) {

@@ -257,7 +257,8 @@ Accuracy accuracy_of(const A& answer, Role role = Role::inherited) {
 
 /// The tier `Certified`. For all finite inputs each decision is exact, and each number lies within two units in the
 /// last place of the exact one (of a vector: units of its largest number). The processor must round to nearest. If
-/// memory runs out, a query throws std::bad_alloc or GMP terminates the program.
+/// memory runs out, a query throws std::bad_alloc or GMP terminates the program; with -fno-exceptions the program
+/// always ends.
 struct Certified : Plain {
   static constexpr bool never_throws = false;
   template <class T>

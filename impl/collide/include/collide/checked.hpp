@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <collide/detail/number.hpp>
+#include <collide/detail/refuse_argument.hpp>
 #include <collide/shapes.hpp>
 
 namespace collide {
@@ -157,19 +157,21 @@ constexpr std::optional<BrokenRule> broken_rule(const S& s, std::string_view nam
 }
 
 /// Returns the shape itself. Throws std::invalid_argument if a rule is broken; the message is one line with the field,
-/// its value and the rule. In a constant expression a broken rule does not compile.
+/// its value and the rule. With -fno-exceptions this line goes to standard error and the program aborts. In a constant
+/// expression a broken rule does not compile.
 ///
 /// The queries check nothing: build the structs directly where the numbers are known to be valid.
 template <Listed S>
 constexpr S checked(const S& s, std::string_view name = detail::name_of_shape<S>) {
-  if (const auto broken = broken_rule(s, name)) throw std::invalid_argument(broken->text());
+  if (const auto broken = broken_rule(s, name)) detail::refuse_argument(broken->text());
   return s;
 }
-/// Returns the vector; throws std::invalid_argument if it is zero or not finite: checked_direction(v, "velocity").
+/// Returns the vector; throws std::invalid_argument, or aborts, as checked() does, if it is zero or not finite:
+/// checked_direction(v, "velocity").
 template <MachineNumber T>
 constexpr Vec3<T> checked_direction(const Vec3<T>& v, std::string_view name = "direction") {
   if (const auto broken = detail::broken_within(v, FieldPath(name), Role::direction)) {
-    throw std::invalid_argument(broken->text());
+    detail::refuse_argument(broken->text());
   }
   return v;
 }

@@ -2,7 +2,7 @@
 /// arithmetic alone. Needs GMP (target collide::certified).
 #pragma once
 
-#include <gmpxx.h>
+#include <gmp.h>
 
 #include <cstdint>
 #include <memory>
@@ -13,6 +13,50 @@
 #include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
+
+/// A rational number. It is GMP's, without gmpxx.h, which needs exceptions.
+class Rational {
+ public:
+  Rational() { mpq_init(q_); }
+  explicit Rational(double x) : Rational() { mpq_set_d(q_, x); }
+  Rational(const Rational& x) : Rational() { mpq_set(q_, x.q_); }
+  Rational(Rational&& x) noexcept : Rational() { mpq_swap(q_, x.q_); }
+  Rational& operator=(Rational x) noexcept {
+    mpq_swap(q_, x.q_);
+    return *this;
+  }
+  ~Rational() { mpq_clear(q_); }
+
+  friend Rational operator-(const Rational& x) { return of(mpq_neg, x); }
+  friend Rational operator+(const Rational& x, const Rational& y) { return of(mpq_add, x, y); }
+  friend Rational operator*(const Rational& x, const Rational& y) { return of(mpq_mul, x, y); }
+  /// x / y; y is not zero.
+  friend Rational operator/(const Rational& x, const Rational& y) { return of(mpq_div, x, y); }
+  /// 1 / x; x is not zero.
+  friend Rational inverse(const Rational& x) { return of(mpq_inv, x); }
+
+  /// -1, 0 or 1.
+  int sign() const { return mpq_sgn(q_); }
+  /// The root, if it is rational; the number is not negative.
+  std::optional<Rational> rational_root() const {
+    const mpz_srcptr over = mpq_numref(q_), under = mpq_denref(q_);
+    if (mpz_perfect_square_p(over) == 0 || mpz_perfect_square_p(under) == 0) return std::nullopt;
+    Rational root;
+    mpz_sqrt(mpq_numref(root.q_), over);
+    mpz_sqrt(mpq_denref(root.q_), under);
+    return root;
+  }
+
+ private:
+  template <class Operation, class... Operands>
+  static Rational of(Operation operation, const Operands&... operands) {
+    Rational result;
+    operation(result.q_, operands.q_...);
+    return result;
+  }
+
+  mpq_t q_;
+};
 
 /// A rational, or a + b sqrt(d), where a, b and d are rationals or contain roots that were taken before sqrt(d).
 ///
@@ -28,28 +72,28 @@ class Constructible {
  public:
   Constructible() = default;
   explicit Constructible(double x) : rational_(x) {}
-  explicit Constructible(mpq_class x) : rational_(std::move(x)) {}
+  explicit Constructible(Rational x) : rational_(std::move(x)) {}
 
   friend Constructible operator+(const Constructible& x, const Constructible& y) {
     if (x.height() < y.height()) return y + x;
-    if (x.is_rational()) return Constructible(mpq_class(x.rational_ + y.rational_));
+    if (x.is_rational()) return Constructible(x.rational_ + y.rational_);
     if (x.height() > y.height()) return make_extension(x.root(), x.a() + y, x.b());
     return make_extension(x.root(), x.a() + y.a(), x.b() + y.b());
   }
   friend Constructible operator*(const Constructible& x, const Constructible& y) {
     if (x.height() < y.height()) return y * x;
-    if (x.is_rational()) return Constructible(mpq_class(x.rational_ * y.rational_));
+    if (x.is_rational()) return Constructible(x.rational_ * y.rational_);
     if (x.height() > y.height()) return make_extension(x.root(), x.a() * y, x.b() * y);
     return make_extension(x.root(), x.a() * y.a() + x.b() * y.b() * x.d(), x.a() * y.b() + x.b() * y.a());
   }
   friend Constructible operator-(const Constructible& x) {
-    if (x.is_rational()) return Constructible(mpq_class(-x.rational_));
+    if (x.is_rational()) return Constructible(-x.rational_);
     return make_extension(x.root(), -x.a(), -x.b());
   }
   friend Constructible operator-(const Constructible& x, const Constructible& y) { return x + -y; }
   /// 1 / x; x is not zero.
   friend Constructible inverse(const Constructible& x) {
-    if (x.is_rational()) return Constructible(mpq_class(1 / x.rational_));
+    if (x.is_rational()) return Constructible(inverse(x.rational_));
     const Constructible norm = x.norm();
     if (norm.sign() == 0) return inverse(x.a() + x.a());
     return make_extension(x.root(), x.a(), -x.b()) * inverse(norm);
@@ -57,7 +101,7 @@ class Constructible {
 
   /// -1, 0 or 1.
   int sign() const {
-    if (is_rational()) return sgn(rational_);
+    if (is_rational()) return rational_.sign();
     const int of_a = a().sign(), of_b = b().sign();
     if (of_b == 0 || of_a == of_b) return of_a;
     return of_a == 0 ? of_b : of_a * norm().sign();
@@ -79,7 +123,7 @@ class Constructible {
   /// a^2 - b^2 d
   Constructible norm() const { return a() * a() - b() * b() * d(); }
 
-  mpq_class rational_;  // the value if there is no extension
+  Rational rational_;  // the value if there is no extension
   std::shared_ptr<const Extension> extension_;
 };
 
@@ -94,7 +138,7 @@ struct Constructible::Extension {
 
 inline Constructible Constructible::make_extension(const std::shared_ptr<const Root>& root, Constructible a,
                                                    Constructible b) {
-  if (b.is_rational() && b.rational_ == 0) return a;
+  if (b.is_rational() && b.rational_.sign() == 0) return a;
   Constructible x;
   x.extension_ = std::make_shared<const Extension>(Extension{root, std::move(a), std::move(b)});
   return x;
@@ -112,10 +156,10 @@ class Roots {
   /// square, the result is a rational multiple of the earlier root.
   Constructible root_of(const Constructible& square) {
     if (square.is_rational()) {
-      if (const auto root = rational_root_of(square.rational_)) return Constructible(*root);
+      if (const auto root = square.rational_.rational_root()) return Constructible(*root);
       for (const auto& earlier : roots_) {
         if (!earlier->square.is_rational()) continue;
-        if (const auto times = rational_root_of(mpq_class(square.rational_ / earlier->square.rational_))) {
+        if (const auto times = (square.rational_ / earlier->square.rational_).rational_root()) {
           return Constructible::make_extension(earlier, {}, Constructible(*times));
         }
       }
@@ -127,12 +171,6 @@ class Roots {
   void clear() { roots_.clear(); }
 
  private:
-  static std::optional<mpq_class> rational_root_of(const mpq_class& square) {
-    const mpz_class &over = square.get_num(), &under = square.get_den();
-    if (!mpz_perfect_square_p(over.get_mpz_t()) || !mpz_perfect_square_p(under.get_mpz_t())) return std::nullopt;
-    return mpq_class(mpz_class(sqrt(over)), mpz_class(sqrt(under)));
-  }
-
   std::vector<std::shared_ptr<const Constructible::Root>> roots_;
 };
 

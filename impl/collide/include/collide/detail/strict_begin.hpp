@@ -26,3 +26,10 @@
 #pragma float_control(push)
 #pragma fp_contract(off)
 #endif
+
+// Indices of axes, edges and corners are of type int, because -1 stands for none. As indices of arrays they are never
+// negative; without this, -Wsign-conversion (which -Wconversion contains in Clang) warns of each.
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
