@@ -40,7 +40,7 @@ struct Wide<float> {
   COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm256_add_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm256_sub_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm256_mul_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {_mm256_div_ps(a.v, b.v)}; }
+  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
@@ -75,7 +75,7 @@ struct Wide<double> {
   COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm256_add_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm256_sub_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm256_mul_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {_mm256_div_pd(a.v, b.v)}; }
+  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_LT_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_LE_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }

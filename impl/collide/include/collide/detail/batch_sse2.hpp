@@ -40,7 +40,7 @@ struct Wide<float> {
   COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm_add_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm_sub_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm_mul_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {_mm_div_ps(a.v, b.v)}; }
+  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm_cmplt_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm_cmple_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm_cmpeq_ps(a.v, b.v)}; }
@@ -70,7 +70,7 @@ struct Wide<double> {
   COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm_add_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm_sub_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm_mul_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {_mm_div_pd(a.v, b.v)}; }
+  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm_cmplt_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm_cmple_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm_cmpeq_pd(a.v, b.v)}; }

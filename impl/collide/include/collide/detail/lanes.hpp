@@ -35,6 +35,21 @@ auto out_of_line(Kernel kernel) noexcept {
   return [kernel](const auto&... arguments) COLLIDE_OUT_OF_LINE { return kernel(arguments...); };
 }
 
+/// a / b in each lane. Clang compiles an intrinsic with the options of the program, which may allow products with a
+/// reciprocal; an operator here obeys detail/strict_begin.hpp.
+template <class Register>
+Register quotient(Register a, Register b) noexcept {
+#if defined(__GNUC__)
+  return a / b;
+#else
+  if constexpr (std::same_as<Register, __m128>) {
+    return _mm_div_ps(a, b);
+  } else {
+    return _mm_div_pd(a, b);
+  }
+#endif
+}
+
 /// Four numbers in one register, or in two where one register holds only two of them.
 template <class T>
 struct Lanes;
@@ -64,7 +79,7 @@ struct Lanes<float> {
   friend Lanes operator+(Lanes a, Lanes b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
   friend Lanes operator-(Lanes a, Lanes b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
   friend Lanes operator*(Lanes a, Lanes b) noexcept { return {_mm_mul_ps(a.v, b.v)}; }
-  friend Lanes operator/(Lanes a, Lanes b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
+  friend Lanes operator/(Lanes a, Lanes b) noexcept { return {quotient(a.v, b.v)}; }
   // Comparisons give a mask: in each lane all bits set, or none.
   friend Lanes operator<(Lanes a, Lanes b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
   friend Lanes operator<=(Lanes a, Lanes b) noexcept { return {_mm_cmple_ps(a.v, b.v)}; }
@@ -106,7 +121,7 @@ struct TwoDoubles {
   friend TwoDoubles operator+(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_add_pd(a.v, b.v)}; }
   friend TwoDoubles operator-(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_sub_pd(a.v, b.v)}; }
   friend TwoDoubles operator*(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_mul_pd(a.v, b.v)}; }
-  friend TwoDoubles operator/(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_div_pd(a.v, b.v)}; }
+  friend TwoDoubles operator/(TwoDoubles a, TwoDoubles b) noexcept { return {quotient(a.v, b.v)}; }
   friend TwoDoubles operator<(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_cmplt_pd(a.v, b.v)}; }
   friend TwoDoubles operator<=(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_cmple_pd(a.v, b.v)}; }
   friend TwoDoubles operator==(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_cmpeq_pd(a.v, b.v)}; }

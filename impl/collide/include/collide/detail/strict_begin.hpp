@@ -4,20 +4,14 @@
 // Contraction (a * b + c with one rounding) and reassociation break the error-free transformations and the error bounds
 // of the tiers Accurate and Certified, and they make the answers of Fast depend on the compiler.
 
-// Options that no pragma can undo.
-#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
-    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__NO_SIGNED_ZEROS__) || defined(_M_FP_FAST)
-#error "collide needs IEEE 754 arithmetic: compile without -ffast-math, -Ofast and the options that they imply"
-#endif
-#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
-#error "collide needs operations that round to their own type: on 32-bit x86 compile with -msse2 -mfpmath=sse"
-#endif
+#include <collide/detail/strict_check.hpp>
 
-// Pragmas turn contraction off. GCC does not inline these functions into callers with other options;
-// -ffp-contract=off -fno-tree-slp-vectorize for the whole program restores inlining. The second option is there because
-// GCC 12 contracts in that optimization whatever -ffp-contract says.
+// Pragmas turn contraction off, and in Clang -freciprocal-math and -fapprox-func. GCC does not inline these functions
+// into callers with other options; -ffp-contract=off -fno-tree-slp-vectorize for the whole program restores inlining.
+// The second option is there because GCC 12 contracts in that optimization whatever -ffp-contract says.
 #if defined(__clang__)
 #pragma float_control(push)
+#pragma float_control(precise, on)
 #pragma clang fp contract(off)
 #elif defined(__GNUC__) && defined(__FP_FAST_FMA)
 #pragma GCC push_options
