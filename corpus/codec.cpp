@@ -13,6 +13,7 @@
 #include <set>
 
 #include "corpus/generator.hpp"
+#include "corpus/near_words.hpp"
 
 namespace nearmiss {
 
@@ -48,14 +49,19 @@ std::vector<Child> children(std::span<const Field> fields, std::size_t prefix) {
 
 std::size_t below(std::size_t prefix, const Child& c) { return prefix + c.component.size() + 1; }
 
+bool are_numbers(std::span<const Child> of, std::initializer_list<std::string_view> names) {
+  return std::equal(of.begin(), of.end(), names.begin(), names.end(),
+                    [](const Child& c, std::string_view name) { return c.leaf && c.component == name; });
+}
+bool is_quaternion(std::span<const Child> of) { return are_numbers(of, {"x", "y", "z", "w"}); }
+
 /// Vectors (exactly x, y, z) and numbered members become arrays, all other groups objects.
 bool is_array(std::span<const Child> of) {
   const auto numbered = [](const Child& c) {
     return c.component.find_first_not_of("0123456789") == std::string_view::npos;
   };
   if (!of.empty() && std::all_of(of.begin(), of.end(), numbered)) return true;
-  const auto is = [&](std::size_t i, std::string_view name) { return of[i].leaf && of[i].component == name; };
-  return of.size() == 3 && is(0, "x") && is(1, "y") && is(2, "z");
+  return are_numbers(of, {"x", "y", "z"});
 }
 
 ordered_json number_to_json(Role role, double value) {
@@ -96,10 +102,56 @@ bool has_control_characters(std::string_view s) {
   return std::any_of(s.begin(), s.end(), [](char c) { return (0 <= c && c < 0x20) || c == 0x7F; });
 }
 
+RoundedNumbers rounded;
+Decimals users_decimals = Decimals::nearest;
+
+/// The nearest number of the scalar.
+double nearest_in(double x, Scalar scalar) { return scalar == Scalar::float32 ? double(float(x)) : x; }
+
+/// The numbers of a 3x3 matrix, given as three rows or as nine numbers; empty for any other value.
+std::vector<double> matrix_in(const json& j) {
+  std::vector<double> numbers;
+  const auto add = [&](const json& list) {
+    for (const json& x : list) numbers.push_back(x.is_number() ? x.get<double>() : HUGE_VAL);
+  };
+  if (j.size() == 9) add(j);
+  if (j.size() == 3 && std::all_of(j.begin(), j.end(), [](const json& r) { return r.is_array() && r.size() == 3; })) {
+    for (const json& row : j) add(row);
+  }
+  return numbers;
+}
+
+/// How to give the rotation of a matrix: its quaternion, where the matrix is one of a rotation to about a thousandth.
+std::string quaternion_text(std::span<const double> m) {
+  constexpr double near = 1e-3;
+  const double w = std::sqrt(std::max(0.0, 1 + m[0] + m[4] + m[8])) / 2;
+  const double length[] = {std::sqrt(std::max(0.0, 1 + m[0] - m[4] - m[8])) / 2,
+                           std::sqrt(std::max(0.0, 1 - m[0] + m[4] - m[8])) / 2,
+                           std::sqrt(std::max(0.0, 1 - m[0] - m[4] + m[8])) / 2};
+  const double turn[] = {m[7] - m[5], m[2] - m[6], m[3] - m[1]};
+  double q[4] = {0, 0, 0, w};
+  for (int i = 0; i < 3; ++i) q[i] = std::copysign(length[i], turn[i]);
+  if (w < near) {  // half a turn: the signs follow from the products of two components
+    const int largest = int(std::max_element(length, length + 3) - length);
+    for (int i = 0; i < 3; ++i)
+      q[i] = i == largest ? length[i] : std::copysign(length[i], m[3 * largest + i] + m[3 * i + largest]);
+  }
+  const double back[] = {
+      1 - 2 * (q[1] * q[1] + q[2] * q[2]), 2 * (q[0] * q[1] - q[2] * q[3]),     2 * (q[0] * q[2] + q[1] * q[3]),
+      2 * (q[0] * q[1] + q[2] * q[3]),     1 - 2 * (q[0] * q[0] + q[2] * q[2]), 2 * (q[1] * q[2] - q[0] * q[3]),
+      2 * (q[0] * q[2] - q[1] * q[3]),     2 * (q[1] * q[2] + q[0] * q[3]),     1 - 2 * (q[0] * q[0] + q[1] * q[1])};
+  for (int i = 0; i < 9; ++i) {
+    if (!(std::abs(back[i] - m[std::size_t(i)]) <= near)) return "";
+  }
+  return fmt::format(
+      "; that of this matrix, whose columns are the turned axes, is near [{:.9g}, {:.9g}, {:.9g}, {:.9g}]", q[0], q[1],
+      q[2], q[3]);
+}
+
 /// Reads the parts of a case. Every error names the file, the path of the field, the value and the rule.
 class Reader {
  public:
-  explicit Reader(const std::string& where) : where_(where) {}
+  Reader(const std::string& where, Decimals decimals) : where_(where), decimals_(decimals) {}
 
   [[noreturn]] void fail(std::string_view path, std::string_view what) const {
     throw BadInput(fmt::format("{}: {} {}", where_, path, what));
@@ -118,9 +170,11 @@ class Reader {
   template <class Names>
   void expect_only(const json& object, std::string_view path, const Names& names) const {
     for (const auto& item : object.items()) {
-      if (std::find(std::begin(names), std::end(names), item.key()) == std::end(names)) {
-        fail(joined(path, cut(item.key())), "is unknown");
-      }
+      if (std::find(std::begin(names), std::end(names), item.key()) != std::end(names)) continue;
+      const std::vector<std::string> expected(std::begin(names), std::end(names));
+      const std::string near = nearest_field_text(item.key(), expected);
+      fail(joined(path, cut(item.key())),
+           fmt::format("is unknown: it must be {}{}{}", fmt::join(expected, ", "), near.empty() ? "" : "; ", near));
     }
   }
   static std::string joined(std::string_view path, std::string_view name) {
@@ -137,14 +191,18 @@ class Reader {
     return j.get<std::uint64_t>();
   }
   double number(const json& j, const std::string& path, Role role, Scalar scalar) const;
+  double in_scalar(double x, const std::string& path, Scalar scalar) const;
+  void expect_items(const json& j, const std::string& path, std::span<const Child> parts) const;
+  std::vector<double> values(const json& j, std::span<const Field> fields, Scalar scalar) const;
   void inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix, Scalar scalar,
               std::vector<double>& values) const;
-  const Query* query(const json& j) const;
-  Scalar scalar(const json& j) const;
+  const Query* query(std::string_view name) const;
+  Scalar scalar(std::string_view name) const;
   void origin(const json& j, Case& c) const;
 
  private:
   const std::string& where_;
+  const Decimals decimals_;
 };
 
 double Reader::number(const json& j, const std::string& path, Role role, Scalar scalar) const {
@@ -157,24 +215,66 @@ double Reader::number(const json& j, const std::string& path, Role role, Scalar 
     return j.get<double>();
   }
   if (!j.is_number()) fail(path, j, "a number");
-  const double x = j.get<double>();
-  if (!representable(x, scalar)) {
-    fail(path, fmt::format("is {}: it must be exactly a float, of which {} is near", x, double(float(x))));
+  return in_scalar(j.get<double>(), path, scalar);
+}
+
+double Reader::in_scalar(double x, const std::string& path, Scalar scalar) const {
+  const double nearest = nearest_in(x, scalar);
+  if (nearest == x || std::isnan(x)) return x;
+  if (std::isinf(nearest)) fail(path, fmt::format("is {}: it must be within the range of {}", x, name_of(scalar)));
+  if (nearest == 0)
+    fail(path, fmt::format("is {}: it must be a number that {} can tell from zero", x, name_of(scalar)));
+  if (decimals_ == Decimals::exact)
+    fail(path, fmt::format("is {}: it must be exactly a {}, of which {} is near", x, name_of(scalar), nearest));
+  ++rounded.count;
+  rounded.most = std::max(rounded.most, std::abs(x - nearest));
+  return nearest;
+}
+
+/// The value is an array of as many items as there are parts.
+void Reader::expect_items(const json& j, const std::string& path, std::span<const Child> parts) const {
+  std::vector<std::string> names;
+  for (const Child& c : parts) names.emplace_back(c.component);
+  if (is_quaternion(parts) && j.is_array()) {
+    if (const std::vector<double> matrix = matrix_in(j); !matrix.empty())
+      fail(path, fmt::format("is a matrix: it must be a quaternion, [x, y, z, w] with w the cosine of half the angle{}",
+                             quaternion_text(matrix)));
   }
-  return x;
+  if (j.is_array() && j.size() == parts.size()) return;
+  const bool numbered = names.front().find_first_not_of("0123456789") == std::string::npos;
+  fail(path, j,
+       fmt::format("an array of {}{}", parts.size(), numbered ? "" : fmt::format(", [{}]", fmt::join(names, ", "))));
+}
+
+/// The numbers in the order of the query; a flag may be 0 or 1.
+std::vector<double> Reader::values(const json& j, std::span<const Field> fields, Scalar scalar) const {
+  if (!j.is_array()) fail("values", j, "an array");
+  if (j.size() != fields.size())
+    fail("values", fmt::format("has {} numbers: it must have {}, the inputs of the query", j.size(), fields.size()));
+  std::vector<double> numbers;
+  for (const Field& f : fields) {
+    const json& x = j[numbers.size()];
+    const std::string path = fmt::format("values[{}], {},", numbers.size(), f.name);
+    const bool flag = f.role == Role::flag && x.is_number();
+    if (flag && x != 0 && x != 1) fail(path, x, "true, false, 0 or 1");
+    const bool whole =
+        f.role == Role::index && x.is_number_float() && x.get<double>() == std::nearbyint(x.get<double>());
+    numbers.push_back(flag || whole ? x.get<double>() : number(x, path, f.role, scalar));
+  }
+  return numbers;
 }
 
 void Reader::inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix,
                     Scalar scalar, std::vector<double>& values) const {
   const std::vector<Child> parts = children(fields, prefix);
-  const bool array = is_array(parts);
-  if (array && (!j.is_array() || j.size() != parts.size())) {
-    fail(path, j, fmt::format("an array of {}", parts.size()));
-  }
-  if (!array) {
-    expect_object(j, path);
+  const bool is_vector = is_quaternion(parts) || are_numbers(parts, {"x", "y", "z"});
+  const bool array = is_vector ? !j.is_object() : is_array(parts);
+  if (array) {
+    expect_items(j, path, parts);
+  } else {
     std::vector<std::string_view> names;
     for (const Child& c : parts) names.push_back(c.component);
+    if (!j.is_object()) fail(path, j, fmt::format("an object with {}", fmt::join(names, ", ")));
     expect_only(j, path, names);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -189,17 +289,17 @@ void Reader::inputs(const json& j, const std::string& path, std::span<const Fiel
   }
 }
 
-const Query* Reader::query(const json& j) const {
-  const Query* q = find_query(text(j, "query"));
-  if (q == nullptr) fail("query", j, "a name that `list` shows");
+const Query* Reader::query(std::string_view name) const {
+  const Query* q = find_query(name);
+  if (q == nullptr) throw BadInput(fmt::format("{}: {}", where_, unknown_query_text(name)));
   return q;
 }
 
-Scalar Reader::scalar(const json& j) const {
+Scalar Reader::scalar(std::string_view name) const {
   for (Scalar s : {Scalar::float32, Scalar::float64}) {
-    if (text(j, "scalar") == name_of(s)) return s;
+    if (name == name_of(s)) return s;
   }
-  fail("scalar", j, "\"float\" or \"double\"");
+  fail("scalar", json(name), "\"float\" or \"double\"");
 }
 
 void Reader::origin(const json& j, Case& c) const {
@@ -364,19 +464,58 @@ ordered_json case_to_json(const Case& c) {
   return j;
 }
 
-Case case_from_json(const json& j, const std::string& where) {
-  const Reader reader(where);
-  reader.expect_object(j, "");
-  reader.expect_only(j, "", std::array{"query", "scalar", "inputs", "origin", "note", "expected", "worst"});
-  Case c;
-  c.query = reader.query(reader.member(j, "", "query"));
-  c.scalar = reader.scalar(reader.member(j, "", "scalar"));
-  reader.inputs(reader.member(j, "", "inputs"), "inputs", c.query->inputs, 0, c.scalar, c.values);
-  if (j.contains("origin")) reader.origin(j["origin"], c);
-  if (const auto invalid = c.query->broken(c.values)) {
+Decimals decimals_of_users() { return users_decimals; }
+void set_decimals_of_users(Decimals rule) { users_decimals = rule; }
+
+const RoundedNumbers& rounded_numbers() { return rounded; }
+
+std::string rounded_numbers_text() {
+  if (rounded.count == 0) return "";
+  const bool one = rounded.count == 1;
+  return fmt::format(
+      "{} of case files {} no {}, and {} read as the nearest {}, at most {:.2g} away; --exact refuses {}",
+      one ? "1 decimal" : fmt::format("{} decimals", rounded.count), one ? "is" : "are", one ? "float" : "floats",
+      one ? "was" : "were", one ? "one" : "ones", rounded.most, one ? "it" : "them");
+}
+
+namespace {
+
+Case checked_case(Case c, const std::string& where) {
+  if (const auto invalid = c.query->broken(c.values))
     throw BadInput(fmt::format("{}: inputs.{}", where, invalid->text()));
-  }
   return c;
+}
+
+}  // namespace
+
+Case case_from_json(const json& j, const std::string& where, Decimals decimals) {
+  const Reader reader(where, decimals);
+  reader.expect_object(j, "");
+  reader.expect_only(j, "", std::array{"query", "scalar", "inputs", "values", "origin", "note", "expected", "worst"});
+  Case c;
+  const json& query = reader.member(j, "", "query");
+  if (!query.is_string()) reader.fail("query", query, "a string");
+  c.query = reader.query(query.get_ref<const std::string&>());
+  c.scalar = reader.scalar(reader.text(reader.member(j, "", "scalar"), "scalar"));
+  if (!j.contains("values")) {
+    reader.inputs(reader.member(j, "", "inputs"), "inputs", c.query->inputs, 0, c.scalar, c.values);
+  } else if (j.contains("inputs")) {
+    reader.fail("values", "is given beside inputs: one of them must be left out");
+  } else {
+    c.values = reader.values(j["values"], c.query->inputs, c.scalar);
+  }
+  if (j.contains("origin")) reader.origin(j["origin"], c);
+  return checked_case(std::move(c), where);
+}
+
+Case case_from_values(std::string_view query, std::string_view scalar, std::span<const double> values,
+                      const std::string& where, Decimals decimals) {
+  const Reader reader(where, decimals);
+  Case c;
+  c.query = reader.query(query);
+  c.scalar = reader.scalar(scalar);
+  c.values = reader.values(json(values), c.query->inputs, c.scalar);
+  return checked_case(std::move(c), where);
 }
 
 json parse_json(std::string_view text, const std::string& where) {
@@ -404,8 +543,8 @@ std::string read_file(const std::filesystem::path& file) {
   return text;
 }
 
-Case read_case(const std::filesystem::path& file) {
-  Case c = case_from_json(parse_json(read_file(file), file.string()), file.string());
+Case read_case(const std::filesystem::path& file, Decimals decimals) {
+  Case c = case_from_json(parse_json(read_file(file), file.string()), file.string(), decimals);
   if (c.origin.empty()) c.origin = file.filename().string();
   return c;
 }

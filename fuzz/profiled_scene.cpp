@@ -51,6 +51,7 @@ const ProfiledScene* ProfiledScene::of_environment(const Query& query) {
     if (file == nullptr || *file == '\0') return nullptr;
     try {
       static const ProfiledScene scene(query, file);
+      use_measure({{}, scenes::limits_of(scene.scene_)});
       return &scene;
     } catch (const std::exception& e) {
       cannot_run(fmt::format("NEARMISS_PROFILE: {}", e.what()));

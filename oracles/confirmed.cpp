@@ -27,13 +27,13 @@ InternalError::InternalError(const Case& question, const Finding& first, const F
       question_(question) {}
 
 Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
-                  const SecondLook& needs_second) {
+                  const SecondLook& needs_second, const SceneLimits* scene) {
   const bool in_full = detail == Detail::full;
-  const Finding first = judge(question, answer, standard, in_full ? Detail::verdict : detail);
+  const Finding first = judge(question, answer, standard, in_full ? Detail::verdict : detail, scene);
   if (!accuses(first) && !in_full) return first;
   const bool may_be_saved = !in_full && needs_second && first.is_proved() && first.settled;
   if (may_be_saved && !needs_second(first)) return first;
-  Finding full = judge(question, answer, standard, Detail::full);
+  Finding full = judge(question, answer, standard, Detail::full, scene);
   if (accuses(first) && !same_word(first, full)) throw InternalError(question, first, full);
   if (!in_full) full.branches = first.branches;
   return full;

@@ -26,15 +26,15 @@ class InternalError : public std::runtime_error {
 /// Tells whether a settled finding needs a second judgement.
 using SecondLook = std::function<bool(const Finding&)>;
 
-/// Judges as judge() does. Where the first judgement accuses the subject (a violation, a wrong decision, a number that
-/// is not finite), judges the answer a second time with Detail::full and returns that second judgement. With
-/// Detail::full the second judgement is always the one returned. Throws InternalError if the two differ in the verdict
-/// or the truth. They may differ in which member is worst, because the first judgement knows distances only between
-/// bounds.
+/// Judges as judge() does, with these requirements of a scene. Where the first judgement accuses the subject (a
+/// violation, a wrong decision, a number that is not finite), judges the answer a second time with Detail::full and
+/// returns that second judgement. With Detail::full the second judgement is always the one returned. Throws
+/// InternalError if the two differ in the verdict or the truth. They may differ in which member is worst, because the
+/// first judgement knows distances only between bounds.
 ///
 /// `needs_second` may save the second judgement of a proved violation that is settled (Finding::settled): where it
 /// returns false, the first judgement is returned.
 Finding confirmed(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
-                  const SecondLook& needs_second = {});
+                  const SecondLook& needs_second = {}, const SceneLimits* scene = scene_limits());
 
 }  // namespace nearmiss

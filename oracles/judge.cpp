@@ -190,12 +190,15 @@ double length_error(const Query& query, const Answer& answer, Scalar scalar) {
 /// Builds a finding, member by member.
 class Judgement {
  public:
-  Judgement(const Case& question, const Answer& answer, const Standard& standard, Detail detail)
+  Judgement(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
+            const SceneLimits* scene)
       : question_(question),
         query_(*question.query),
         answer_(answer),
         contract_(standard.contract),
         promised_(standard.promised),
+        scene_(standard.promised ? nullptr : scene),
+        length_of_epsilon_(unit_roundoff(question.scalar) * largest_length(question)),
         detail_(detail),
         x_(question, answer) {}
 
@@ -230,7 +233,7 @@ class Judgement {
     here_ = x_.within(0);
     ulps_of_intervals_ = here_.ulps;
     const bool vague = !(here_.ulps_at_most_of_any - here_.ulps <= vague_ulps);
-    if (!here_.decided() || detail_ == Detail::full || (detail_ == Detail::forward && vague)) {
+    if (!here_.decided() || detail_ == Detail::full || (detail_ == Detail::forward && vague) || scene_is_open()) {
       if (!here_.decided()) f_.decided_by = Stage::exact;
       here_ = x_.exactly();
     }
@@ -262,7 +265,9 @@ class Judgement {
     MemberFinding m;
     m.disagreement = answer_.yes ? Disagreement::false_hit : Disagreement::false_miss;
     m.backward = x_.backward_of_decision(rung_of_whole()).value_or(Backward{0});
-    if (m.backward->above >= contract_.backward) {
+    if (scene_ != nullptr) {
+      judge_gap(m);
+    } else if (m.backward->above >= contract_.backward) {
       breaks(m, Clause::backward);
     } else if (contract_.exact_decisions) {
       breaks(m, Clause::exact_decisions);
@@ -341,7 +346,9 @@ class Judgement {
     MemberFinding m = member_finding(member, wrong(query_, part.role, answer_.values[std::size_t(worst)]), worst);
     m.backward = backward.value_or(Backward{0});
     if (!decision_differs_) m.forward_ulps = seen.ulps, m.forward_absolute = seen.absolute;
-    if (m.backward->above >= contract_.backward) {
+    if (scene_ != nullptr && is_of_scene(part.role)) {
+      judge_by_scene(m, part.role);
+    } else if (m.backward->above >= contract_.backward) {
       breaks(m, Clause::backward);
       name_place(m, contract_.backward, 1);
     } else if (m.forward_ulps > contract_.forward) {
@@ -350,6 +357,79 @@ class Judgement {
     }
     f_.members.push_back(std::move(m));
   }
+
+  // What a scene requires. It states lengths and times; they judge the decision, places, depths, times and flags.
+
+  static bool is_length(Role role) { return role == Role::position || role == Role::depth; }
+  static bool is_of_scene(Role role) {
+    return is_length(role) || role == Role::time || role == Role::flag || role == Role::index;
+  }
+  /// The distance of the number from a right one that the scene tolerates; empty where it states none.
+  std::optional<double> tolerated(Role role) const {
+    return role == Role::time ? scene_->time : is_length(role) ? std::optional(scene_->error) : std::nullopt;
+  }
+  /// The enclosure leaves open whether some number is good enough for the scene.
+  bool scene_is_open() const {
+    if (scene_ == nullptr || !here_.decided() || here_.may_be_yes != answer_.yes) return false;
+    for (std::size_t member = 0; member < query_.layout.parts.size(); ++member) {
+      const Part& part = query_.layout.parts[member];
+      const std::optional<double> most = tolerated(part.role);
+      if (!most || here_.members[member].absolute > *most) continue;
+      for (std::size_t i = part.begin; i < part.end; ++i) {
+        if (is_given(i) && std::isfinite(answer_.values[i]) && !here_.error[i].empty() &&
+            here_.error[i].furthest_from_zero() > *most) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+  void exceeds_scene(MemberFinding& m, double error, double most, std::string_view what) const {
+    if (!(error > most)) return;
+    m.broken = Clause::scene;
+    m.times_tolerated = most > 0 ? error / most : HUGE_VAL;
+    m.clause = fmt::format("the scene {} requires {}", scene_->scene, what);
+  }
+  /// The depth of a missed contact, or the gap of a phantom one. Where the limit lies above the proved rung and below
+  /// the next one, the bound is refined to a sixteenth.
+  void judge_gap(MemberFinding& m) const {
+    const double most = answer_.yes ? scene_->error : scene_->missed_depth;
+    const auto beyond = [&](double above) { return above * length_of_epsilon_ > most; };
+    double above = m.backward->above, step = std::max(above, 1.0);
+    for (int halvings = 4; halvings > 0 && !beyond(above) && beyond(above + step); --halvings) {
+      step /= 2;
+      const Enclosure e = x_.within(above + step);
+      if (answer_.yes ? !e.may_be_yes : !e.may_be_no) above += step;
+    }
+    exceeds_scene(m, above * length_of_epsilon_, most,
+                  answer_.yes ? fmt::format("phantom contacts to be at most {} {} apart", most, scene_->unit)
+                              : fmt::format("missed contacts to be at most {} {} deep", most, scene_->unit));
+  }
+  /// A flag, what stands beside a wrong flag, and a member beside a wrong decision have no distance to a right one: the
+  /// distance of the nearest input that they are right for counts.
+  void judge_by_scene(MemberFinding& m, Role role) const {
+    const std::optional<double> most = tolerated(role);
+    if (decision_differs_ || role == Role::flag || role == Role::index || follows_wrong_flag(m.member)) {
+      exceeds_scene(m, m.backward->above * length_of_epsilon_, scene_->error,
+                    fmt::format("{} to be right for inputs within {} {}", query_.member_name(std::size_t(m.member)),
+                                scene_->error, scene_->unit));
+    } else if (most) {
+      exceeds_scene(m, m.forward_absolute, *most,
+                    role == Role::time ? fmt::format("times of impact within {} s", *most)
+                                       : fmt::format("places and depths within {} {}", *most, scene_->unit));
+    }
+    if (m.breaks()) name_place(m, scene_->error / length_of_epsilon_, 1);
+  }
+  bool follows_wrong_flag(int member) const {
+    return member > 0 && query_.layout.parts[std::size_t(member - 1)].role == Role::flag && !f_.members.empty() &&
+           f_.members.back().member == member - 1;
+  }
+  /// The least backward error, in epsilon, of a combination of members that is told.
+  double bound_of_combination() const {
+    if (scene_ == nullptr || !(length_of_epsilon_ > 0)) return contract_.backward;
+    return std::max(contract_.backward, scene_->error / length_of_epsilon_);
+  }
+
   /// The clause in words; for the clauses without a contract, the number that breaks it.
   std::string words_of(Clause c, int number) const {
     switch (c) {
@@ -358,6 +438,7 @@ class Judgement {
       case Clause::backward: return fmt::format("backward error at most {} epsilon", contract_.backward);
       case Clause::forward: return fmt::format("forward error at most {} ulp", contract_.forward);
       case Clause::unit: return fmt::format("normals of length 1 within {} epsilon", contract_.unit);
+      case Clause::scene:
       case Clause::finite_numbers:
       case Clause::no_negative_time: break;
     }
@@ -390,6 +471,7 @@ class Judgement {
     };
     if (m.disagreement == Disagreement::not_finite) return HUGE_VAL;
     if (m.disagreement == Disagreement::not_unit) return times(std::abs(f_.unit_error), contract_.unit);
+    if (m.broken == Clause::scene) return m.times_tolerated;
     const double backward = m.backward ? m.backward->above : 0.0;
     if (!m.breaks()) return backward;
     return std::max({times(backward, contract_.backward), times(forward_ulps, contract_.forward),
@@ -410,7 +492,9 @@ class Judgement {
     const MemberFinding* head = f_.headline_member();
     if (head != nullptr && head->breaks()) return violated(head->disagreement, head->broken, head->clause);
     // No member differs alone; together they may.
-    if (f_.backward && f_.backward->above >= contract_.backward) return combination(Clause::backward);
+    const bool is_combination = scene_ == nullptr || head == nullptr;  // a scene may tolerate the member that differs
+    if (is_combination && f_.backward && f_.backward->above >= bound_of_combination())
+      return combination(Clause::backward);
     if (!decision_differs_ && f_.forward_ulps > contract_.forward) return combination(Clause::forward);
     if (here_.may_match && head == nullptr) return;  // agrees
     f_.verdict = Verdict::not_proved;
@@ -460,6 +544,7 @@ class Judgement {
   }
   bool is_settled() const {
     if (detail_ == Detail::full || f_.decided_by == Stage::exact) return true;
+    if (scene_ != nullptr) return false;
     if (decision_differs_) return f_.members.front().breaks();
     for (std::size_t i = 0; i < query_.layout.parts.size(); ++i) {
       if (!breaks_as_in_full(i, query_.layout.parts[i])) return false;
@@ -482,6 +567,8 @@ class Judgement {
   const Answer& answer_;
   const collide::Contract& contract_;
   const bool promised_;
+  const SceneLimits* const scene_;  ///< nullptr: no scene
+  const double length_of_epsilon_;  ///< how far a coordinate moves for a backward error of one epsilon
   const Detail detail_;
   const Examination x_;
   Enclosure here_;
@@ -491,6 +578,15 @@ class Judgement {
 };
 
 }  // namespace
+
+double largest_length(const Case& question) {
+  double largest = 0;
+  for (std::size_t i = 0; i < question.values.size(); ++i) {
+    const Role role = question.query->inputs[i].role;
+    if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(question.values[i]));
+  }
+  return largest;
+}
 
 double rung(int k) { return k == 0 ? 0.0 : std::ldexp(1.0, k - 1); }
 
@@ -520,10 +616,11 @@ Finding not_asked(Preconditions unmet) {
 
 }  // namespace
 
-Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail) {
+Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
+              const SceneLimits* scene) {
   if (const Preconditions unmet = unmet_by(question, standard.required); !unmet.empty()) return not_asked(unmet);
   const FloatingPointScope standard_modes;
-  return Judgement(question, answer, standard, detail).finding();
+  return Judgement(question, answer, standard, detail, scene).finding();
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include "impl/catalogue/case.hpp"
 #include "impl/subject/standard.hpp"
 #include "oracles/exact/enclosure.hpp"
+#include "oracles/scene_limits.hpp"
 
 namespace nearmiss {
 
@@ -18,7 +19,7 @@ enum class Verdict {
   agrees,             ///< the oracle proves no difference above one ulp
   not_proved,         ///< differs, but not provably by more than the contract allows
   violates_contract,  ///< proved: differs by more than the contract allows
-  exceeds_measure,    ///< proved: differs by more than the measure, without a contract
+  exceeds_measure,    ///< proved, without a contract: differs by more than the measure, or than a scene tolerates
   out_of_domain,      ///< the contract does not cover this input
   cannot_answer,      ///< the subject has no answer to this case; never a miss
   broke,              ///< exception, abort, crash, time or memory limit
@@ -50,8 +51,8 @@ inline constexpr int disagreement_count = int(Disagreement::not_unit) + 1;
 std::string_view name_of(Verdict v);
 std::string_view name_of(Disagreement d);
 
-/// The clause of a contract that an answer breaks. The last two clauses hold without a contract too.
-enum class Clause { none, exact_decisions, backward, forward, unit, finite_numbers, no_negative_time };
+/// The clause of a contract that an answer breaks, or what a scene requires of it. The last two clauses always hold.
+enum class Clause { none, exact_decisions, backward, forward, unit, scene, finite_numbers, no_negative_time };
 
 /// A proved lower bound on the backward error: no input within `above` * epsilon has an exact answer that matches the
 /// given one. A rung of the ladder 0, 1, 2, 4 ... 2^50.
@@ -75,6 +76,7 @@ struct MemberFinding {
   int worst = -1;                ///< index among the query's outputs of the number with this distance
   Clause broken = Clause::none;  ///< the clause of the contract that the member breaks
   std::string clause;            ///< the broken clause in words
+  double times_tolerated = 0;    ///< the proved error over what the scene tolerates; 0 for any other clause
 
   bool breaks() const { return broken != Clause::none; }
 };
@@ -123,7 +125,10 @@ enum class Detail {
 /// Judges `answer` to a valid case by `standard`. A case outside the subject's preconditions gets not_asked, whatever
 /// the answer. Thread-safe. The result does not depend on the caller's floating-point modes; this holds for every call
 /// of the oracle.
-Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail);
+///
+/// `scene` holds for a subject that promises nothing: it replaces the measure where the scene states what it requires.
+Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
+              const SceneLimits* scene = scene_limits());
 
 /// The exact answers to the case, enclosed by intervals and compared with the answer: the cheapest of all judgements,
 /// without a verdict. Thread-safe. For an answer with the status answered.
@@ -162,6 +167,9 @@ struct Truth {
   double margin_at_least = -1;
 };
 Truth truth_of(const Case& question);
+
+/// The largest coordinate, size or offset of the case.
+double largest_length(const Case& question);
 
 /// The ladder's k-th rung: 0, 1, 2, 4 ... 2^50.
 double rung(int k);

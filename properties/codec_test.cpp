@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/generator.hpp"
+#include "corpus/near_words.hpp"
 #include "corpus/store.hpp"
 #include "properties/support.hpp"
 
@@ -158,16 +160,14 @@ const BadFile bad_files[] = {
     {"NotJson", "hello", {"file.json", "line 1"}},
     {"NoObject", "[1, 2]", {"the case is [1,2]", "an object"}},
     {"NoQuery", R"({"scalar": "double", "inputs": {}})", {"query is missing"}},
-    {"UnknownQuery",
-     R"({"query": "moving_cone", "scalar": "double", "inputs": {}})",
-     {"query is \"moving_cone\"", "list"}},
+    {"UnknownQuery", R"({"query": "moving_cone", "scalar": "double", "inputs": {}})", {"unknown query 'moving_cone'"}},
     {"QueryIsANumber", R"({"query": 3, "scalar": "double", "inputs": {}})", {"query is 3", "a string"}},
     {"UnknownScalar",
      R"({"query": "moving_point_sphere", "scalar": "half", "inputs": {}})",
      {"scalar is \"half\"", "\"float\" or \"double\""}},
     {"SurplusField",
      R"({"query": "moving_point_sphere", "scalar": "double", "inputs": {}, "colour": 1})",
-     {"colour is unknown"}},
+     {"colour is unknown", "it must be query, scalar, inputs, values, origin"}},
     {"InputsAreAList",
      R"({"query": "moving_point_sphere", "scalar": "double", "inputs": [1]})",
      {"inputs is [1]", "an object"}},
@@ -189,9 +189,24 @@ const BadFile bad_inputs[] = {
     {"LongVector",
      R"({"point": [0,0,0,0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
      {"inputs.point is [0,0,0,0]", "an array of 3"}},
-    {"VectorByNames",
-     R"({"point": {"x": 0, "y": 0, "z": 0}, "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
-     {"inputs.point is {", "an array of 3"}},
+    {"VectorByOtherNames",
+     R"({"point": {"a": 0, "y": 0, "z": 0}, "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.point.a is unknown", "x, y, z"}},
+    {"VectorAsText",
+     R"({"point": "0 0 0", "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.point is \"0 0 0\"", "an array of 3, [x, y, z]"}},
+    {"SphereAsList",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": [0,0,5,1], "solid": true})",
+     {"inputs.sphere is [0,0,5,1]", "an object with center, radius"}},
+    {"Direction",
+     R"({"point": [0,0,0], "direction": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.direction is unknown: it must be point, velocity, sphere, solid", "did you mean velocity?"}},
+    {"Ray",
+     R"({"ray": {"origin": [0,0,0], "direction": [0,0,1]}, "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.ray is unknown", "a ray is a point and a velocity"}},
+    {"MistypedMember",
+     R"({"point": [0,0,0], "velocity": [0,0,1], "sphere": {"centre": [0,0,5], "radius": 1}, "solid": true})",
+     {"inputs.sphere.centre is unknown: it must be center, radius", "did you mean center?"}},
     {"TextForNumber",
      R"({"point": [0,"0",0], "velocity": [0,0,1], "sphere": {"center": [0,0,5], "radius": 1}, "solid": true})",
      {"inputs.point.y is \"0\"", "a number"}},
@@ -248,6 +263,124 @@ TEST(BadInputs, AreRefusedWhenAFloatCannotHoldThem) {
   const std::string text = R"({"query": "closest_point_segment", "scalar": "float",
     "inputs": {"segment": {"v0": [0, 0, 0.1], "v1": [1, 0, 0]}, "point": [0, 0, 0]}})";
   expect_refused(text, {"inputs.segment.v0.z is 0.1", "exactly a float", "0.10000000149011612"});
+}
+
+// What people write who know another library.
+
+TEST(NearNames, OfQueriesAreThoseWithTheSameMeaning) {
+  const std::pair<const char*, const char*> meant[] = {{"ray_triangle", "moving_point_triangle"},
+                                                       {"rayTriangle", "moving_point_triangle"},
+                                                       {"raycast-sphere", "moving_point_sphere"},
+                                                       {"ray_aabb", "ray_aabox"},
+                                                       {"ray_box", "moving_point_box"},
+                                                       {"swept_sphere_triangle", "moving_sphere_triangle"},
+                                                       {"sphere_obb_intersect", "sphere_box_overlap"},
+                                                       {"obb_obb_intersection", "box_box_overlap"},
+                                                       {"sphere_sphere", "sphere_sphere_overlap"},
+                                                       {"box_box_depth", "box_box_penetration"},
+                                                       {"closest_point_on_segment", "closest_point_segment"},
+                                                       {"moving_spere_box", "moving_sphere_box"},
+                                                       {"sphere_box_penetratoin", "sphere_box_penetration"}};
+  for (const auto& [name, query] : meant) {
+    const std::vector<std::string> near = nearest_queries(name);
+    EXPECT_NE(std::find(near.begin(), near.end(), query), near.end()) << name << ": " << testing::PrintToString(near);
+  }
+  EXPECT_TRUE(nearest_queries("juggling").empty());
+}
+
+std::string box_case(const std::string& box) {
+  return R"({"query": "moving_point_box", "scalar": "float", "inputs": {"point": [-4, 0, 0], "velocity": [1, 0, 0], "box": )" +
+         box + "}}";
+}
+
+TEST(NearNames, OfFieldsSayHowToGiveThem) {
+  expect_refused(box_case(R"({"min": [0,0,0], "max": [1,1,1]})"),
+                 {"inputs.box.max is unknown: it must be center, half, orientation",
+                  "a box has the center (min + max) / 2 and the half extents (max - min) / 2"});
+  expect_refused(box_case(R"({"center": [0,0,0], "half": [1,1,1], "rotation": [0,0,0,1]})"),
+                 {"inputs.box.rotation is unknown", "did you mean orientation?"});
+  expect_refused(R"({"query": "ray_aabox", "scalar": "float", "inputs": {"ray": {"origin": [0,0,0], "dir": [1,0,0]},
+                     "aabox": {"min": [0,0,0], "max": [1,1,1]}}})",
+                 {"inputs.ray.dir is unknown", "did you mean direction?"});
+  expect_refused(R"({"query": "ray_aabox", "scalar": "float", "inputs": {"ray": {"origin": [0,0,0],
+                     "direction": [1,0,0]}, "aabox": {"center": [0,0,0], "half": [1,1,1]}}})",
+                 {"inputs.aabox.center is unknown", "an aabox has min = center - half and max = center + half"});
+}
+
+TEST(Vectors, AndQuaternionsAreArraysOrObjects) {
+  const Case c = from_text(box_case(R"({"center": [1,2,3], "half": [1,1,1], "orientation": [0, 0.5, 0, 1]})"));
+  const Case same = from_text(box_case(
+      R"({"center": {"x": 1, "y": 2, "z": 3}, "half": [1,1,1], "orientation": {"w": 1, "x": 0, "y": 0.5, "z": 0}})"));
+  expect_same(c, same);
+  EXPECT_EQ(c.values[13], 0.5);
+  EXPECT_EQ(c.values[15], 1);
+  const auto with = [](const std::string& orientation) {
+    return box_case(R"({"center": [1,2,3], "half": [1,1,1], "orientation": )" + orientation + "}");
+  };
+  expect_refused(with("[0, 0, 1]"), {"inputs.box.orientation is [0,0,1]", "an array of 4, [x, y, z, w]"});
+  // A matrix is not turned into a quaternion, because that rounds; the message has the quaternion.
+  expect_refused(with("[[0, -1, 0], [1, 0, 0], [0, 0, 1]]"),
+                 {"is a matrix: it must be a quaternion, [x, y, z, w]", "near [0, 0, 0.707106781, 0.707106781]"});
+  expect_refused(with("[1, 0, 0, 0, -1, 0, 0, 0, -1]"), {"near [1, 0, 0, 0]"});
+  expect_refused(with("[[-1, 0, 0], [0, 0, 1], [0, 1, 0]]"), {"near [0, 0.707106781, 0.707106781, 0]"});
+  expect_refused(with("[[2, 0, 0], [0, 2, 0], [0, 0, 2]]"), {"is a matrix: it must be a quaternion"});
+}
+
+/// The case of a public report, in both forms: no number of it is a float.
+const char* const with_members = R"({"query": "sphere_sphere_overlap", "scalar": "float", "inputs": {
+    "sphere1": {"center": [-0.187414, 1.36075091, 0], "radius": 0.1},
+    "sphere2": {"center": [0.3, 16777217, 0], "radius": 1}}})";
+const char* const with_values = R"({"query": "sphere_sphere_overlap", "scalar": "float",
+    "values": [-0.187414, 1.36075091, 0, 0.1, 0.3, 16777217, 0, 1]})";
+
+Case read_nearest(const std::string& text) {
+  return case_from_json(parse_json(text, "file.json"), "file.json", Decimals::nearest);
+}
+
+TEST(Decimals, MeanTheNearestNumberInBothForms) {
+  const RoundedNumbers before = rounded_numbers();
+  const Case c = read_nearest(with_members);
+  EXPECT_EQ(rounded_numbers().count - before.count, 5u);
+  EXPECT_EQ(rounded_numbers().most, 1) << "16777217 is read as 16777216";
+  expect_same(c, read_nearest(with_values));
+  EXPECT_EQ(rounded_numbers().count - before.count, 10u);
+  EXPECT_EQ(c.values[0], double(-0.187414f));
+  EXPECT_EQ(c.values[1], double(1.36075091f));
+  EXPECT_EQ(c.values[5], 16777216);
+  EXPECT_NE(rounded_numbers_text().find(" decimals of case files are no floats"), std::string::npos);
+  expect_same(c, read_nearest(case_to_json(c).dump()));
+  EXPECT_EQ(rounded_numbers().count - before.count, 10u) << "the numbers of a written case are exact";
+}
+
+TEST(Decimals, AreRefusedInBothFormsWhereACaseMustBeExact) {
+  expect_refused(with_members, {"inputs.sphere1.center.x is -0.187414", "exactly a float"});
+  expect_refused(with_values, {"values[0], sphere1.center.x, is -0.187414", "exactly a float"});
+}
+
+TEST(Decimals, AreRefusedWhereNoFloatIsNear) {
+  for (const auto& [number, rule] : {std::pair("1e39", "within the range of float"), std::pair("1e-60", "from zero")}) {
+    try {
+      read_nearest(std::string(R"({"query": "sphere_sphere_overlap", "scalar": "float", "values": [)") + number +
+                   ", 0, 0, 1, 0, 0, 0, 1]}");
+      ADD_FAILURE() << number;
+    } catch (const BadInput& e) {
+      EXPECT_NE(std::string(e.what()).find(rule), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(Values, MayHaveFlagsAsNumbersAndStandAlone) {
+  const char* const text = R"({"query": "moving_point_sphere", "scalar": "double", "values": [0,0,0,0,0,1,0,0,5,1,%]})";
+  const auto with = [&](const std::string& flag) {
+    std::string t = text;
+    return t.replace(t.find('%'), 1, flag);
+  };
+  EXPECT_EQ(from_text(with("1")).values[10], 1);
+  expect_same(from_text(with("1")), from_text(with("true")));
+  expect_refused(with("2"), {"values[10], solid, is 2", "true, false, 0 or 1"});
+  expect_refused(with("1, 7"), {"values has 12 numbers: it must have 11"});
+  expect_refused(R"({"query": "sphere_sphere_overlap", "scalar": "double", "inputs": {}, "values": []})",
+                 {"values is given beside inputs"});
 }
 
 TEST(BadInputs, AreRefusedForAnIndexThatIsNoInteger) {

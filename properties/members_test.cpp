@@ -158,6 +158,64 @@ TEST(NormalError, OfAConeIsOneOfComponents) {
   EXPECT_GE(f.forward_ulps, 8 - 0.5);
 }
 
+// What a scene requires, in its lengths and times, in place of a share of the coordinates.
+
+/// The measure, for subjects that promise nothing.
+const Standard by_measure{
+    {.backward = 1e-4 / unit_roundoff(Scalar::float64), .unit = 1e-4 / unit_roundoff(Scalar::float64)}, false};
+const SceneLimits world{"world", "yard", 0.01, 0.02, 0.001};
+/// A ball of radius 1 that flies at a wall, 17,000 yards from the origin; exactly it hits at time 2, at x = 17004.
+Case far_flight() {
+  return asked("moving_sphere_box", {17000, 0, 0, 1, 1.5, 0, 0, 17005, 0, 0, 1, 40, 40, 0, 0, 0, 1});
+}
+Answer far_hit(double time, double x) { return yes({time, x, 0, 0, -1, 0, 0}); }
+
+TEST(SceneLimits, BoundPlacesAndTimesByLengthsAndSeconds) {
+  const auto judged = [](double time, double x, Detail detail) {
+    return judge(far_flight(), far_hit(time, x), by_measure, detail, &world);
+  };
+  for (const Detail detail : {Detail::verdict, Detail::full}) {
+    EXPECT_FALSE(judged(2, 17004, detail).is_proved());
+    EXPECT_FALSE(judged(2.0009, 17004.009, detail).is_proved());
+    const Finding place = judged(2, 17004.011, detail), time = judged(2.0011, 17004, detail);
+    EXPECT_EQ(place.verdict, Verdict::exceeds_measure);
+    EXPECT_EQ(place.broken, Clause::scene);
+    EXPECT_EQ(place.clause, "the scene world requires places and depths within 0.01 yard");
+    EXPECT_EQ(time.clause, "the scene world requires times of impact within 0.001 s");
+  }
+  EXPECT_FALSE(judge(far_flight(), far_hit(2, 17004.5), by_measure, Detail::full, nullptr).is_proved())
+      << "1e-4 of 17,000";
+  const Standard promise{by_measure.contract, true};
+  EXPECT_FALSE(judge(far_flight(), far_hit(2, 17004.5), promise, Detail::full, &world).is_proved())
+      << "a promise stays";
+}
+
+TEST(SceneLimits, BoundDecisionsByDepthAndGap) {
+  const auto overlap = [](double depth, bool says) {
+    const Case c = asked("sphere_sphere_overlap", {17000, 0, 0, 1, 17002 - depth, 0, 0, 1});
+    Answer a = yes({});
+    a.yes = says;
+    return judge(c, a, by_measure, Detail::full, &world);
+  };
+  EXPECT_FALSE(overlap(0.019, false).is_proved());
+  EXPECT_TRUE(overlap(0.1, false).is_proved());
+  EXPECT_EQ(overlap(0.1, false).clause, "the scene world requires missed contacts to be at most 0.02 yard deep");
+  EXPECT_FALSE(overlap(-0.009, true).is_proved());
+  EXPECT_TRUE(overlap(-0.05, true).is_proved());
+  EXPECT_EQ(overlap(-0.05, true).clause, "the scene world requires phantom contacts to be at most 0.01 yard apart");
+}
+
+/// A scene states nothing about them.
+TEST(SceneLimits, LeaveNormalsToTheMeasure) {
+  Answer turned = far_hit(2, 17004);
+  turned.values[4] = -std::cos(1e-5), turned.values[5] = std::sin(1e-5);
+  EXPECT_FALSE(judge(far_flight(), turned, by_measure, Detail::full, &world).is_proved());
+  turned.values[4] = -std::cos(0.1), turned.values[5] = std::sin(0.1);
+  const Finding f = judge(far_flight(), turned, by_measure, Detail::full, &world);
+  EXPECT_EQ(f.broken, Clause::backward);
+  EXPECT_EQ(f.disagreement, Disagreement::wrong_normal);
+}
+
 /// An unbounded enclosure allows every nearby finite number, but an infinite number is wrong here.
 TEST(InfiniteNumbers, AreNoneWhereTheExactOneIsOrdinary) {
   const Case c = asked("sphere_sphere_penetration", {-1e200, 0, 0, 1, 1e200, 0, 0, 1});

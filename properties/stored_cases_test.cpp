@@ -1,7 +1,9 @@
 /// Every stored case agrees with its file name and its expectations.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -86,6 +88,21 @@ TEST_P(StoredCases, ComeBackFromJson) {
     const Case back = case_from_json(parse_json(case_to_json(s.question).dump(), "text"), "text");
     EXPECT_EQ(back.values, s.question.values) << s.file;
   }
+}
+
+/// Whatever the rule is for the cases of users.
+TEST(StoredCase, IsReadExactly) {
+  ASSERT_EQ(decimals_of_users(), Decimals::nearest);
+  const std::string file = testing::TempDir() + "/nearmiss-stored-" + std::to_string(::getpid()) + ".json";
+  write_file(file, R"({"query": "sphere_sphere_overlap", "scalar": "float", "values": [0.1, 0, 0, 1, 2, 0, 0, 1],
+                       "note": "0.1 is no float"})");
+  EXPECT_THROW(read_stored_case(file), BadInput);
+  std::filesystem::remove(file);
+  const std::uint64_t before = rounded_numbers().count;
+  std::size_t read = 0;
+  for (const Query& q : catalogue()) read += stored_cases(q).size() + worst_cases(q).size();
+  EXPECT_GT(read, catalogue().size());
+  EXPECT_EQ(rounded_numbers().count, before);
 }
 
 INSTANTIATE_FOR_EVERY_QUERY(Every, StoredCases, testing::ValuesIn(every_query()), testing::PrintToStringParamName());

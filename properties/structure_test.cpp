@@ -181,6 +181,7 @@ TEST(Structure, EveryKernelIsCompiledStrictly) {
   std::size_t kernels = 0;
   for (const std::string& file : sources()) {
     if (!file.starts_with(detail) || file.find("/strict_") != std::string::npos) continue;
+    if (file == detail + "refuse_argument.hpp") continue;  // it computes nothing
     const std::vector<std::string> included = includes_of(file);
     EXPECT_EQ(std::count(included.begin(), included.end(), detail + "strict_begin.hpp"), 1) << file;
     ASSERT_FALSE(included.empty());

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
@@ -10,6 +12,30 @@
 namespace nearmiss {
 
 namespace {
+
+/// The largest number with this role; 0 without one.
+double largest_of(const Case& c, Role role) {
+  double largest = 0;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.query->inputs[i].role == role) largest = std::max(largest, std::abs(c.values[i]));
+  }
+  return largest;
+}
+
+/// How many times longer or slower the follow-up is; at least 1.
+double times_larger(double own, double follow_up) { return own > 0 && follow_up > own ? follow_up / own : 1; }
+
+/// A scene states what it requires of its own cases, in lengths and times. Of a follow-up that is larger or slower, as
+/// much more is tolerated. Empty without a scene.
+std::optional<SceneLimits> limits_for(const Case& own, const Case& follow_up) {
+  if (scene_limits() == nullptr) return std::nullopt;
+  SceneLimits wider = *scene_limits();
+  const double longer = times_larger(largest_length(own), largest_length(follow_up));
+  const double slower = times_larger(largest_of(follow_up, Role::velocity), largest_of(own, Role::velocity));
+  wider.error *= longer, wider.missed_depth *= longer;
+  if (wider.time) *wider.time *= longer * slower;
+  return wider;
+}
 
 bool proves_wrong(const Finding& f) { return f.is_proved() || f.verdict == Verdict::broke; }
 
@@ -114,7 +140,9 @@ RelationFinding relate(const Relation& relation, const FollowUps& follow_ups, co
   if (r.agreement == Agreement::same && !some_broke) return r;
   for (std::size_t i = 0; i < r.cases.size(); ++i) {
     const Standard standard = subject.standard_for(r.cases[i].query->name);
-    r.findings.push_back(confirmed(r.cases[i], r.answers[i], standard, Detail::verdict));
+    const std::optional<SceneLimits> limits = limits_for(question, r.cases[i]);
+    r.findings.push_back(
+        confirmed(r.cases[i], r.answers[i], standard, Detail::verdict, {}, limits ? &*limits : nullptr));
   }
   r.broken = broken_promise_text(r, subject, follow_ups, bit_for_bit, r.breach);
   r.oracle = oracle_error_text(r, subject, follow_ups);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -12,8 +11,6 @@
 namespace nearmiss::scenes {
 
 namespace {
-
-using nlohmann::json;
 
 /// Calls `each` with every line that is not blank, and with where it is: "FILE:3".
 template <class Each>
@@ -29,62 +26,6 @@ void for_each_line(const std::filesystem::path& file, const Each& each) {
     if (line.find_first_not_of(" \t") != std::string_view::npos)
       each(line, number, fmt::format("{}:{}", file.string(), number));
   }
-}
-
-Case empty_case(const std::string& query, const std::string& scalar, const std::string& where) {
-  Case c;
-  c.query = find_query(query);
-  if (c.query == nullptr)
-    throw BadInput(fmt::format("{}: query is \"{}\": it must be a name that `list` shows", where, query));
-  if (scalar != name_of(Scalar::float32) && scalar != name_of(Scalar::float64))
-    throw BadInput(fmt::format("{}: scalar is \"{}\": it must be \"float\" or \"double\"", where, scalar));
-  c.scalar = scalar == name_of(Scalar::float32) ? Scalar::float32 : Scalar::float64;
-  return c;
-}
-
-/// Takes the values of a case, and checks them. The text of a float is rounded to the float that it was made from.
-Case with_values(Case c, std::vector<double> values, const std::string& where) {
-  const std::vector<Field>& fields = c.query->inputs;
-  if (values.size() != fields.size())
-    throw BadInput(fmt::format("{}: values has {} numbers: it must have {}, the inputs of {}", where, values.size(),
-                               fields.size(), c.query->name));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (c.scalar == Scalar::float32) values[i] = double(float(values[i]));
-    if (!std::isfinite(values[i]))
-      throw BadInput(fmt::format("{}: values[{}], {}, is {}: it must be finite", where, i, fields[i].name, values[i]));
-    const bool whole = fields[i].role == Role::flag || fields[i].role == Role::index;
-    if (whole && values[i] != std::nearbyint(values[i]))
-      throw BadInput(fmt::format("{}: values[{}], {}, is {}: it must be whole", where, i, fields[i].name, values[i]));
-  }
-  c.values = std::move(values);
-  if (const auto invalid = c.query->broken(c.values)) throw BadInput(fmt::format("{}: {}", where, invalid->text()));
-  return c;
-}
-
-std::string text_member(const json& j, const char* name, const std::string& where) {
-  const auto found = j.find(name);
-  if (found == j.end() || !found->is_string()) throw BadInput(fmt::format("{}: {} must be a text", where, name));
-  return found->get<std::string>();
-}
-
-Case case_of_line(std::string_view line, const std::string& where) {
-  const json j = parse_json(line, where);
-  if (!j.is_object()) throw BadInput(fmt::format("{}: it must be an object", where));
-  if (j.contains("inputs")) return case_from_json(j, where);
-  for (const auto& item : j.items()) {
-    if (item.key() != "query" && item.key() != "scalar" && item.key() != "values")
-      throw BadInput(fmt::format("{}: {} is unknown", where, item.key()));
-  }
-  Case c = empty_case(text_member(j, "query", where), text_member(j, "scalar", where), where);
-  const auto values = j.find("values");
-  if (values == j.end() || !values->is_array()) throw BadInput(fmt::format("{}: values must be an array", where));
-  std::vector<double> numbers;
-  for (const json& x : *values) {
-    if (!x.is_number())
-      throw BadInput(fmt::format("{}: values[{}] is {}: it must be a number", where, numbers.size(), x.dump()));
-    numbers.push_back(x.get<double>());
-  }
-  return with_values(std::move(c), std::move(numbers), where);
 }
 
 std::vector<std::string_view> cells_of(std::string_view row) {
@@ -103,7 +44,6 @@ std::vector<std::string_view> cells_of(std::string_view row) {
 Case case_of_row(std::string_view row, const std::string& where) {
   const std::vector<std::string_view> cells = cells_of(row);
   if (cells.size() < 2) throw BadInput(fmt::format("{}: 1 column: a row begins with query and scalar", where));
-  Case c = empty_case(std::string(cells[0]), std::string(cells[1]), where);
   std::vector<double> numbers;
   for (std::size_t i = 2; i < cells.size(); ++i) {
     double x = 0;
@@ -112,7 +52,7 @@ Case case_of_row(std::string_view row, const std::string& where) {
       throw BadInput(fmt::format("{}: column {} is \"{}\": it must be a number", where, i + 1, cells[i]));
     numbers.push_back(x);
   }
-  return with_values(std::move(c), std::move(numbers), where);
+  return case_from_values(cells[0], cells[1], numbers, where, decimals_of_users());
 }
 
 /// Notes where each case is from.
@@ -132,7 +72,7 @@ std::vector<Case> not_empty(std::vector<Case> all, const std::filesystem::path& 
 std::vector<Case> read_json_lines(const std::filesystem::path& file) {
   std::vector<Case> all;
   for_each_line(file, [&](std::string_view line, std::size_t number, const std::string& where) {
-    append(all, case_of_line(line, where), file, number);
+    append(all, case_from_json(parse_json(line, where), where, decimals_of_users()), file, number);
   });
   return not_empty(std::move(all), file);
 }

@@ -12,8 +12,8 @@
 namespace nearmiss::scenes {
 
 /// Reads one case a line: {"query", "scalar", "values": [the inputs in the order of the query]}, or a case as other
-/// files hold it, with "inputs". A value of a float case is read as the nearest float. Empty lines are skipped. Throws
-/// BadInput that states file, line, field and rule, also for a file without a case.
+/// files hold it, with "inputs". A decimal means the nearest number of the scalar, unless --exact is given. Empty lines
+/// are skipped. Throws BadInput that states file, line, field and rule, also for a file without a case.
 std::vector<Case> read_json_lines(const std::filesystem::path& file);
 /// The same from rows of comma-separated values: query, scalar, then the inputs in the order of the query. A first row
 /// that begins with "query" is a heading and is skipped.

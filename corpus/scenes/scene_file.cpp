@@ -32,6 +32,12 @@ std::span<const Unit> known_units() {
   return units;
 }
 
+std::shared_ptr<const SceneLimits> limits_of(const Scene& scene) {
+  const Requirements& r = scene.required;
+  return std::make_shared<const SceneLimits>(SceneLimits{scene.name, scene.unit, r.position_error.value,
+                                                         r.missed_depth.value, r.time_error.value * scene.step.value});
+}
+
 const MixedQuery* Scene::find(const Query& query) const {
   const auto found =
       std::find_if(queries.begin(), queries.end(), [&](const MixedQuery& m) { return m.query == &query; });

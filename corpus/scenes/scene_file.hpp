@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "corpus/errors.hpp"
 #include "impl/catalogue/case.hpp"
+#include "oracles/scene_limits.hpp"
 
 namespace nearmiss::scenes {
 
@@ -92,6 +94,9 @@ struct Scene {
   double share_of(const Query& query) const;
   std::vector<const Query*> all_queries() const;
 };
+
+/// What the scene requires of a single answer. Its rates are about many answers, and no part of it.
+std::shared_ptr<const SceneLimits> limits_of(const Scene& scene);
 
 /// A unit of length and its length in metres.
 struct Unit {

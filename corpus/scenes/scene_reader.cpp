@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "corpus/near_words.hpp"
 #include "corpus/scenes/operands.hpp"
 #include "corpus/scenes/recorded_cases.hpp"
 #include "corpus/scenes/scene_file.hpp"
@@ -30,6 +31,12 @@ struct Bounds {
 constexpr Bounds not_negative{}, positive{0, std::numeric_limits<double>::infinity(), true}, share{0, 1};
 
 /// Reads the fields of a scene. Each error states file, field, value and rule.
+/// The rule for the name of a query, with those that are near the given one.
+std::string name_of_query_text(const std::string& name) {
+  const std::vector<std::string> near = nearest_queries(name);
+  return "a name that `list` shows" + (near.empty() ? "" : fmt::format(", such as {}", fmt::join(near, " or ")));
+}
+
 class SceneReader {
  public:
   explicit SceneReader(const std::filesystem::path& file) : file_(file), where_(file.string()) {}
@@ -174,7 +181,7 @@ MixedQuery SceneReader::mixed(const json& j, const std::string& path, const Scen
   const std::string name = text(j, path, "query");
   MixedQuery m;
   m.query = find_query(name);
-  if (m.query == nullptr) fail(path + ".query", '"' + name + '"', "a name that `list` shows");
+  if (m.query == nullptr) fail(path + ".query", '"' + name + '"', name_of_query_text(name));
   if (scene.find(*m.query) != nullptr) fail(path + ".query", '"' + name + '"', "listed once");
   m.weight = sourced(j, path, "weight", positive);
   if (!scene.is_recorded()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "impl/subject/foreign_promises.hpp"
 #include "impl/subject/provenance.hpp"
 
 namespace nearmiss {
@@ -31,14 +32,17 @@ void add_subject(Subject subject) { all_subjects().push_back(std::move(subject))
 
 namespace {
 Measure the_measure;
-}
+bool promises_of_others_count = true;
+}  // namespace
 
 const Measure& measure() { return the_measure; }
 void set_measure(const Measure& m) { the_measure = m; }
+void count_promises_of_others(bool count) { promises_of_others_count = count; }
 
 Standard Subject::standard_for(std::string_view query) const {
   const Offering& offer = offering(query);
-  if (!the_measure.for_all && !promises_nothing(offer.contract)) return {offer.contract, true, offer.required};
+  const bool counts = !the_measure.for_all && (own || promises_of_others_count);
+  if (counts && !promises_nothing(offer.contract)) return {offer.contract, true, offer.required};
   const double epsilons = the_measure.error / unit_roundoff(scalar);
   return {{.backward = epsilons, .unit = epsilons}, false, offer.required};
 }

@@ -58,6 +58,7 @@ void ChosenFinding::declare(CLI::App& app, const std::string& what) {
                  "The library (fcl, libccd, bullet, ode, collide) or the subject to ask. Default: the report's subject")
       ->type_name("NAME");
   add_measure(app, measure_);
+  add_exact(app);
   app.add_option("--out", out_, fmt::format("Write to this file. Default: print {}", what))->type_name("FILE");
 }
 
@@ -76,7 +77,7 @@ ChosenFinding::Asked ChosenFinding::ask() const {
   const nlohmann::json j = parse_json(read_file(file), file);
   if (read_relation_case(j, file)) throw BadInput(fmt::format("{}: it has several related cases; one is needed", file));
   const Case question = case_of(j, file);
-  set_measure(measure_ ? Measure{*measure_, true} : measure_of(j, file));
+  use_measure(measure_ ? SceneMeasure{{*measure_, true}, nullptr} : measure_of(j, file));
   const Subject* of_report = reported_subject(j, file, for_.empty());
   if (for_.empty() && of_report == nullptr)
     throw BadInput(fmt::format("{}: it is no report, so --for is needed", file));

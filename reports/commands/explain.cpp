@@ -42,6 +42,7 @@ class ExplainCommand : public Command {
     app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
     selection_.declare_subjects(app);
     add_measure(app, measure_);
+    add_exact(app);
     add_whole_number(app, "--questions", questions_,
                      "How often a subject is asked at most for a finding. Default: 24,000", 1, 1'000'000'000);
     add_positive_number(app, "--seconds", seconds_, "The most time for a finding. Default: 20", "S", 1e6);

@@ -214,7 +214,9 @@ class ImportCommand : public Command {
              "With the FORMAT jsonl or csv, the files hold inputs of queries that a program recorded "
              "(corpus/scenes/nearmiss_record.h writes jsonl), and --scene is needed: nothing is asked, and the cases "
              "become a scene (docs/scenes.md). A line of jsonl is {\"query\", \"scalar\", \"values\"}, a row of csv "
-             "query, scalar, values; the values are the inputs in the order of 'nearmiss list --members QUERY'.",
+             "query, scalar, values; the values are the inputs in the order of 'nearmiss list --members QUERY'. A "
+             "decimal means the nearest number of the "
+             "scalar; a note says how many were rounded.",
              "--scene FILE.json writes the scene, and its cases beside it as FILE.jsonl; it also works with nyu-ccd."},
             {{"0", "The oracle agrees with the truth column, and no subject violates its contract."},
              {"1", "The oracle contradicts the truth column, or a subject violates its contract."},
@@ -239,6 +241,7 @@ class ImportCommand : public Command {
     app.add_option("FILE", files_, "A file of the benchmark, or of recorded cases")->required()->type_name("");
     app.add_option("--scene", scene_, "Write a scene of the cases into this file, which must end with .json")
         ->type_name("FILE");
+    add_exact(app);
     add_output_folder(app, out_, "Write each case that fits as a JSON file into this folder");
     selection_.declare_subjects(app);
   }

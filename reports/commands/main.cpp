@@ -11,6 +11,7 @@
 #include <limits>
 #include <new>
 
+#include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "oracles/confirmed.hpp"
@@ -99,7 +100,11 @@ class CommandLine {
     const auto chosen = root_.get_subcommands();
     if (chosen.empty()) throw BadInput("a command is missing; 'nearmiss help' lists them");
     for (const Entry& e : entries_) {
-      if (e.app == chosen[0]) return e.command->run(root_);
+      if (e.app != chosen[0]) continue;
+      const int code = e.command->run(root_);
+      if (const std::string note = rounded_numbers_text(); !note.empty())
+        say_on_stderr(fmt::format("nearmiss: note: {}\n", note));
+      return code;
     }
     return help(help_for_);
   }

@@ -327,6 +327,7 @@ class NightlyCommand : public Command {
     std::optional<ChosenProfile> profile;
     if (profile_.is_given()) profile.emplace(profile_.file);
     const scenes::Scene* scene = profile ? &profile->scene() : nullptr;
+    judge_by(std::nullopt, scene);
     const std::vector<const Query*> queries = profile ? profile->queries() : all.queries();
     foreign_subjects();  // refuses a bad name now rather than in the last third
     catch_interrupts();
@@ -335,8 +336,9 @@ class NightlyCommand : public Command {
     Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), queries,
              profile ? profile->subjects() : all.subjects(), seed, end, false, scene});
     if (scene != nullptr) run.note("scene", scene->name);
-    fmt::print("seed {}, for {}, into {}\n{}\n", seed, duration_text(seconds), run.settings().folder.string(),
-               targets_text(found));
+    if (scene != nullptr) run.note("required", limits_to_json(*scene_limits()));
+    fmt::print("seed {}, for {}, into {}\n{}{}\n", seed, duration_text(seconds), run.settings().folder.string(),
+               measure_line(run.settings().queries, run.settings().subjects), targets_text(found));
     std::fflush(stdout);
     const std::vector<WrittenReport> earlier = run.kept().written();
     if (!profile) run.ask_worst_cases();

@@ -7,9 +7,11 @@
 #include <limits>
 #include <random>
 
+#include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
 #include "impl/host/hosts.hpp"
 #include "reports/engine/run.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -79,7 +81,12 @@ std::vector<std::string> subject_names() {
   return names;
 }
 
-CLI::Validator known_query() { return known("query", query_names); }
+CLI::Validator known_query() {
+  const auto check = [](const std::string& name) {
+    return find_query(name) != nullptr ? "" : unknown_query_text(name);
+  };
+  return CLI::Validator(check, "");
+}
 CLI::Validator known_subject() { return known("subject", subject_names); }
 
 void Selection::declare_queries(CLI::App& app) {
@@ -88,7 +95,7 @@ void Selection::declare_queries(CLI::App& app) {
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false)
-      ->check(known("query", query_names));
+      ->check(known_query());
 }
 
 namespace {
@@ -169,6 +176,32 @@ std::optional<scenes::Scene> SceneOption::load() const {
   return name.empty() ? std::nullopt : std::optional(scenes::load_scene(name));
 }
 
+void judge_by(std::optional<double> given_measure, const scenes::Scene* scene) {
+  if (given_measure) {
+    use_measure({{*given_measure, true}, nullptr});
+  } else if (scene != nullptr) {
+    use_measure({{}, scenes::limits_of(*scene)});
+  }
+}
+
+std::string measure_line(std::span<const Query* const> queries, std::span<const Subject* const> subjects) {
+  for (const Subject* s : subjects) {
+    for (const Query* q : queries) {
+      if (s->offering(q->name).answer == nullptr || s->standard_for(q->name).promised) continue;
+      const SceneLimits* scene = scene_limits();
+      if (scene != nullptr)
+        return fmt::format(
+            "all subjects but the tiers of collide are counted as wrong when proved not to meet what the scene {} "
+            "requires: "
+            "{}\n",
+            scene->scene, requirement_text(*scene));
+      return fmt::format("measure {:g}: {} counted as wrong when proved to differ by more\n", measure().error,
+                         measure().for_all ? "all subjects are" : "subjects that promise nothing are");
+    }
+  }
+  return "";
+}
+
 void select_queries_of(const scenes::Scene& scene, Selection& selection) {
   std::vector<std::string> asked;
   for (const Query* q : scene.all_queries()) asked.emplace_back(q->name);
@@ -231,6 +264,14 @@ void add_measure(CLI::App& app, std::optional<double>& measure) {
                   "contracts, and {:g} for those that promise nothing",
                   Measure::usual),
       "E", 1);
+}
+
+void add_exact(CLI::App& app) {
+  app.add_flag_callback(
+         "--exact", [] { set_decimals_of_users(Decimals::exact); },
+         "Refuse a case file with a decimal that is no number of its scalar. Otherwise it means the nearest one, and a "
+         "note says how many there were")
+      ->disable_flag_override();
 }
 
 void add_output_folder(CLI::App& app, std::string& folder, const std::string& description) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,12 @@ struct SceneOption {
   /// Empty without the option. Throws BadInput for an unknown scene or an invalid file.
   std::optional<scenes::Scene> load() const;
 };
+/// Sets the measure of the process: the given one for all subjects, or what the scene requires of those that promise
+/// nothing. Neither: the usual measure.
+void judge_by(std::optional<double> given_measure, const scenes::Scene* scene);
+/// The line that states the measure, where it applies to one of the subjects and queries; otherwise empty.
+std::string measure_line(std::span<const Query* const> queries, std::span<const Subject* const> subjects);
+
 /// Selects the queries that the scene asks where none are selected. Throws BadInput for a selected query that the scene
 /// does not ask.
 void select_queries_of(const scenes::Scene& scene, Selection& selection);
@@ -66,6 +73,8 @@ void add_positive_number(CLI::App& app, const std::string& name, std::optional<d
 
 /// --measure, with its default in the description.
 void add_measure(CLI::App& app, std::optional<double>& measure);
+/// --exact, for the commands that read case files of users.
+void add_exact(CLI::App& app);
 /// --out, the folder to write into; refuses an empty name.
 void add_output_folder(CLI::App& app, std::string& folder, const std::string& description);
 

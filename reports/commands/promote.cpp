@@ -80,6 +80,7 @@ class PromoteCommand : public Command {
         ->type_name("TEXT")
         ->required()
         ->check(long_enough());
+    add_exact(app);
     selection_.declare_subjects(app);
   }
   int run(const CLI::App&) override {

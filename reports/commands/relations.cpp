@@ -73,13 +73,13 @@ class RelationsCommand : public Command {
         ->disable_flag_override();
   }
   int run(const CLI::App&) override {
-    if (amount_.measure) set_measure({*amount_.measure, true});
     const std::uint64_t seed = seed_or_random(amount_.seed);
     const std::optional<scenes::Scene> scene = scene_.load();
     if (scene) select_queries_of(*scene, selection_);
     std::optional<ChosenProfile> profile;
     if (profile_.is_given()) profile.emplace(profile_.file);
     const scenes::Scene* world = profile ? &profile->scene() : scene ? &*scene : nullptr;
+    judge_by(amount_.measure, world);
     catch_interrupts();
     std::vector<const Relation*> wanted;
     for (const Relation& r : relations()) {
@@ -89,7 +89,8 @@ class RelationsCommand : public Command {
     RelationsRun run({typed_command_line(), folder, profile ? profile->queries() : selection_.queries(),
                       profile ? profile->subjects() : selection_.subjects(), wanted, seed, bit_for_bit_, world});
     const FolderLock lock(folder);
-    fmt::print("seed {}\n", seed);
+    fmt::print("seed {}\n{}", seed,
+               world == nullptr ? "" : measure_line(run.settings().queries, run.settings().subjects));
     std::fflush(stdout);
     const std::optional<RelationsRun::Clock::time_point> until = amount_.until();
     run.run(amount_.number(), until);

@@ -26,7 +26,10 @@ class ReplayCommand : public Command {
     return {
         "replay",
         "ask subjects one case again, and show the exact answer",
-        {"FILE is a case, a stored case or a report, as JSON. Every subject that offers its query is asked again; "
+        {"FILE is a case, a stored case or a report, as JSON (docs/bring-your-own.md has the form). A decimal in a "
+         "case "
+         "means the nearest number of its scalar; a note says how many were rounded. Every subject that offers its "
+         "query is asked again; "
          "answers in the file are ignored. The page shows the inputs, the exact answer, and for each subject "
          "its answer, the verdict and how far the inputs would have to move to make the answer right. Subjects are "
          "judged as in the report: by their contracts, or by its measure.",
@@ -42,17 +45,18 @@ class ReplayCommand : public Command {
     app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
     selection_.declare_subjects(app);
     add_measure(app, measure_);
+    add_exact(app);
     app.add_flag("--json", json_, "Print a JSON array with a report for each file and subject")
         ->disable_flag_override();
   }
   int run(const CLI::App&) override {
     std::vector<std::variant<Case, RelationCase>> cases;
-    std::vector<Measure> measures;
+    std::vector<SceneMeasure> measures;
     for (const std::string& f : files_) {
       settle_run_of(f);
       const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe cannot be read twice
       warn_of_missing_subject(j, f);
-      measures.push_back(measure_ ? Measure{*measure_, true} : measure_of(j, f));
+      measures.push_back(measure_ ? SceneMeasure{{*measure_, true}, nullptr} : measure_of(j, f));
       if (auto related = read_relation_case(j, f)) {
         cases.emplace_back(std::move(*related));
       } else {
@@ -61,7 +65,7 @@ class ReplayCommand : public Command {
     }
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (!json_ && i > 0) fmt::print("\n");
-      set_measure(measures[i]);
+      use_measure(measures[i]);
       std::visit([&](const auto& c) { again(c, files_[i]); }, cases[i]);
     }
     if (json_) fmt::print("{}", pretty_json(reports_));

@@ -8,23 +8,12 @@
 #include "reports/commands/profile_option.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/run.hpp"
+#include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-/// The line that states the measure, where it applies to some subject.
-std::string measure_text(const RunSettings& settings) {
-  for (const Subject* s : settings.subjects) {
-    for (const Query* q : settings.queries) {
-      if (s->offering(q->name).answer == nullptr || s->standard_for(q->name).promised) continue;
-      return fmt::format("measure {:g}: {} counted as wrong when proved to differ by more\n", measure().error,
-                         measure().for_all ? "all subjects are" : "subjects that promise nothing are");
-    }
-  }
-  return "";
-}
 
 class RunCommand : public Command {
  public:
@@ -66,7 +55,11 @@ class RunCommand : public Command {
          "With --scene the cases are taken from a scene (docs/scenes.md): a world with its sizes, distances, speeds "
          "and "
          "mix of queries. --cases is then the number of cases of the mix for each subject. No stored worst cases are "
-         "asked first. --profile does the same with the scene of a profile, and asks each query only of the subject "
+         "asked first. Every subject but the tiers of collide is judged by what the scene requires of a place, a "
+         "depth, a "
+         "time "
+         "and a decision, in the unit of the scene, in place of the measure; the first line states it. --profile does "
+         "the same with the scene of a profile, and asks each query only of the subject "
          "that the profile has answer it.",
          "A proof takes several times as long as the look that finds an answer right. Where a fifth of a subject's "
          "first 16,384 answers to a query is proved wrong, every sixteenth further answer is judged, and a line says "
@@ -110,12 +103,12 @@ class RunCommand : public Command {
   }
 
   int run(const CLI::App&) override {
-    if (amount_.measure) set_measure({*amount_.measure, true});
     const std::optional<scenes::Scene> scene = scene_.load();
     if (scene) select_queries_of(*scene, selection_);
     std::optional<ChosenProfile> profile;
     if (profile_.is_given()) profile.emplace(profile_.file);
     const scenes::Scene* world = profile ? &profile->scene() : scene ? &*scene : nullptr;
+    judge_by(amount_.measure, world);
     selection_.check_offered();
     if (update_worst_) check_own();
     const std::uint64_t seed = seed_or_random(amount_.seed);
@@ -131,8 +124,9 @@ class RunCommand : public Command {
                          every_answer_};
     Run run(std::move(settings));
     if (world != nullptr) run.note("scene", world->name);
+    if (const SceneLimits* limits = scene_limits()) run.note("required", limits_to_json(*limits));
     fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
-               measure_text(run.settings()));
+               measure_line(run.settings().queries, run.settings().subjects));
     std::fflush(stdout);
     if (world == nullptr) run.ask_worst_cases();
     const std::string climbs = climb_ ? climb(run) : "";

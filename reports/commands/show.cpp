@@ -35,12 +35,13 @@ class ShowCommand : public Command {
     app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
     selection_.declare_subjects(app);
     add_measure(app, measure_);
+    add_exact(app);
   }
   int run(const CLI::App&) override {
     std::vector<Task> tasks;
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "shown"));
     for (const Task& t : tasks) {
-      set_measure(t.measure);
+      use_measure(t.measure);
       show(t);
     }
     return bad_ ? 1 : 0;

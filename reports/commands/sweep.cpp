@@ -80,6 +80,7 @@ class SweepCommand : public Command {
         ->type_name("NAME")
         ->required();
     app.add_option("--case", file_, "The file of a case or a report, in place of a generated case")->type_name("FILE");
+    add_exact(app);
     add_float(app, "--from", from_, "Sweep only floats from this one on; the result is then not exhaustive");
     add_float(app, "--to", to_, "Sweep only floats up to this one; the result is then not exhaustive");
     app.add_option("-s,--subject", subject_,

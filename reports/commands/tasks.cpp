@@ -22,7 +22,7 @@ Task read_task(const std::string& file, const Selection& selection, std::optiona
   if (read_relation_case(j, file))
     throw BadInput(fmt::format("{}: it has several related cases, and one can be {}", file, verb));
   const auto subject = selection.subject.empty() ? subject_of_report(j, file) : std::nullopt;
-  return {file, text, case_of(j, file), measure ? Measure{*measure, true} : measure_of(j, file),
+  return {file, text, case_of(j, file), measure ? SceneMeasure{{*measure, true}, nullptr} : measure_of(j, file),
           subject ? std::vector<const Subject*>{*subject} : selection.subjects()};
 }
 
@@ -37,7 +37,7 @@ std::optional<Case> case_for(const Task& t, const Subject& subject) {
 void for_each_subject(const std::vector<Task>& tasks, InternalErrors& errors,
                       const std::function<void(const Task&, const Subject&)>& work) {
   for (const Task& t : tasks) {
-    set_measure(t.measure);
+    use_measure(t.measure);
     for (const Subject* s : t.subjects) {
       if (interrupted()) return;
       try {

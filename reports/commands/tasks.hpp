@@ -19,7 +19,7 @@ struct Task {
   std::string file;
   std::string text;  ///< of the file
   Case question;
-  Measure measure;
+  SceneMeasure measure;
   std::vector<const Subject*> subjects;
 };
 

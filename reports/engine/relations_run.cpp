@@ -13,6 +13,7 @@
 #include "reports/engine/tally.hpp"
 #include "reports/engine/worst_findings.hpp"
 #include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -253,6 +254,7 @@ Json RelationsRun::to_json() const {
                             {"breach", w.breach_name()},
                             {"headline", w.headline}});
   }
+  if (const SceneLimits* scene = scene_limits()) j["required"] = limits_to_json(*scene);
   if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
   j["environment"] = environment_to_json();
   return j;
@@ -317,7 +319,7 @@ std::string RelationsRun::summary() const {
       plural_text(written_.size(), "report"), settings_.folder.string());
   if (not_asked_ > 0) text += fmt::format("; {} not asked, for what subjects require", plural_text(not_asked_, "pair"));
   if (all.oracle > 0) text += fmt::format("; Nearmiss contradicts itself {} times", count_text(all.oracle));
-  return text + internal_errors_.text();
+  return text + scene_measure_text() + internal_errors_.text();
 }
 
 }  // namespace nearmiss

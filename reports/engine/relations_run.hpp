@@ -68,6 +68,7 @@ class RelationsRun {
   std::uint64_t bad_of(const std::function<bool(const Subject&)>& some) const;
   /// The number of errors of Nearmiss itself, on one case or on related cases.
   std::uint64_t contradicted() const;
+  const RelationsSettings& settings() const { return settings_; }
   std::uint64_t pairs() const { return sum().cases; }
   std::uint64_t contradictions() const { return sum().contradictions; }
   std::size_t reports() const { return written_.size(); }

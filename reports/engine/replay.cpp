@@ -10,6 +10,7 @@
 #include <span>
 
 #include "corpus/codec.hpp"
+#include "impl/subject/printable.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
@@ -158,8 +159,7 @@ std::string inputs_page(const Case& question) {
   return text + fmt::format("\n\nInputs\n{}", inputs_text(question));
 }
 
-/// Throws BadInput for a file of Nearmiss that holds no case, for a report of another version, and for an unknown
-/// query, with similar names.
+/// Throws BadInput for a file of Nearmiss that holds no case, and for a report of another version.
 void check_kind(const nlohmann::json& j, const std::string& where) {
   if (!j.is_object()) return;
   for (const auto& [member, what] : {std::pair("tallies", "the index of a run"), std::pair("maps", "a map of extremes"),
@@ -176,13 +176,6 @@ void check_kind(const nlohmann::json& j, const std::string& where) {
                                j.contains("schema") ? "is " + one_line(j["schema"].dump(), 60) : "is missing",
                                report_schema_version));
   }
-  if (!j.contains("query") || !j["query"].is_string()) return;
-  std::vector<std::string> names;
-  for (const Query& q : catalogue()) names.emplace_back(q.name);
-  const std::string name = j["query"].get<std::string>();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    throw BadInput(fmt::format("{}: {}", where, unknown_text("query", name, names)));
-  }
 }
 
 }  // namespace
@@ -193,7 +186,7 @@ Case read_case_or_report(const std::filesystem::path& file) {
 
 Case case_of(const nlohmann::json& j, const std::string& file) {
   check_kind(j, file);
-  if (!j.is_object() || !j.contains("finding")) return case_from_json(j, file);
+  if (!j.is_object() || !j.contains("finding")) return case_from_json(j, file, decimals_of_users());
   nlohmann::json question;
   for (const char* key : {"query", "scalar", "inputs", "origin"}) {
     if (j.contains(key)) question[key] = j[key];
@@ -201,7 +194,35 @@ Case case_of(const nlohmann::json& j, const std::string& file) {
   return case_from_json(question, file);
 }
 
-Measure measure_of(const nlohmann::json& j, const std::string& file) {
+namespace {
+
+/// The requirements of the scene that a report was judged by.
+std::shared_ptr<const SceneLimits> limits_from(const nlohmann::json& j, const std::string& file) {
+  SceneLimits limits;
+  const auto fail = [&] {
+    throw BadInput(
+        fmt::format("{}: measure.scene is {}; it must have a name, a unit, and not negative position_error, "
+                    "missed_depth and time_error (or null)",
+                    file, one_line(j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), 60)));
+  };
+  const auto text = [&](const char* name, std::string& into) {
+    if (!j.is_object() || !j.contains(name) || !j[name].is_string()) fail();
+    into = j[name].get<std::string>();
+    if (into.empty() || printable(into) != into) fail();
+  };
+  const auto number = [&](const char* name) {
+    if (!j.contains(name) || !j[name].is_number() || !(j[name].get<double>() >= 0)) fail();
+    return j[name].get<double>();
+  };
+  text("name", limits.scene), text("unit", limits.unit);
+  limits.error = number("position_error"), limits.missed_depth = number("missed_depth");
+  if (!j.contains("time_error") || !j["time_error"].is_null()) limits.time = number("time_error");
+  return std::make_shared<const SceneLimits>(std::move(limits));
+}
+
+}  // namespace
+
+SceneMeasure measure_of(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || !j.contains("finding") || !j.contains("measure") || j["measure"].is_null()) return {};
   const nlohmann::json& m = j["measure"];
   const bool whole = m.is_object() && m.contains("error") && m["error"].is_number() && m["error"] > 0 &&
@@ -209,7 +230,7 @@ Measure measure_of(const nlohmann::json& j, const std::string& file) {
   if (!whole)
     throw BadInput(
         fmt::format("{}: measure is {}; it must have an error above 0 and for_all", file, one_line(m.dump(), 60)));
-  return {m["error"], m["for_all"]};
+  return {{m["error"], m["for_all"]}, m.contains("scene") ? limits_from(m["scene"], file) : nullptr};
 }
 
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file) {

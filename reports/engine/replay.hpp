@@ -16,8 +16,9 @@ namespace nearmiss {
 Case read_case_or_report(const std::filesystem::path& file);
 /// The same for JSON that was already read from `file`.
 Case case_of(const nlohmann::json& j, const std::string& file);
-/// The measure of the report's subject; the usual measure where the file has none. Throws BadInput.
-Measure measure_of(const nlohmann::json& j, const std::string& file);
+/// The measure of the report's subject, with what its scene required; the usual measure where the file has none. Throws
+/// BadInput.
+SceneMeasure measure_of(const nlohmann::json& j, const std::string& file);
 
 /// The subject of a report; empty for JSON that is no report. Throws BadInput where no such subject is loaded.
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file);

@@ -246,11 +246,11 @@ std::optional<std::string> Run::shortfall() const {
 
 std::string Run::summary() const {
   const double seconds = Campaign::seconds_since(begin_);
-  return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}", interrupted() ? "interrupted: " : "",
+  return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}{}", interrupted() ? "interrupted: " : "",
                      plural_text(counts_.cases(), "answer"), duration_text(seconds),
                      count_text(std::uint64_t(double(counts_.cases()) / std::max(seconds, 1e-3))),
                      counts_.violated_text(), plural_text(kept_.count(), "report"), settings_.folder.string(),
-                     internal_errors().text());
+                     scene_measure_text(), internal_errors().text());
 }
 
 int Run::exit_code() const {

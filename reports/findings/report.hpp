@@ -25,7 +25,8 @@ struct Report {
   std::string subject;
   std::string version;
   Answer answer;
-  std::string output{};  ///< for a subject that broke: the end of its standard output and error
+  std::string output{};              ///< for a subject that broke: the end of its standard output and error
+  std::optional<SceneLimits> scene;  ///< the requirements of the scene that replaced the measure
   Standard standard;
   Finding finding;
   Truth truth;
@@ -53,6 +54,8 @@ nlohmann::ordered_json report_to_json(const Report& r);
 nlohmann::ordered_json answer_to_json(const Query& query, const Answer& answer);
 nlohmann::ordered_json truth_to_json(const Query& query, Scalar scalar, const Truth& truth);
 nlohmann::ordered_json finding_to_json(const Case& question, const Finding& f);
+/// {"name", "unit", "position_error", "missed_depth", "time_error"}
+nlohmann::ordered_json limits_to_json(const SceneLimits& limits);
 /// The versions of Nearmiss and the compiler, the build type and the platform.
 nlohmann::ordered_json environment_to_json();
 inline constexpr int report_schema_version = 2;

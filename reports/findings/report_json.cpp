@@ -187,6 +187,14 @@ Json finding_to_json(const Case& question, const Finding& f) {
   return j;
 }
 
+Json limits_to_json(const SceneLimits& limits) {
+  return {{"name", limits.scene},
+          {"unit", limits.unit},
+          {"position_error", limits.error},
+          {"missed_depth", limits.missed_depth},
+          {"time_error", limits.time ? Json(*limits.time) : Json(nullptr)}};
+}
+
 Json environment_to_json() {
   return {{"nearmiss", version()}, {"compiler", compiler()}, {"build", build_type()}, {"platform", platform()}};
 }
@@ -218,6 +226,7 @@ Json report_to_json(const Report& r) {
   j["contract"] = contract_to_json(r.standard.contract);
   j["measure"] = nullptr;
   if (!r.standard.promised) j["measure"] = {{"error", measure().error}, {"for_all", measure().for_all}};
+  if (r.scene) j["measure"]["scene"] = limits_to_json(*r.scene);
   if (!r.standard.required.empty()) j["requires"] = requires_to_json(r.standard.required);
   j["referees"] = Json::array();
   for (const Opinion& o : r.referees) j["referees"].push_back(opinion(query, o));

@@ -298,17 +298,22 @@ class Explanation {
 
   std::string promise() const {
     const collide::Contract& contract = r_.standard.contract;
-    const char* it = r_.standard.promised ? "It promises" : "It promises nothing; the measure is";
+    const char* it = r_.standard.promised ? "It promises"
+                     : r_.scene           ? "The scene requires nothing of it; the measure is"
+                                          : "It promises nothing; the measure is";
     const Finding& f = r_.finding;
     if (f.verdict == Verdict::not_proved) {
       if (promises_nothing(contract)) return "It promises nothing that this would break";
-      return r_.standard.promised ? "It is not proved to differ by more than it promises"
-                                  : "It promises nothing, and is not proved to differ by more than the measure";
+      if (r_.standard.promised) return "It is not proved to differ by more than it promises";
+      if (r_.scene)
+        return fmt::format("It is not proved to differ by more than the scene {} tolerates", r_.scene->scene);
+      return "It promises nothing, and is not proved to differ by more than the measure";
     }
     const MemberFinding* head = f.headline_member();
     const bool clause_is_in_the_text =
         head != nullptr && !head->backward && head->disagreement != Disagreement::not_unit;
     if (!is_bad(f) || f.verdict == Verdict::broke || clause_is_in_the_text) return "";
+    if (f.broken == Clause::scene) return "T" + f.clause.substr(1);  // "the scene NAME requires ..."
     if (f.broken == Clause::backward && !r_.standard.promised) {
       return fmt::format("{} a backward error of at most {:g} times the largest number in each group", it,
                          measure().error);
@@ -326,6 +331,19 @@ class Explanation {
 };
 
 }  // namespace
+
+std::string requirement_text(const SceneLimits& limits) {
+  return fmt::format(
+      "places and depths within {0:g} {1},{2} missed contacts at most {3:g} {1} deep, phantom contacts at most "
+      "{0:g} {1} apart",
+      limits.error, limits.unit, limits.time ? fmt::format(" times of impact within {:g} s,", *limits.time) : "",
+      limits.missed_depth);
+}
+
+std::string scene_measure_text() {
+  const SceneLimits* scene = scene_limits();
+  return scene == nullptr ? "" : fmt::format("; the measure is what the scene {} requires", scene->scene);
+}
 
 std::string headline(const Report& r) {
   const Explanation e(r);

@@ -13,6 +13,11 @@ std::string headline(const Report& r);
 /// answer right, and the promise that the answer breaks.
 std::string explanation(const Report& r);
 
+/// "places and depths within 0.01 yard, times of impact within 0.0016 s, …".
+std::string requirement_text(const SceneLimits& limits);
+/// "; the measure is what the scene game-world requires"; empty without a scene.
+std::string scene_measure_text();
+
 /// An answer in one cell of a table: "hit at time 0.48", "miss", "(1, 2, 3)".
 std::string answer_text(const Query& query, const Answer& answer, Scalar scalar);
 /// The exact answer, a sentence without its full stop: "it is a hit at time 0.48".

@@ -15,11 +15,12 @@ namespace {
 Clause clause_in_words(const std::string& words, const std::string& disagreement) {
   if (disagreement == name_of(Disagreement::not_finite)) return Clause::finite_numbers;
   if (disagreement == name_of(Disagreement::negative_time)) return Clause::no_negative_time;
-  constexpr std::array<std::pair<std::string_view, Clause>, 4> beginnings = {
+  constexpr std::array<std::pair<std::string_view, Clause>, 5> beginnings = {
       {{"exact decisions", Clause::exact_decisions},
        {"backward error", Clause::backward},
        {"forward error", Clause::forward},
-       {"normals of length", Clause::unit}}};
+       {"normals of length", Clause::unit},
+       {"the scene", Clause::scene}}};
   for (const auto& [beginning, clause] : beginnings) {
     if (words.starts_with(beginning)) return clause;
   }
@@ -50,6 +51,7 @@ std::string_view name_of(Clause c) {
     case Clause::backward: return "backward error";
     case Clause::forward: return "forward error";
     case Clause::unit: return "length of normals";
+    case Clause::scene: return "what the scene requires";
     case Clause::finite_numbers: return "finite numbers";
     case Clause::no_negative_time: return "no negative time";
   }

@@ -6,34 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 #include "impl/subject/printable.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
-}
-
-std::string lower_case(std::string_view s) {
-  std::string lower(s);
-  for (char& c : lower) c = 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return lower;
-}
 
 /// The number of characters: bytes that do not continue a UTF-8 sequence.
 std::size_t width_of(std::string_view s) {
@@ -137,22 +115,6 @@ std::string shell_quoted(const std::string& word) {
   }
   text.push_back('\'');
   return text;
-}
-
-std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words) {
-  std::vector<std::pair<std::size_t, std::string>> ranked;
-  if (word.size() > most_of_a_word) return {};
-  const std::string lower = lower_case(word);
-  for (const std::string& w : words) {
-    const std::string other = lower_case(w);
-    const bool within = word.size() >= 3 && other != lower && other.find(lower) != std::string::npos;
-    const std::size_t distance = within ? 1 : edit_distance(lower, other);
-    if (distance <= std::max<std::size_t>(2, word.size() / 3)) ranked.emplace_back(distance, w);
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::string> best;
-  for (std::size_t i = 0; i < ranked.size() && i < 3; ++i) best.push_back(ranked[i].second);
-  return best;
 }
 
 std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,

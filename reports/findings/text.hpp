@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corpus/near_words.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -32,9 +33,6 @@ std::string list_text(std::span<const std::string> items);
 
 /// A word of a shell's command line, in single quotes where it holds other than plain characters.
 std::string shell_quoted(const std::string& word);
-
-/// At most three of `words` that are near `word` by edit distance, without regard to case, nearest first.
-std::vector<std::string> close_matches(std::string_view word, std::span<const std::string> words);
 
 /// The error for a word that is not among `words`: "unknown query 'x'; did you mean …?", or, where no word is near, the
 /// command that lists them.

@@ -141,7 +141,10 @@ nearmiss.finding = (() => {
     if (d.regions && d.regions.length) parts.push(element("p", {class: "note"}, `Where: ${d.regions.join(", ")}`));
     if (d.decision) parts.push(element("p", {}, "Decision: ", element("b", {}, d.decision.kind), d.decision.reopened ? ", reopened because the finding got worse" : "", d.decision.note ? `. ${d.decision.note}` : "", d.decision.url ? ` ${d.decision.url}` : ""));
     const {clause} = r ? r.report.finding : {};
-    if (clause) parts.push(element("p", {class: "note"}, `Broken promise: ${clause}.`));
+    if (clause) {
+      const label = clause.startsWith("the scene ") ? "Not met" : "Broken promise";
+      parts.push(element("p", {class: "note"}, `${label}: ${clause}.`));
+    }
     const moves = r && r.report.origin ? r.report.origin.moves : null;
     if (moves) parts.push(element("p", {class: "note"}, moves.length ? `The generator made the case by: ${moves.join(", ")}.` : "The case has no special construction."));
     return parts.length ? section("Cause", ...parts) : null;

@@ -355,7 +355,7 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
     const bool can_ask = subject != nullptr && subject->scalar == question.scalar &&
                          !(subject->offering(question.query->name).answer == nullptr);
     if (can_ask && has_time()) {
-      set_measure(measure_of(report, file.string()));
+      use_measure(measure_of(report, file.string()));
       j["plots"] = error_plots(question, *subject, workers, has_time);
     }
     return j.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -481,6 +481,39 @@ TEST(Replay, ShowsInputsTruthAndEverySubject) {
 }
 
 /// Two libraries that define the same symbols: each computes in its own scalar in one run.
+/// The case of a public report: decimals, a quaternion as an array, the values in a row.
+TEST(Replay, TakesDecimalsForTheNearestNumbersAndSaysHowMany) {
+  const TemporaryFolder folder;
+  const std::string members =
+      folder.file("members.json", R"({"query": "moving_point_box", "scalar": "float", "inputs": {
+      "point": [-0.187414, 2.5, 0], "velocity": [0, -1, 0],
+      "box": {"center": [0, 0, 0], "half": [0.3, 1, 1], "orientation": [0, 0, 0, 1]}}})");
+  const std::string values = folder.file("values.json", R"({"query": "moving_point_box", "scalar": "float",
+      "values": [-0.187414, 2.5, 0, 0, -1, 0, 0, 0, 0, 0.3, 1, 1, 0, 0, 0, 1]})");
+  const Ran both = nearmiss({"replay", "-s", "collide-certified-float", members, values});
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_EQ(
+      both.err,
+      "nearmiss: note: 4 decimals of case files are no floats, and were read as the nearest ones, at most 1.2e-08 "
+      "away; --exact refuses them\n");
+  const Ran one = nearmiss({"replay", "-s", "collide-certified-float", values}),
+            other = nearmiss({"replay", "-s", "collide-certified-float", members});
+  EXPECT_EQ(one.out.substr(values.size()), other.out.substr(members.size()));
+  for (const std::string& file : {members, values}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"replay", "--exact", file},
+          {"minimise", "--exact", file},
+          {"explain", "--exact", file},
+          {"show", "--exact", file},
+          {"promote", "--exact", "--note", "A case that is no float.", "-s", "collide-fast-float", file},
+          {"emit-test", "--exact", "--for", "collide-fast-float", file}}) {
+      const Ran exact = nearmiss(command);
+      EXPECT_EQ(exact.exit_code, 2) << command[0] << exact.out;
+      EXPECT_NE(exact.err.find("exactly a float"), std::string::npos) << exact.err;
+    }
+  }
+}
+
 TEST(Replay, AsksBothBuildsOfBullet) {
   if (find_subject("bullet") == nullptr || find_subject("bullet-float") == nullptr) {
     GTEST_SKIP() << "one of the two is not part of this build";

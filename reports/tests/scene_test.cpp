@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
 #include "corpus/scenes/scene_file.hpp"
 #include "corpus/source_folder.hpp"
+#include "impl/subject/subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -14,6 +16,7 @@ namespace nearmiss {
 namespace {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 std::string shipped_scene(const std::string& name) { return (scenes::scenes_folder() / (name + ".json")).string(); }
 
@@ -84,6 +87,152 @@ TEST(Scene, RelationsHoldInAScene) {
   TemporaryFolder folder;
   const Ran ran = nearmiss({"relations", "--scene", "haptics", "-s", "collide-certified-double", "--cases", "50",
                             "--seed", "1", "--out", (folder / "out").string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+}
+
+// Every subject but the tiers of collide is judged by what the scene requires. The balls of this scene are as far from
+// the origin, and the tolerances as wide, as in game-world: 0.01 yard, where the usual measure allows 1.7 yards.
+
+std::string scene_of_balls(const TemporaryFolder& folder) {
+  json scene = json::parse(read_file(shipped_scene("game-world")));
+  scene["name"] = "balls";
+  scene["queries"] = json::array({{{"query", "sphere_sphere_penetration"},
+                                   {"weight", {{"value", 1}, {"source", "chosen: the query of the test"}}},
+                                   {"operands", {{"sphere1", "player"}, {"sphere2", "player"}}}}});
+  return folder.file("balls.json", scene.dump());
+}
+
+/// The index of a run of the plugin with one mistake.
+json run_with(const TemporaryFolder& folder, const std::string& mistake, int exit_code,
+              const std::vector<std::string>& also = {}) {
+  std::vector<std::string> arguments{"run",
+                                     "--plugin",
+                                     plugin_file("scenic"),
+                                     "-s",
+                                     "scenic",
+                                     "--cases",
+                                     "2000",
+                                     "--seed",
+                                     "3",
+                                     "--out",
+                                     (folder / ("run-" + mistake + std::to_string(also.size()))).string()};
+  arguments.insert(arguments.end(), also.begin(), also.end());
+  if (also.empty()) arguments.insert(arguments.end(), {"--scene", scene_of_balls(folder)});
+  const Ran ran = nearmiss(arguments, {"NEARMISS_PLANTED=" + mistake});
+  EXPECT_EQ(ran.exit_code, exit_code) << mistake << ran.out << ran.err;
+  json index = json::parse(read_file(fs::path(arguments[10]) / "index.json"));
+  EXPECT_EQ(complaints(index, "run.schema.json"), "");
+  if (also.empty()) {
+    EXPECT_NE(ran.out.find("the scene balls requires: places and depths within 0.01 yard"), std::string::npos)
+        << ran.out;
+    EXPECT_EQ(index.at("required").at("position_error"), 0.01);
+    EXPECT_EQ(index.at("required").at("unit"), "yard");
+    EXPECT_NE(index.at("summary").get<std::string>().find("what the scene balls requires"), std::string::npos);
+  } else {
+    EXPECT_FALSE(index.contains("required"));
+  }
+  return index;
+}
+
+/// The report of a run that the index lists first.
+json first_report(const json& index, const TemporaryFolder& folder, const std::string& mistake) {
+  const json report = json::parse(
+      read_file(folder / ("run-" + mistake + "0") / index.at("reports").at(0).at("file").get<std::string>()));
+  EXPECT_EQ(complaints(report, "report.schema.json"), "");
+  return report;
+}
+
+TEST(SceneRequirement, DepthErrorsOfAThirdOfAYardDoNotPass) {
+  TemporaryFolder folder;
+  const json index = run_with(folder, "d", 1), report = first_report(index, folder, "d");
+  EXPECT_GT(index.at("findings").get<int>(), 500);
+  EXPECT_EQ(report.at("finding").at("disagreement"), "wrong depth");
+  EXPECT_EQ(report.at("finding").at("clause"), "the scene balls requires places and depths within 0.01 yard");
+  EXPECT_EQ(report.at("measure").at("scene").at("name"), "balls");
+  EXPECT_NE(report.at("explanation").get<std::string>().find("The scene balls requires"), std::string::npos);
+}
+
+TEST(SceneRequirement, WhatTheSceneToleratesPasses) {
+  TemporaryFolder folder;
+  EXPECT_EQ(run_with(folder, "n", 0).at("findings"), 0);
+  EXPECT_EQ(run_with(folder, "", 0).at("findings"), 0);
+}
+
+TEST(SceneRequirement, WrongDecisionsCountByTheirDepthAndGap) {
+  TemporaryFolder folder;
+  const json missed = first_report(run_with(folder, "m", 1), folder, "m"),
+             phantom = first_report(run_with(folder, "p", 1), folder, "p");
+  EXPECT_EQ(missed.at("finding").at("disagreement"), "false miss");
+  EXPECT_EQ(missed.at("finding").at("clause"), "the scene balls requires missed contacts to be at most 0.01 yard deep");
+  EXPECT_EQ(phantom.at("finding").at("disagreement"), "false hit");
+  EXPECT_EQ(phantom.at("finding").at("clause"),
+            "the scene balls requires phantom contacts to be at most 0.01 yard apart");
+}
+
+/// The promise of a library is a share of the coordinates too, and as wide: FCL's times and places of contact.
+TEST(SceneRequirement, TakesThePlaceOfThePromisesOfLibraries) {
+  if (find_subject("fcl") == nullptr) GTEST_SKIP() << "no FCL in this build";
+  TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "--scene", "game-world", "-q", "moving_sphere_box", "-s", "fcl", "-s",
+                            "collide-fast-float", "--cases", "300", "--seed", "1", "--out", (folder / "r").string()});
+  EXPECT_EQ(ran.exit_code, 1) << ran.out << ran.err;
+  for (const json& report : json::parse(read_file(folder / "r" / "index.json")).at("reports")) {
+    EXPECT_EQ(report.at("subject"), "fcl");
+    EXPECT_TRUE(report.at("headline").is_string());
+  }
+}
+
+/// A measure that is asked for replaces it, as it replaces contracts.
+TEST(SceneRequirement, GivesWayToAGivenMeasure) {
+  TemporaryFolder folder;
+  const json by_scene = run_with(folder, "d", 1);
+  const json measured = run_with(folder, "d", 1, {"--measure", "1e-4", "--scene", scene_of_balls(folder)});
+  EXPECT_GT(by_scene.at("findings").get<int>(), 2 * measured.at("findings").get<int>())
+      << "a depth of more than both diameters is wrong by any measure";
+}
+
+/// What a run has found, 'replay' and 'triage' find again, and 'relations' judges by the same requirement.
+TEST(SceneRequirement, HoldsInEveryCommand) {
+  TemporaryFolder folder;
+  const std::vector<std::string> planted{"NEARMISS_PLANTED=d"};
+  const json index = run_with(folder, "d", 1);
+  const fs::path run = folder / "run-d0";
+  const std::string report = (run / index.at("reports").at(0).at("file").get<std::string>()).string();
+  const Ran again = nearmiss({"replay", "--plugin", plugin_file("scenic"), "-s", "scenic", report}, planted);
+  EXPECT_EQ(again.exit_code, 1) << again.out << again.err;
+  EXPECT_NE(again.out.find("balls requires places and depths within 0.01 yard"), std::string::npos) << again.out;
+  const std::string triaged = (folder / "triage.json").string();
+  const Ran triage = nearmiss({"triage", "--plugin", plugin_file("scenic"), run.string(), "--json", triaged}, planted);
+  ASSERT_EQ(json::parse(read_file(triaged)).at("signatures").size(), 1) << triage.out << triage.err;
+  const json signature = json::parse(read_file(triaged)).at("signatures").at(0);
+  EXPECT_EQ(signature.at("clause"), "what the scene requires") << signature;
+  const std::vector<std::string> related{"relations",
+                                         "--plugin",
+                                         plugin_file("scenic"),
+                                         "-s",
+                                         "scenic",
+                                         "--scene",
+                                         scene_of_balls(folder),
+                                         "--cases",
+                                         "200",
+                                         "--seed",
+                                         "3",
+                                         "--out",
+                                         (folder / "related").string()};
+  const Ran relations = nearmiss(related, planted);
+  EXPECT_EQ(relations.exit_code, 1) << relations.out << relations.err;
+  EXPECT_NE(relations.out.find("the scene balls requires"), std::string::npos) << relations.out;
+  const json all = json::parse(read_file(folder / "related" / "relations.json"));
+  EXPECT_EQ(complaints(all, "relations.schema.json"), "");
+  EXPECT_EQ(all.at("required").at("name"), "balls");
+}
+
+/// A follow-up may be a thousand times larger than the scene's case, and so may its error be.
+TEST(SceneRequirement, GrowsWithTheFollowUpsOfARelation) {
+  TemporaryFolder folder;
+  const Ran ran =
+      nearmiss({"relations", "--plugin", plugin_file("scenic"), "-s", "scenic", "--scene", scene_of_balls(folder),
+                "--cases", "300", "--seed", "3", "--out", (folder / "out").string()});
   EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
 }
 

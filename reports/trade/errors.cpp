@@ -90,15 +90,6 @@ Preconditions all_required(std::span<const Subject* const> subjects, const Query
   return all;
 }
 
-double largest_length(const Case& question) {
-  double largest = 0;
-  for (std::size_t i = 0; i < question.values.size(); ++i) {
-    const Role role = question.query->inputs[i].role;
-    if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(question.values[i]));
-  }
-  return largest;
-}
-
 TradeAnswer trade_answer(const Case& question, Scalar scalar, const Answer& answer, const Finding& f,
                          const TradeTolerance& tolerance) {
   TradeAnswer a;

@@ -47,8 +47,6 @@ const Standard& unbounded_standard();
 /// The preconditions of all of the subjects for this query.
 Preconditions all_required(std::span<const Subject* const> subjects, const Query& query);
 
-/// The largest coordinate, size or offset of the case.
-double largest_length(const Case& question);
 /// `scalar` is the subject's; that of the case may be wider (see Trade).
 TradeAnswer trade_answer(const Case& question, Scalar scalar, const Answer& answer, const Finding& finding,
                          const TradeTolerance& tolerance);

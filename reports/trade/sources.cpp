@@ -13,11 +13,12 @@ constexpr std::uint64_t beyond_all_indices = std::uint64_t{1} << 40;
 TradeTolerance tolerance_of(const scenes::Scene& scene) {
   constexpr double nanoseconds_of_second = 1e9;
   const scenes::Requirements& r = scene.required;
+  const SceneLimits of_answer = *scenes::limits_of(scene);
   TradeTolerance t;
-  t.unit = scene.unit;
-  t.error = r.position_error.value;
-  t.missed_depth = r.missed_depth.value;
-  t.time = r.time_error.value * scene.step.value;
+  t.unit = of_answer.unit;
+  t.error = of_answer.error;
+  t.missed_depth = of_answer.missed_depth;
+  t.time = of_answer.time;
   t.missed_rate = r.missed_rate.value;
   t.phantom_rate = r.phantom_rate.value;
   t.nanoseconds = r.time_budget.value / scene.queries_per_step.value * nanoseconds_of_second;

@@ -18,7 +18,7 @@ struct FiledReport {
   std::string id;
   Case question;
   const Subject* subject = nullptr;
-  Measure measure;
+  SceneMeasure measure;
 };
 
 struct Sources {

@@ -54,7 +54,7 @@ std::size_t digits_of(const Case& c) {
 
 /// Asks the subject of a report again. Empty where it has no finding now.
 std::optional<Candidate> asked_again(const FiledReport& r, Workers& workers, FindingKind& kind) {
-  set_measure(r.measure);
+  use_measure(r.measure);
   const Standard standard = r.subject->standard_for(r.question.query->name);
   Report now;
   now.question = r.question;
@@ -174,7 +174,7 @@ class Work {
     const std::string activity = fmt::format("examining {} of {}", kind.query, kind.subject);
     const auto tick = [&](std::uint64_t) { settings_.tick(activity, done, total); };
     tick(0);
-    set_measure(c.filed->measure);
+    use_measure(c.filed->measure);
     c.examined = examined_.earlier(*c.filed);
     if (!c.examined) c.examined = examined_.examine(*c.filed, std::min(most_for_one, time_left()), tick);
   }

@@ -73,12 +73,23 @@ Trials::Trials(const Case& question, const Subject& subject, const CauseLimits& 
   }
 }
 
+/// What a scene requires is a length: of a scaled case it would require something else. A trial is judged by the share
+/// of the lengths of the base case that it is.
+Standard Trials::standard_for(const Query& q) const {
+  Standard s = subject_.standard_for(q.name);
+  const double length = largest_length(base_.question);
+  if (s.promised || scene_limits() == nullptr || !(length > 0)) return s;
+  const double epsilons = scene_limits()->error / length / unit_roundoff(base_.question.scalar);
+  s.contract.backward = std::min(s.contract.backward, epsilons);
+  return s;
+}
+
 Finding Trials::judged(const Case& c, const Answer& answer) const {
-  return confirmed(c, answer, subject_.standard_for(c.query->name), detail_);
+  return confirmed(c, answer, standard_for(*c.query), detail_, {}, nullptr);
 }
 
 Finding Trials::in_full(const Trial& t) const {
-  return confirmed(t.question, t.answer, subject_.standard_for(query().name), Detail::full);
+  return confirmed(t.question, t.answer, standard_for(query()), Detail::full, {}, nullptr);
 }
 
 bool Trials::is_right(const Case& c, const Answer& answer) const {

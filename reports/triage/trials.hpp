@@ -64,6 +64,8 @@ class Trials {
   Clock::time_point begin_ = Clock::now();
   Detail detail_ = Detail::verdict;
   Signature signature_;
+  Standard standard_for(const Query& q) const;
+
   Trial base_;
   std::uint64_t questions_ = 0;
 };

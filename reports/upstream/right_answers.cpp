@@ -246,6 +246,9 @@ RightAnswers right_answers(const Case& question, const Answer& given, const Find
                            const Truth& truth, const std::vector<std::size_t>& members) {
   RightAnswers right;
   right.allowed = allowed_backward_error(standard, question.scalar);
+  const SceneLimits* scene = standard.promised ? nullptr : scene_limits();
+  if (const double length = largest_length(question); scene != nullptr && length > 0)
+    right.allowed = std::min(right.allowed, scene->error / length / unit_roundoff(question.scalar));
   if (standard.contract.unit < collide::Contract::none) {
     right.unit_error = standard.contract.unit * unit_roundoff(question.scalar);
   }
