@@ -287,6 +287,9 @@ function(nearmiss_finish_subjects)
   set(NEARMISS_JUDGE_SIDE
     subject/subject.cpp
     host/hosts.cpp
+    host/exposure.cpp
+    host/processes.cpp
+    host/separation.cpp
     host/supervisor.cpp
     host/replies.cpp
     host/worker.cpp

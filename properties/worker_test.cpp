@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -20,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include "impl/host/processes.hpp"
+#include "impl/host/separation.hpp"
 #include "impl/host/serve.hpp"
 #include "impl/host/worker.hpp"
 
@@ -160,6 +164,8 @@ class Lifeline {
   Lifeline() {
     if (mkdtemp(folder_.data()) == nullptr || mkfifo(name().c_str(), 0600) != 0)
       throw std::runtime_error("a named pipe");
+    // A subject may have a user of its own.
+    if (chmod(folder_.c_str(), 0711) != 0 || chmod(name().c_str(), 0622) != 0) throw std::runtime_error("its rights");
     file_ = open(name().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     current = name();
   }
@@ -269,6 +275,27 @@ TEST_P(WhatASubjectStarted, EndsWhenTheJudgeIsKilled) {
   EXPECT_TRUE(lifeline.ends_within(5));
 }
 
+TEST_P(WhatASubjectStarted, EndsWhenASupervisorIsKilled) {
+  Lifeline lifeline;
+  const pid_t judge = fork();
+  if (judge == 0) {
+    Worker worker(patient(3600));
+    worker.ask(leaving(), std::vector<double>{hangs, how()}, 2);
+    _exit(0);
+  }
+  EXPECT_TRUE(lifeline.says_something_within(10));
+  const std::vector<pid_t> first = children_of(judge);
+  ASSERT_EQ(first.size(), 1u);
+  const bool namespaced = std::get<1>(GetParam());
+  const std::vector<pid_t> above_the_host = namespaced ? first : children_of(first.front());
+  ASSERT_EQ(above_the_host.size(), 1u);
+  kill(judge, SIGSTOP);  // it does not help
+  kill(above_the_host.front(), SIGKILL);
+  EXPECT_TRUE(lifeline.ends_within(5));
+  kill(judge, SIGKILL);
+  waitpid(judge, nullptr, 0);
+}
+
 std::string how_it_left(const testing::TestParamInfo<std::tuple<Leaving, bool>>& test) {
   constexpr const char* names[] = {"in_its_group", "in_its_own_session", "twice_removed"};
   return std::string(names[std::get<0>(test.param)]) + (std::get<1>(test.param) ? "_of_a_namespace" : "");
@@ -312,6 +339,78 @@ TEST(Worker, HasItsOwnSessionAndAnEmptyInput) {
   const Answer a = worker.ask({"look", Offer::answers, "", {}, look}, std::vector<double>{0}, 1).front();
   EXPECT_EQ(a.values[0], 1);
   EXPECT_EQ(a.values[1], 0);
+}
+
+/// The user, the number of groups, no_new_privs, the capabilities of this process and those of its bounding set.
+Answer look_at_rights(std::span<const double>) {
+  Answer a;
+  a.values[0] = getuid();
+  a.values[1] = getgroups(0, nullptr);
+  a.values[2] = prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0);
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "CapInh:" || word == "CapPrm:" || word == "CapEff:" || word == "CapBnd:" || word == "CapAmb:") {
+      unsigned long long capabilities = 0;
+      status >> std::hex >> capabilities >> std::dec;
+      a.values[word == "CapBnd:" ? 4 : 3] += double(capabilities);
+    }
+  }
+  return a;
+}
+
+TEST(Worker, HasAUserOfItsOwnForEachSubjectOfTheSuperuser) {
+  if (!user_for_a_host()) GTEST_SKIP() << "this test does not run as the superuser, or has no other user id";
+  Worker worker(limits()), other(limits());
+  const Offering rights{"rights", Offer::answers, "", {}, look_at_rights};
+  const Answer first = worker.ask(rights, std::vector<double>{0}, 1).front();
+  const Answer second = other.ask(rights, std::vector<double>{0}, 1).front();
+  EXPECT_NE(first.values[0], second.values[0]);
+  for (const Answer& a : {first, second}) {
+    EXPECT_GE(a.values[0], 61184);
+    EXPECT_EQ(a.values[1], 0) << "it is in a group";
+    EXPECT_EQ(a.values[2], 1);
+    EXPECT_EQ(a.values[3], 0) << "it has capabilities";
+    EXPECT_EQ(a.values[4], 0) << "it could get capabilities";
+  }
+}
+
+TEST(Worker, HasNoCapabilitiesWithAnyUser) {
+  for (const bool namespaced : {true, false}) {
+    Worker worker({.pid_namespace = namespaced});
+    const Offering rights{"rights", Offer::answers, "", {}, look_at_rights};
+    const Answer a = worker.ask(rights, std::vector<double>{0}, 1).front();
+    EXPECT_EQ(a.values[2], 1);
+    EXPECT_EQ(a.values[3], 0);
+  }
+}
+
+TEST(Worker, MakesTheJudgeNotDumpable) {
+  Worker worker(limits());
+  worker.ask(offering(), std::vector<double>{none, 1}, 2);
+  EXPECT_EQ(prctl(PR_GET_DUMPABLE, 0, 0, 0, 0), 0);
+}
+
+/// Starts as many processes as the first input says, each of which uses 60 MB, and waits for them.
+Answer feed_children(std::span<const double> inputs) {
+  for (int i = 0; i < int(inputs[0]); ++i) {
+    if (fork() == 0) {
+      std::vector<char> kept(std::size_t{60} << 20, 'x');
+      for (;;) kept[std::size_t(pause() + 2)] = 'y';
+    }
+  }
+  if (inputs[0] > 0) sleep(60);
+  return {};
+}
+
+TEST(Worker, LimitsTheMemoryOfAllProcessesOfASubjectTogether) {
+  for (const bool namespaced : {true, false}) {
+    Worker worker({.case_timeout = 30, .bytes = std::size_t{64} << 20, .pid_namespace = namespaced});
+    const Offering feeding{"feeding", Offer::answers, "", {}, feed_children};
+    const std::vector<Answer> answers = worker.ask(feeding, std::vector<double>{0, 7, 0}, 1);
+    EXPECT_EQ(answers[0].status, Answer::Status::answered);
+    EXPECT_EQ(answers[1].reason(), "memory limit reached");
+    EXPECT_EQ(answers[2].status, Answer::Status::answered);
+  }
 }
 
 TEST(Worker, KeepsWhatASubjectWroteBeforeItBroke) {

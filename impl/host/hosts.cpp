@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 #include <wordexp.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <deque>
@@ -15,6 +17,7 @@
 
 #include "impl/catalogue/query.hpp"
 #include "impl/host/replies.hpp"
+#include "impl/host/separation.hpp"
 #include "impl/host/shared_layout.hpp"
 #include "impl/subject/printable.hpp"
 
@@ -239,13 +242,31 @@ Subject described(std::string_view hello, HostProgram program) {
 
 std::string host_of_plugins() { return NEARMISS_HOSTS "/plugin"; }
 
+/// Why a host may have failed: its user cannot reach one of the words that name files, or the current folder. Empty
+/// where it can.
+std::string advice_for(const std::vector<std::string>& words) {
+  if (!user_for_a_host()) return {};
+  const auto look = [&] {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (access(words[i].c_str(), R_OK) != 0 && errno == EACCES) return int(i) + 1;
+    }
+    return access(".", X_OK) == 0 ? 0 : int(words.size()) + 1;
+  };
+  SupervisedProcess looks({.arguments = {}, .body = look});
+  constexpr int most = 5000;  // milliseconds
+  if (!looks.has_ended(most)) return {};
+  const auto at = std::size_t(looks.exit_code().value_or(0));
+  if (at == 0 || at > words.size() + 1) return {};
+  return "; " + advice_about_unreachable(at <= words.size() ? words[at - 1] : "the current folder");
+}
+
 /// Adds the subject that the program's hello describes.
 void add_hosted(const std::string& where, HostProgram program, const std::string& plugin, const std::string& command) {
   std::string hello;
   try {
     hello = Worker(worker_limits(), std::make_shared<const HostProgram>(program)).hello();
   } catch (const HostFailed& e) {
-    throw BadSubject(fmt::format("{}: {}", where, e.what()));
+    throw BadSubject(fmt::format("{}: {}{}", where, e.what(), plugin.empty() ? advice_for(program.arguments) : ""));
   }
   Subject s = subject_from_hello(where, hello, std::move(program));
   if (find_subject(s.name) != nullptr)

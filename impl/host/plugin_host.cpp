@@ -1,15 +1,16 @@
 // The host of a plugin: loads the shared library that its argument names, sends the library's description as the hello,
 // and calls its functions.
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cfenv>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "impl/host/separation.hpp"
 #include "impl/host/serve.hpp"
 #include "impl/plugin/nearmiss_plugin.h"
 #include "impl/subject/floating_point.hpp"
@@ -138,16 +139,31 @@ std::string fault_of(const nearmiss_plugin* plugin) {
   return {};
 }
 
-int host_plugin(const std::string& path) {
-  // A program that the library starts with exec does not inherit the pipes.
-  for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
-    fcntl(file, F_SETFD, FD_CLOEXEC);
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
-    std::string why = dlerror();
-    if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
-    return send_refusal("it cannot be loaded: " + why);
+bool is_unreachable(const std::string& path) { return access(path.c_str(), R_OK) != 0 && errno == EACCES; }
+
+/// The path by which this user can load the library. Through the descriptor of its folder, where that goes, so that it
+/// finds the libraries beside it by $ORIGIN.
+std::string path_to_load(const std::string& path) {
+  if (!is_unreachable(path)) {
+    close(wire::plugin_folder), close(wire::plugin_file);
+    return path;
   }
+  const std::string own = "/proc/self/fd/";
+  const std::string in_folder = own + std::to_string(wire::plugin_folder) + path.substr(path.rfind('/'));
+  return is_unreachable(in_folder) ? own + std::to_string(wire::plugin_file) : in_folder;
+}
+
+/// The refusal of a library that the system does not load.
+std::string cannot_be_loaded(const std::string& path, const std::string& loaded, std::string why) {
+  if (why.starts_with(loaded + ": ")) why.erase(0, loaded.size() + 2);
+  return "it cannot be loaded: " + why + (loaded == path ? "" : "; " + advice_about_unreachable(path));
+}
+
+int host_plugin(const std::string& path) {
+  begin_host();
+  const std::string loaded = path_to_load(path);
+  void* library = dlopen(loaded.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return send_refusal(cannot_be_loaded(path, loaded, dlerror()));
   const auto entry = reinterpret_cast<Entry>(dlsym(library, "nearmiss_plugin_entry"));
   if (entry == nullptr) return send_refusal("it is no plugin: it has no function nearmiss_plugin_entry");
   const nearmiss_plugin* plugin = entry();

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -128,10 +130,15 @@ std::string refusal(const std::string& why) {
 
 int send_refusal(const std::string& why) { return write_all(wire::to_judge, refusal(why)) ? 0 : 1; }
 
-int run_built_in_host(Subject (*subject)(), StageTallyFunction stages) {
-  // A program that a library starts with exec does not inherit the pipes.
-  for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers})
+void begin_host() {
+  for (const int file : {wire::from_judge, wire::to_judge, wire::shared_request, wire::shared_answers,
+                         wire::plugin_folder, wire::plugin_file})
     fcntl(file, F_SETFD, FD_CLOEXEC);
+  if (std::getenv("NEARMISS_UNDUMPABLE") != nullptr) prctl(PR_SET_DUMPABLE, 0);
+}
+
+int run_built_in_host(Subject (*subject)(), StageTallyFunction stages) {
+  begin_host();
   FloatingPointModes::standard().set();  // a library may have changed them when it was loaded
   return run_host(subject(), stages);
 }

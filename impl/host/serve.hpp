@@ -26,6 +26,10 @@ std::string hello_of(const Subject& subject);
 /// The line in place of a hello that reports why there is no subject.
 std::string refusal(const std::string& why);
 
+/// What a host does first: its files are not for programs that its library starts with exec, and where no user and no
+/// namespace separates it from other hosts it is not dumpable, so that they cannot open its files or its memory.
+void begin_host();
+
 /// The main function of a host of this project: sends the hello, then serves. Returns the exit code.
 int run_host(const Subject& subject, StageTallyFunction stages = nullptr);
 /// The same for a subject of this build, which is created after the pipes are protected.

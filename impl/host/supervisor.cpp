@@ -1,6 +1,5 @@
 #include "impl/host/supervisor.hpp"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <poll.h>
@@ -9,6 +8,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,11 +20,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <numeric>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "impl/host/exposure.hpp"
+#include "impl/host/processes.hpp"
+#include "impl/host/separation.hpp"
 #include "impl/host/throw_errno.hpp"
 
 namespace nearmiss {
@@ -59,13 +65,15 @@ class File {
 
 /// A message of a supervisor or its program, on the status pipe.
 struct Message {
-  enum What : int { process, could_not_start, ended } what;
+  enum What : int { second_supervisor, process, could_not_start, ended } what;
   int value;
 };
 
 void send_message(int file, Message message) {
   [[maybe_unused]] const ssize_t put = write(file, &message, sizeof message);
 }
+
+constexpr uid_t nobody = 65534;
 
 void limit(int resource, std::size_t value) {
   rlimit r{};
@@ -80,45 +88,6 @@ std::size_t own_memory() {
   std::ifstream file("/proc/self/statm");
   for (std::size_t& p : pages) file >> p;
   return pages[5] * std::size_t(sysconf(_SC_PAGESIZE));
-}
-
-/// Every process in /proc whose parent is this process.
-std::vector<pid_t> children() {
-  std::vector<pid_t> all;
-  DIR* folder = opendir("/proc");
-  if (folder == nullptr) return all;
-  const pid_t self = getpid();
-  while (const dirent* entry = readdir(folder)) {
-    const int number = std::atoi(entry->d_name);
-    if (number <= 0) continue;
-    char name[64], text[512];
-    std::snprintf(name, sizeof name, "/proc/%d/stat", number);
-    const int file = open(name, O_RDONLY | O_CLOEXEC);
-    if (file < 0) continue;
-    const ssize_t got = read(file, text, sizeof text - 1);
-    close(file);
-    if (got <= 0) continue;
-    text[got] = '\0';
-    const char* after_name = std::strrchr(text, ')');
-    char state;
-    int parent = 0;
-    if (after_name != nullptr && std::sscanf(after_name + 1, " %c %d", &state, &parent) == 2 && parent == self) {
-      all.push_back(number);
-    }
-  }
-  closedir(folder);
-  return all;
-}
-
-/// The number of processes on the system, an upper bound for the user's: the limit for other users than the superuser
-/// counts all processes of the user.
-std::size_t processes_of_user() {
-  std::size_t count = 0;
-  DIR* folder = opendir("/proc");
-  if (folder == nullptr) return 0;
-  while (const dirent* entry = readdir(folder)) count += std::atoi(entry->d_name) > 0;
-  closedir(folder);
-  return count;
 }
 
 /// The largest process limit of a host: it leaves a reserve for the judge, which must be able to start other hosts.
@@ -140,8 +109,17 @@ struct Plan {
   const Program& program;
   const Confinement& confinement;
   std::vector<char*> arguments, environment;
+  std::string executable;  ///< the file, where PATH was searched for it
   int status, judge, output, nowhere;
   std::size_t memory, processes;
+  std::optional<uid_t> user;                  ///< a user of its own
+  std::vector<std::filesystem::path> hidden;  ///< what this user could not reach
+  pid_t judge_process, judge_group;
+};
+
+/// What a supervisor and its program have of their own.
+struct Namespaces {
+  bool processes = false, users = false, mounts = false;
 };
 
 [[noreturn]] void cannot_start(int status, int why) {
@@ -158,6 +136,7 @@ int give_files(const Plan& plan) {
   files.push_back({plan.output, STDERR_FILENO});
   int next = 0;  // above all descriptors of the program
   for (const Program::File& f : files) next = std::max(next, f.there + 1);
+  for (const Program::NamedFile& f : plan.program.named_files) next = std::max(next, f.there + 1);
   for (Program::File& f : files) {
     f.here = fcntl(f.here, F_DUPFD_CLOEXEC, next);
     if (f.here < 0) cannot_start(plan.status, errno);
@@ -173,14 +152,47 @@ int give_files(const Plan& plan) {
   return next;
 }
 
+/// Opens the files that the program itself could not open as its user.
+void open_named_files(const Plan& plan) {
+  for (const Program::NamedFile& f : plan.program.named_files) {
+    struct stat about {};
+    const bool is_folder = stat(f.path.c_str(), &about) == 0 && S_ISDIR(about.st_mode);
+    const int file = is_folder ? open(f.path.c_str(), O_PATH | O_CLOEXEC) : open_for_other_users(f.path.c_str());
+    if (file < 0) continue;
+    dup2(file, f.there);
+    close(file);
+  }
+}
+
+/// Takes from this process what would let it reach the judge or another host.
+void separate(Plan& plan, Namespaces own, const std::array<pid_t, 4>& others, int status) {
+  static char undumpable[] = "NEARMISS_UNDUMPABLE=1";  // for a host of this project: docs/threat-model.md
+  if (const int why = become_unprivileged(plan.user); why != 0) cannot_start(status, why);
+  if (plan.user || own.users) return;
+  plan.environment.insert(plan.environment.begin(), undumpable);
+  shield(own.processes ? std::span<const pid_t>{} : others);
+}
+
+/// Starts the program; returns where it cannot. `executable` is its open file where this process cannot reach its path.
+void start_program(const Plan& plan, int executable) {
+  char* const* const arguments = plan.arguments.data();
+  char* const* const environment = plan.environment.data();
+  execvpe(plan.executable.c_str(), arguments, environment);
+  if (errno != EACCES || executable < 0) return;
+  const auto start = [&] { syscall(SYS_execveat, executable, "", arguments, environment, AT_EMPTY_PATH); };
+  start();
+  if (errno != ENOENT) return;
+  fcntl(executable, F_SETFD, 0);  // a script, which its interpreter opens through the descriptor
+  start();
+}
+
 /// Turns the child process into the program; never returns.
-[[noreturn]] void become(const Plan& plan) {
+[[noreturn]] void become(Plan& plan, Namespaces own, pid_t supervisor, pid_t first_supervisor) {
   for (int s = 1; s < NSIG; ++s) {
     if (s != SIGKILL && s != SIGSTOP) signal(s, SIG_DFL);
   }
   for (const int s : {SIGXFSZ, SIGTTOU}) signal(s, SIG_IGN);  // a write beyond a limit fails with an error code
   setsid();
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive its supervisor, even if it kills it
   const Confinement& c = plan.confinement;
   limit(RLIMIT_CORE, 0);
   if (c.file_bytes != Confinement::unlimited) limit(RLIMIT_FSIZE, c.file_bytes);
@@ -192,6 +204,12 @@ int give_files(const Plan& plan) {
   if (c.bytes != Confinement::unlimited && !shadow_memory) limit(RLIMIT_DATA, (is_program ? 0 : plan.memory) + c.bytes);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   const int status = give_files(plan);
+  if (plan.user) open_named_files(plan);
+  const int executable = plan.user && is_program ? open_for_other_users(plan.executable.c_str()) : -1;
+  if (!c.trusted) separate(plan, own, {plan.judge_process, plan.judge_group, first_supervisor, supervisor}, status);
+  // It does not outlive its supervisor, even if it kills it. A change of user cancels this.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != supervisor) _exit(127);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -199,18 +217,27 @@ int give_files(const Plan& plan) {
     close(status);
     _exit(plan.program.body());
   }
-  execvpe(plan.arguments[0], plan.arguments.data(), plan.environment.data());
+  start_program(plan, executable);
   cannot_start(status, errno);
 }
 
+/// Ends every process of the user at once, so that none can start others meanwhile.
+void end_all_of(uid_t user) {
+  if (fork() != 0) return;
+  if (become_unprivileged(user) == 0) kill(-1, SIGKILL);
+  _exit(0);
+}
+
 /// Ends every remaining process. Returns the wait status of `program` if it was among them.
-std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
+std::optional<int> end_all_that_is_left(const Plan& plan, Namespaces own, pid_t program) {
   std::optional<int> how;
   for (int round = 0; round < 1000; ++round) {
-    if (namespaced) {
+    if (own.processes) {
       kill(-1, SIGKILL);
     } else {
-      for (const pid_t p : children()) kill(p, SIGKILL);
+      const std::vector<pid_t> left = children_of(getpid());
+      if (plan.user && !left.empty() && round % 16 == 0) end_all_of(*plan.user);
+      for (const pid_t p : left) kill(p, SIGKILL);
     }
     pid_t reaped = 0;
     for (int status = 0; (reaped = waitpid(-1, &status, WNOHANG)) > 0;) {
@@ -222,8 +249,17 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
   return how;
 }
 
-/// The main function of the supervisor.
-[[noreturn]] void supervise(const Plan& plan, bool namespaced) {
+/// Exposes what the program is started with to its user. Where that fails, it starts from open files.
+void show_hidden(const Plan& plan) {
+  if (const int why = expose(plan.hidden); why != 0) cannot_start(plan.status, why);
+  std::error_code gone;
+  const std::filesystem::path here = std::filesystem::current_path(gone);
+  if (!gone) std::filesystem::current_path(here, gone);  // the folder in its new place
+}
+
+/// The main function of a supervisor. Without a namespace there are two: the first starts the second, which starts the
+/// program, and ends everything where the second was killed. `first` is 0 in the only or first supervisor.
+[[noreturn]] void supervise(Plan& plan, Namespaces own, pid_t first = 0) {
   sigset_t awaited;
   sigemptyset(&awaited);
   sigaddset(&awaited, SIGCHLD);
@@ -233,14 +269,21 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
   signal(SIGCHLD, SIG_DFL);  // if SIGCHLD were ignored, the end of a child would not be reported
   setsid();
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  prctl(PR_SET_PDEATHSIG, namespaced ? SIGKILL : SIGTERM);
+  prctl(PR_SET_PDEATHSIG, own.processes ? SIGKILL : SIGTERM);
+  if (first != 0 && getppid() != first) _exit(0);
   prctl(PR_SET_NAME, "nearmiss-super");
+  prctl(PR_SET_DUMPABLE, 0);
   close(plan.judge);  // so that the end of the judge closes the pipe
   pollfd judge{plan.status, 0, 0};
   if (poll(&judge, 1, 0) == 1 && (judge.revents & POLLERR) != 0) _exit(0);  // the judge ended before
+  const bool starts_the_second = !own.processes && first == 0;
+  if (first != 0) send_message(plan.status, {Message::second_supervisor, number_in_proc()});
+  if (own.mounts) show_hidden(plan);
+  const pid_t self = getpid();
   const pid_t program = fork();
   if (program < 0) cannot_start(plan.status, errno);
-  if (program == 0) become(plan);
+  if (program == 0 && starts_the_second) supervise(plan, own, self);
+  if (program == 0) become(plan, own, self, first);
   dup2(plan.status, 0);
   close_range(1, ~0u, 0);
   int how = 0;
@@ -251,8 +294,8 @@ std::optional<int> end_all_that_is_left(bool namespaced, pid_t program) {
       if (p == program) ended = true, how = status;
     }
   }
-  how = end_all_that_is_left(namespaced, program).value_or(how);
-  send_message(0, {Message::ended, how});
+  how = end_all_that_is_left(plan, own, program).value_or(how);
+  if (!starts_the_second) send_message(0, {Message::ended, how});
   _exit(0);
 }
 
@@ -264,28 +307,89 @@ bool write_text(const char* name, const char* text) {
   return put;
 }
 
-/// Forks, into a new process namespace where `wanted` and allowed; other users than the superuser need a user namespace
-/// as well. Returns 0 in the child.
-pid_t fork_apart(bool wanted, bool& namespaced) {
-  namespaced = false;
-  if (wanted) {
-    const uid_t user = geteuid();
-    const gid_t group = getegid();
-    // System V memory and message queues end with the namespace as well.
-    const unsigned long flags = CLONE_NEWPID | CLONE_NEWIPC | (user == 0 ? 0ul : CLONE_NEWUSER) | SIGCHLD;
-    const pid_t child = pid_t(syscall(SYS_clone, flags, nullptr, nullptr, nullptr, nullptr));
-    if (child == 0 && user != 0) {
-      std::array<char, 64> map;
-      write_text("/proc/self/setgroups", "deny");
-      std::snprintf(map.data(), map.size(), "%u %u 1", user, user);
-      write_text("/proc/self/uid_map", map.data());
-      std::snprintf(map.data(), map.size(), "%u %u 1", group, group);
-      write_text("/proc/self/gid_map", map.data());
-    }
-    namespaced = child >= 0;
-    if (namespaced) return child;
+/// Makes `inside` the name of the user `outside` in this process's new user namespace, and the same for the groups.
+void map_ids(uid_t user_inside, uid_t user_outside, gid_t group_inside, gid_t group_outside) {
+  std::array<char, 64> map;
+  prctl(PR_SET_DUMPABLE, 1);  // otherwise these files belong to the superuser
+  write_text("/proc/self/setgroups", "deny");
+  std::snprintf(map.data(), map.size(), "%u %u 1", user_inside, user_outside);
+  write_text("/proc/self/uid_map", map.data());
+  std::snprintf(map.data(), map.size(), "%u %u 1", group_inside, group_outside);
+  write_text("/proc/self/gid_map", map.data());
+}
+
+pid_t clone_into(unsigned long namespaces) {
+  return pid_t(syscall(SYS_clone, namespaces | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
+}
+
+/// Forks, into new namespaces where allowed. Returns 0 in the child. Other users than the superuser need a user
+/// namespace for the others, and a superuser without another user for the program needs it to separate the program from
+/// the judge: the program has the same files, and is no superuser.
+pid_t fork_apart(const Plan& plan, Namespaces& own) {
+  const bool is_superuser = geteuid() == 0;
+  const bool needs_users = !is_superuser || (!plan.user && !plan.confinement.trusted);
+  const uid_t user = geteuid();
+  const gid_t group = getegid();
+  // System V memory and message queues end with the namespace as well.
+  constexpr unsigned long apart = CLONE_NEWPID | CLONE_NEWIPC;
+  const bool needs_mounts = !plan.hidden.empty();
+  pid_t child = clone_into(apart | (needs_users ? CLONE_NEWUSER : 0) | (needs_mounts ? CLONE_NEWNS : 0));
+  own = {child >= 0, child >= 0 && needs_users, child >= 0 && needs_mounts};
+  if (child < 0 && is_superuser && needs_users) {
+    child = clone_into(apart);
+    own.processes = child >= 0;
   }
-  return fork();
+  if (child < 0) return fork();
+  if (child == 0 && own.users) {
+    const bool renamed = is_superuser;
+    map_ids(renamed ? nobody : user, user, renamed ? nobody : group, group);
+  }
+  return child;
+}
+
+/// The file that a program is started from: PATH is searched with the rights of this process.
+std::string executable_of(const Program& program) {
+  if (program.arguments.empty()) return {};
+  const std::string& name = program.arguments.front();
+  const char* path = std::getenv("PATH");
+  if (name.find('/') != std::string::npos || path == nullptr) return name;
+  std::istringstream folders(path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    std::string file = (folder.empty() ? "." : folder) + "/" + name;
+    struct stat about {};
+    if (stat(file.c_str(), &about) == 0 && S_ISREG(about.st_mode) && access(file.c_str(), X_OK) == 0) return file;
+  }
+  return name;
+}
+
+/// Adds the parts of the text between separators.
+void add_parts(const std::string& text, const char* separators, std::vector<std::string>& parts) {
+  for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end;
+  }
+}
+
+/// What may be names of files and folders that the program opens. A program behind pipes, which has no shared memory,
+/// may be a command of a shell, and may start what is in PATH.
+std::vector<std::string> names_in(const Program& program, const std::string& executable) {
+  std::vector<std::string> names{executable};
+  names.insert(names.end(), program.arguments.begin(), program.arguments.end());
+  for (const Program::NamedFile& f : program.named_files) names.push_back(f.path);
+  if (program.files.size() > 2) return names;
+  for (const std::string& a : program.arguments) add_parts(a, " \t\n'\"", names);
+  if (const char* path = std::getenv("PATH"); path != nullptr) add_parts(path, ":", names);
+  return names;
+}
+
+/// Where the superuser has no other user id and no user namespace for its hosts.
+void tell_once_of_the_superuser() {
+  static const int told = std::fputs(
+      "nearmiss: what is asked runs as the superuser here, because this system has no other user id for it; "
+      "docs/threat-model.md says what that means\n",
+      stderr);
+  static_cast<void>(told);
 }
 
 /// True if `environment` sets the variable of `entry` ("NAME=value"). Of two entries of one name a C program takes the
@@ -308,8 +412,10 @@ SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& 
   File nowhere(open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (nowhere.number() < 0) throw_errno("/dev/null");
   fcntl(hears.number(), F_SETFL, O_NONBLOCK);
+  if (!confinement.trusted) prctl(PR_SET_DUMPABLE, 0);
   Plan plan{program,
             confinement,
+            {},
             {},
             {},
             speaks.number(),
@@ -317,7 +423,17 @@ SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& 
             output.number(),
             nowhere.number(),
             own_memory(),
-            geteuid() == 0 ? 0 : processes_of_user()};
+            geteuid() == 0 ? 0 : count_processes(),  // for other users the limit counts all processes of the user
+            confinement.trusted ? std::nullopt : user_for_a_host(),
+            {},
+            getpid(),
+            getpgrp()};
+  plan.executable = plan.user ? executable_of(program) : program.arguments.empty() ? "" : program.arguments.front();
+  if (plan.user) plan.hidden = hidden_paths(names_in(program, plan.executable));
+  for (const Program::File& f : program.files) {
+    // Only a program that opens /dev/fd/3 once more needs this; a superuser without CAP_CHOWN may not do it.
+    if (plan.user && fchown(f.here, *plan.user, *plan.user) != 0 && errno != EPERM) throw_errno("a file of a host");
+  }
   for (const std::string& a : program.arguments) plan.arguments.push_back(const_cast<char*>(a.c_str()));
   plan.arguments.push_back(nullptr);
   for (const std::string& e : program.environment) plan.environment.push_back(const_cast<char*>(e.c_str()));
@@ -326,9 +442,12 @@ SupervisedProcess::SupervisedProcess(const Program& program, const Confinement& 
   }
   plan.environment.push_back(nullptr);
   std::fflush(nullptr);  // otherwise a body that calls exit would flush the buffers twice
-  supervisor_ = fork_apart(confinement.pid_namespace, namespaced_);
+  Namespaces own;
+  supervisor_ = confinement.pid_namespace ? fork_apart(plan, own) : fork();
+  namespaced_ = own.processes;
   if (supervisor_ < 0) throw_errno("a process for a host");
-  if (supervisor_ == 0) supervise(plan, namespaced_);
+  if (supervisor_ == 0) supervise(plan, own);
+  if (geteuid() == 0 && !confinement.trusted && !plan.user && !own.users) tell_once_of_the_superuser();
   status_ = hears.take();
   output_ = output.take();
 }
@@ -343,6 +462,7 @@ void SupervisedProcess::read_messages() {
   constexpr int most = 16;  // messages; a program of the superuser may manage to send more
   Message message{};
   for (int i = 0; i < most && read(status_, &message, sizeof message) == ssize_t(sizeof message); ++i) {
+    if (message.what == Message::second_supervisor) second_supervisor_ = message.value;
     if (message.what == Message::process) process_ = message.value;
     if (message.what == Message::could_not_start) failed_to_start_ = message.value;
     if (message.what == Message::ended) wait_status_ = message.value;
@@ -424,10 +544,21 @@ double SupervisedProcess::run_queue_seconds() {
   return 1e-9 * waited;
 }
 
-std::size_t SupervisedProcess::resident_bytes() {
-  std::size_t all = 0, resident = 0;
-  if (process() > 0) std::ifstream("/proc/" + std::to_string(process()) + "/statm") >> all >> resident;
-  return resident * std::size_t(sysconf(_SC_PAGESIZE));
+/// The program and every process that it started.
+std::vector<pid_t> SupervisedProcess::processes() {
+  read_messages();
+  std::vector<pid_t> all = descendants_of(supervisor_);
+  std::erase(all, second_supervisor_);
+  return all;
+}
+
+bool SupervisedProcess::uses_more_memory_than(std::size_t bytes) {
+  if (process() > 0 && resident_bytes_of(process()) > bytes) return true;
+  const std::vector<pid_t> all = processes();
+  const auto sum = [&](std::size_t (*of)(pid_t)) {
+    return std::transform_reduce(all.begin(), all.end(), std::size_t{0}, std::plus<>(), of);
+  };
+  return sum(resident_bytes_of) > bytes && sum(proportional_bytes_of) > bytes;
 }
 
 std::string SupervisedProcess::output(std::size_t most) const {

@@ -22,6 +22,8 @@ enum File : int {
   to_judge = 4,
   shared_request = 5,  ///< shared memory that the host reads; only for hosts of this project
   shared_answers = 6,  ///< shared memory that the host writes; likewise
+  plugin_folder = 7,   ///< of a plugin that the host's user cannot reach by its path
+  plugin_file = 8,     ///< likewise
 };
 
 inline constexpr std::size_t capacity = 2048;             ///< most cases in a batch

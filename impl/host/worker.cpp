@@ -47,15 +47,17 @@ class UnlimitedFileSize {
   rlimit before_{};
 };
 
-/// Shared memory that neither side can shrink: reading beyond its end would kill the reader.
+/// Shared memory that neither side can shrink: reading beyond its end would kill the reader. Nor can either side forbid
+/// the other more (F_SEAL_SEAL). `seals` are further ones.
 template <class T>
-T* new_shared(const char* name, int& file) {
+T* new_shared(const char* name, int& file, int seals = 0) {
   const UnlimitedFileSize any;
   file = memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (file < 0 || ftruncate(file, sizeof(T)) != 0) throw_errno("shared memory for a host");
   void* memory = mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   if (memory == MAP_FAILED) throw_errno("shared memory for a host");
-  if (fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) != 0) throw_errno("shared memory for a host");
+  const int all = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL | seals;
+  if (fcntl(file, F_ADD_SEALS, all) != 0) throw_errno("shared memory for a host");
   return static_cast<T*>(memory);  // a T of zero bytes is valid
 }
 
@@ -177,12 +179,10 @@ Worker::Worker(WorkerLimits limits, std::shared_ptr<const HostProgram> program, 
     : limits_(limits),
       program_(std::move(program)),
       on_wait_(std::move(on_wait)),
-      asked_(new_shared<wire::SharedRequest>("nearmiss-asked", asked_file_)),
+      // From now on no new writable mapping of the cases is possible; this one stays.
+      asked_(new_shared<wire::SharedRequest>("nearmiss-asked", asked_file_, F_SEAL_FUTURE_WRITE)),
       answered_(new_shared<wire::SharedAnswers>("nearmiss-answered", answered_file_)),
-      timeout_(std::make_unique<CaseTimeout>()) {
-  // From now on no new writable mapping is possible; this one stays.
-  if (fcntl(asked_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0) throw_errno("shared memory for a host");
-}
+      timeout_(std::make_unique<CaseTimeout>()) {}
 
 Worker::~Worker() {
   end();
@@ -228,6 +228,10 @@ void Worker::spawn_once() {
     if (is_shared()) {
       run.files.push_back({asked_file_, wire::shared_request});
       run.files.push_back({answered_file_, wire::shared_answers});
+    }
+    if (is_shared() && run.arguments.size() == 2) {  // a host of this project is told of a plugin alone
+      const std::string& plugin = run.arguments.back();
+      run.named_files = {{plugin.substr(0, plugin.rfind('/') + 1), wire::plugin_folder}, {plugin, wire::plugin_file}};
     }
   } else {
     run.files = {{down.ends[0], wire::from_judge}, {up.ends[1], wire::to_judge}};
@@ -485,7 +489,7 @@ Worker::Event Worker::await() {
     looked_ = Clock::now();
     const auto late = is_gone ? std::nullopt : timeout_->expired(*child_->process, limits_);
     const bool is_too_large =
-        limits_.bytes > 0 && child_->process->resident_bytes() > limits_.bytes + (std::size_t{1} << 28);
+        limits_.bytes > 0 && child_->process->uses_more_memory_than(limits_.bytes + (std::size_t{1} << 28));
     if (!is_gone && !late && !is_too_large) continue;
     if (got_ == requested_) {  // an event after the last answer concerns no case
       end();

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -116,7 +117,9 @@ std::string last_line(const std::string& text) {
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "nearmiss-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  constexpr mode_t passable = 0711;
+  if (mkdtemp(name.data()) == nullptr || chmod(name.c_str(), passable) != 0)
+    throw std::runtime_error("no temporary folder");
   path_ = name;
 }
 

@@ -28,6 +28,7 @@ inline constexpr bool is_sanitized = false;
 std::string nearmiss_program();
 std::string properties_program();
 std::string contradicting_program();
+std::string in_a_way();
 std::string zoo_program();
 std::string plugin_file(const std::string& name);
 std::string record_example();
@@ -72,7 +73,7 @@ bool nothing_is_left(const std::string& mark);
 
 std::string last_line(const std::string& text);
 
-/// A temporary folder, removed by the destructor.
+/// A temporary folder, removed by the destructor. Every user may pass through it, as a host may be of another user.
 class TemporaryFolder {
  public:
   TemporaryFolder();

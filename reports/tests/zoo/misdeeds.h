@@ -24,6 +24,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "reports/tests/zoo/attacks.h"
+
 static int is_chosen(const char* what) {
   const char* chosen = getenv("NEARMISS_ZOO");
   return chosen != NULL && strcmp(chosen, what) == 0;
@@ -109,6 +111,31 @@ static void trap_floating_point(void) {
   volatile double zero = 0;
   volatile double nothing = 1 / zero;
   (void)nothing;
+}
+
+/* Makes the system send SIGKILL to the process when a pipe becomes readable. */
+static void signal_by_a_file(pid_t process) {
+  int ends[2];
+  if (pipe(ends) != 0) return;
+  if (fcntl(ends[0], F_SETOWN, process) != 0 || fcntl(ends[0], F_SETSIG, SIGKILL) != 0) return;
+  fcntl(ends[0], F_SETFL, O_ASYNC);
+  if (write(ends[1], "x", 1) == 1) usleep(10000);
+}
+
+/* Does to the judge and to its supervisor what would end or cripple them. */
+static void assault(void) {
+  look_around();
+  if (judge == 0) return;
+  const struct rlimit none = {0, 0};
+  kill(judge, SIGKILL);
+  syscall(SYS_tgkill, judge, judge, SIGKILL);
+  signal_by_a_file(judge);
+  for (int limit = 0; limit < RLIM_NLIMITS; ++limit) syscall(SYS_prlimit64, judge, limit, &none, NULL);
+  kill(supervisor, SIGSTOP);
+  kill(supervisor, SIGKILL);
+  if (mount("zoo", target(""), "tmpfs", 0, "size=4k") == 0) fputs("mounted\n", stderr);
+  usleep(50000);
+  fputs("did its worst\n", stderr);
 }
 
 /* Returns where the misdeed lets it. The same names as of a load begin with "load-". */
@@ -270,6 +297,15 @@ static void do_misdeed(const char* when) {
     void* cases = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, 5, 0);
     fputs(cases == MAP_FAILED ? "the cases cannot be written\n" : "the cases can be written\n", stderr);
     abort();
+  }
+  IF("attacks") attack(), abort();
+  IF("assault") leave_behind(2), assault(), abort();
+  IF("seals-answers") {
+    if (fcntl(6, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) == 0) fputs("it sealed its answers\n", stderr);
+    abort();
+  }
+  IF("forks-for-ever") {
+    for (;;) fork();
   }
   IF("limits") {
     const struct rlimit none = {0, 0};
