@@ -250,6 +250,7 @@ const Misdeed of_plugins[] = {
     {"answer-reason-without-end", End::judged, ""},
     {"answer-nan", End::judged, ""},
     {"answer-too-much", End::broke, ""},
+    {"ask-forks-for-ever", End::broke, ""},
     {"ask-execs-sleep", End::broke, "hung up"},
     {"ask-says-done", End::broke, "says that all is done"},
     {"ask-scribbles", End::broke, ""},
