@@ -205,6 +205,16 @@ TEST(SceneLimits, BoundDecisionsByDepthAndGap) {
   EXPECT_EQ(overlap(-0.05, true).clause, "the scene world requires phantom contacts to be at most 0.01 yard apart");
 }
 
+/// A depth that no balls have, 0.004 beyond both diameters, is within what the scene tolerates.
+TEST(SceneLimits, TolerateAMemberInTheWholeAnswerToo) {
+  const Case c = asked("sphere_sphere_penetration", {17000, 0, 0, 0.5, 17000.001, 0, 0, 0.5});
+  Answer a = yes({1.003});
+  a.given = 1;
+  EXPECT_FALSE(judge(c, a, by_measure, Detail::full, &world).is_proved());
+  a.values[0] = 1.02;
+  EXPECT_EQ(judge(c, a, by_measure, Detail::full, &world).broken, Clause::scene);
+}
+
 /// A scene states nothing about them.
 TEST(SceneLimits, LeaveNormalsToTheMeasure) {
   Answer turned = far_hit(2, 17004);

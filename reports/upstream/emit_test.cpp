@@ -264,14 +264,22 @@ int main(int argc, char** argv) {
 
 }  // namespace
 
+namespace {
+
+std::string source_of_bound(const Report& r) {
+  if (r.scene) return fmt::format("what the scene {} tolerates, as a share of the largest length", r.scene->scene);
+  if (r.standard.promised && r.standard.contract.backward < collide::Contract::none)
+    return "the bound that follows from the library's documented tolerance";
+  return "a measure, because the library documents no bound";
+}
+
+}  // namespace
+
 std::string allowance_text(const Report& r, const RightAnswers& right) {
-  const std::string bound = amount_text(right.allowed, r.question.scalar);
-  return fmt::format("An answer is accepted where it is exact for inputs that differ from these by at most {}: {}",
-                     bound,
-                     r.standard.promised && r.standard.contract.backward < collide::Contract::none
-                         ? "the bound that follows from the library's documented tolerance"
-                         : "a measure, because the library documents no bound") +
-         (right.narrowed ? ". The tolerances are narrower than that, because the numbers are wrong only together" : "");
+  return fmt::format(
+      "An answer is accepted where it is exact for inputs that differ from these by at most {}: {}{}",
+      amount_text(right.allowed, r.question.scalar), source_of_bound(r),
+      right.narrowed ? ". The tolerances are narrower than that, because the numbers are wrong only together" : "");
 }
 
 EmittedTest emit_test(const Report& r, const Subject& subject) {
