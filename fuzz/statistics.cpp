@@ -89,7 +89,7 @@ void count_answer(const Asked& asked, const Case& c, const Answer& answer, const
   of.promised = asked.standard.contract.backward;
   if (answer.status != Answer::Status::answered || !finding.backward) return;
   if (of.backward && finding.backward->above <= *of.backward) return;
-  of.backward = finer_backward(c, answer, *finding.backward);
+  of.backward = finer_backward(c, answer, *finding.backward, asked.standard.required);
 }
 
 void write_statistics() {

@@ -11,6 +11,7 @@
 #include "oracles/exact/number_memory.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
+#include "oracles/rule_of_no.hpp"
 
 namespace nearmiss {
 
@@ -49,8 +50,12 @@ int rung_of(const Backward& b) { return b.above > 0 ? std::ilogb(b.above) + 1 : 
 /// The oracle and the case, so that each step below is one line. Caches the result of each rung.
 class Examination {
  public:
-  Examination(const Case& question, const Answer& answer)
-      : question_(question), answer_(answer), largest_(magnitudes(*question.query, question.values)) {}
+  /// The case meets `required`.
+  Examination(const Case& question, const Answer& answer, Preconditions required = {})
+      : question_(question),
+        answer_(answer),
+        largest_(magnitudes(*question.query, question.values)),
+        required_(with_border(*question.query, required)) {}
 
   Enclosure within(double k) const {
     widen(k);
@@ -72,14 +77,14 @@ class Examination {
   /// The highest rung at which no exact answer matches; empty if even the lowest rung may have a match. `about`: where
   /// the search begins.
   std::optional<Backward> backward(int about) const {
-    return highest_rung(about, [](const Rung& r) { return !r.may_match; });
+    return proving(highest_rung(about, [](const Rung& r) { return !r.may_match; }));
   }
   /// The same for the given decision, and for one member together with the given decision.
   std::optional<Backward> backward_of_decision(int about) const {
-    return highest_rung(about, [&](const Rung& r) { return answer_.yes ? !r.may_be_yes : !r.may_be_no; });
+    return proving(highest_rung(about, [&](const Rung& r) { return answer_.yes ? !r.may_be_yes : !r.may_be_no; }));
   }
   std::optional<Backward> backward_of_member(std::size_t member, int about) const {
-    return highest_rung(about, [&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; });
+    return proving(highest_rung(about, [&](const Rung& r) { return (r.may_match_member >> member & 1u) == 0; }));
   }
   /// The highest rung up to which every input has the same decision.
   std::optional<Backward> margin(int about = 0) const {
@@ -116,6 +121,13 @@ class Examination {
     return !oracle.may_be_on_surface(question_.values, widening_, answer_, std::size_t(worst), ulps, question_.scalar);
   }
   const NumberVector<double>& last_widening() const { return widening_; }
+  /// Those of the required preconditions that have a border and that an input within k epsilon may break.
+  Preconditions unmet_within_epsilon(double k) const {
+    if (required_.empty() || k == 0) return {};
+    widen(k);
+    return unmet_within(question_, required_, widening_);
+  }
+  Preconditions ended_by() const { return ended_by_; }
 
  private:
   /// What the enclosure of one rung allows.
@@ -153,11 +165,31 @@ class Examination {
     return Backward{rung(low)};
   }
 
+  /// The bound, or the highest one below it within which every input meets the preconditions.
+  std::optional<Backward> proving(std::optional<Backward> bound) const {
+    if (!bound || required_.empty()) return bound;
+    const int own = rung_of(*bound);
+    while (proving_rung_ < own && breaking_rung_ - proving_rung_ > 1) {
+      const int k = breaking_rung_ > own ? own : (proving_rung_ + breaking_rung_) / 2;
+      const Preconditions unmet = unmet_within_epsilon(rung(k));
+      if (unmet.empty()) {
+        proving_rung_ = k;
+      } else {
+        breaking_rung_ = k, ended_by_ = unmet;
+      }
+    }
+    return Backward{rung(std::min(own, proving_rung_))};
+  }
+
   const Case& question_;
   const Answer& answer_;
   Magnitudes largest_;
+  Preconditions required_;  ///< only those with a border that concern the query
   mutable NumberVector<double> widening_;
   mutable std::array<Rung, rungs> remembered_{};
+  mutable int proving_rung_ = 0;       ///< every input within it meets the preconditions
+  mutable int breaking_rung_ = rungs;  ///< not every input within it is sure to meet them
+  mutable Preconditions ended_by_{};
 };
 
 Disagreement wrong(const Query& query, Role role, double given) {
@@ -174,12 +206,13 @@ Disagreement wrong(const Query& query, Role role, double given) {
   }
 }
 
-/// |normal| - 1 in units of epsilon; 0 where the answer has no normal.
+/// |normal| - 1 in units of epsilon; 0 where the answer has no normal, or not all of it.
 double length_error(const Query& query, const Answer& answer, Scalar scalar) {
   long double length2 = 0;
   bool any = false;
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    if (query.outputs[i].role != Role::normal || !answer.gives(i)) continue;
+    if (query.outputs[i].role != Role::normal) continue;
+    if (!answer.gives(i)) return 0;
     length2 += static_cast<long double>(answer.values[i]) * answer.values[i];
     any = true;
   }
@@ -200,7 +233,7 @@ class Judgement {
         scene_(standard.promised ? nullptr : scene),
         length_of_epsilon_(unit_roundoff(question.scalar) * largest_length(question)),
         detail_(detail),
-        x_(question, answer) {}
+        x_(question, answer, standard.required) {}
 
   Finding finding() {
     if (answer_.status != Answer::Status::answered) {
@@ -220,6 +253,7 @@ class Judgement {
     judge_members();
     judge_length();
     conclude();
+    f_.ended_by = x_.ended_by();
     f_.forward_at_most = largest_forward();
     f_.settled = is_settled();
     return std::move(f_);
@@ -399,7 +433,8 @@ class Judgement {
     for (int halvings = 4; halvings > 0 && !beyond(above) && beyond(above + step); --halvings) {
       step /= 2;
       const Enclosure e = x_.within(above + step);
-      if (answer_.yes ? !e.may_be_yes : !e.may_be_no) above += step;
+      const bool excluded = answer_.yes ? !e.may_be_yes : !e.may_be_no;
+      if (excluded && x_.unmet_within_epsilon(above + step).empty()) above += step;
     }
     exceeds_scene(m, above * length_of_epsilon_, most,
                   answer_.yes ? fmt::format("phantom contacts to be at most {} {} apart", most, scene_->unit)
@@ -640,14 +675,14 @@ Enclosure enclosure_of(const Case& question, const Answer& answer) {
   return Examination(question, answer).within(0);
 }
 
-double finer_backward(const Case& question, const Answer& answer, const Backward& proved) {
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved, Preconditions required) {
   constexpr int halvings = 4;  // to 1/16
   const FloatingPointScope standard_modes;
-  const Examination x(question, answer);
+  const Examination x(question, answer, required);
   double above = proved.above, step = std::max(proved.above, 1.0);
   for (int i = 0; i < halvings; ++i) {
     step /= 2;
-    if (!x.within(above + step).may_match) above += step;
+    if (!x.within(above + step).may_match && x.unmet_within_epsilon(above + step).empty()) above += step;
   }
   return above;
 }
@@ -691,6 +726,10 @@ Truth truth_of(const Case& question) {
   t.yes = exact.may_be_yes;
   t.decided_by = x.within(0).decided() ? Stage::interval : Stage::exact;
   if (const auto margin = x.margin()) t.margin_at_least = margin->above;
+  if (!t.yes) {
+    const bool late = std::any_of(t.alternatives.begin(), t.alternatives.end(), [](const auto& a) { return a.late; });
+    t.because = late ? "the contact comes at a time beyond the largest number" : rule_of_no(question);
+  }
   return t;
 }
 

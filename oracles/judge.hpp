@@ -93,12 +93,15 @@ struct Finding {
   bool truth_yes = false;              ///< the exact decision
   Stage decided_by = Stage::interval;  ///< the stage that decided it
   std::optional<Backward> backward;    ///< of the whole answer; empty: no difference is proved
-  double forward_ulps = 0;             ///< of the whole answer: lower bound of the distance to the nearest exact answer
-  double forward_absolute = 0;         ///< the same distance in the worst number's own unit
-  int worst = -1;                      ///< index of the worst number among the query's outputs
-  double unit_error = 0;               ///< |normal| - 1, in units of epsilon; 0 where the answer has no normal
-  std::uint64_t branches = 0;          ///< the branches of the oracle that reported right answers (Enclosure::branches)
-  std::uint32_t right_answers = 0;     ///< how many right answers the oracle reported; more than one: a tie
+  /// The preconditions that an input on the rung after the bound may break, where this ends the search: the bounds of
+  /// the answer and of its members could be higher, but a higher rung proves nothing. Otherwise empty.
+  Preconditions ended_by{};
+  double forward_ulps = 0;          ///< of the whole answer: lower bound of the distance to the nearest exact answer
+  double forward_absolute = 0;      ///< the same distance in the worst number's own unit
+  int worst = -1;                   ///< index of the worst number among the query's outputs
+  double unit_error = 0;            ///< |normal| - 1, in units of epsilon; 0 where the answer has no normal
+  std::uint64_t branches = 0;       ///< the branches of the oracle that reported right answers (Enclosure::branches)
+  std::uint32_t right_answers = 0;  ///< how many right answers the oracle reported; more than one: a tie
 
   /// True where a judgement with Detail::full has the same verdict, truth and backward bounds, and the same members
   /// break the contract, with the same headline. Its forward error is at most `forward_at_most` ulps.
@@ -123,8 +126,9 @@ enum class Detail {
 };
 
 /// Judges `answer` to a valid case by `standard`. A case outside the subject's preconditions gets not_asked, whatever
-/// the answer. Thread-safe. The result does not depend on the caller's floating-point modes; this holds for every call
-/// of the oracle.
+/// the answer. A rung on which an input may break a required precondition that has a border (has_border) proves
+/// nothing: the answer may be right for that input by a rule of the library's own. Thread-safe. The result does not
+/// depend on the caller's floating-point modes; this holds for every call of the oracle.
 ///
 /// `scene` holds for a subject that promises nothing: it replaces the measure where the scene states what it requires.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
@@ -136,8 +140,9 @@ Enclosure enclosure_of(const Case& question, const Answer& answer);
 
 /// A lower bound of the backward error of the whole answer that is finer than the ladder: at least `proved`, the bound
 /// of judge(), and below its next rung, in steps of 1/16 of the rung (of 1 on rung 0). Like a rung it is proved by
-/// itself: no input within so many epsilon has an exact answer that matches. For an answer with the status answered.
-double finer_backward(const Case& question, const Answer& answer, const Backward& proved);
+/// itself: no input within so many epsilon has an exact answer that matches, and every such input meets `required`. For
+/// an answer with the status answered.
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved, Preconditions required = {});
 
 /// A guide for a search, which proves nothing and which no finding uses: the forward error over the widening of the
 /// enclosure of the exact answers for each epsilon of the inputs, so about the backward error in epsilon where it is
@@ -165,6 +170,9 @@ struct Truth {
   /// The decision is the same for every input within this many epsilon of the case's scalar. Proved, on the ladder.
   /// Negative: the interval stage cannot decide even the input itself.
   double margin_at_least = -1;
+  /// The rule of the query that makes a contact, or what seems to be one, a no: "the point starts inside the box".
+  /// Empty for a yes, and where no rule is needed.
+  std::string because;
 };
 Truth truth_of(const Case& question);
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "impl/catalogue/query_ids.hpp"
+#include "oracles/derived_case.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -115,86 +117,165 @@ bool is_rectangle(const Case& c, const Parts::Corners& corners) {
   return askew + open <= most;
 }
 
+/// The names of a member in another query and here.
+using Renamed = std::pair<std::string_view, std::string_view>;
+
+/// A case and how far each of its numbers may move; without `moves` none does. A question about it asks whether
+/// something certainly holds for every such input.
+struct Neighbourhood {
+  const Case& c;
+  std::span<const double> moves;
+
+  Long move(std::size_t i) const { return moves.empty() ? 0 : moves[i]; }
+  /// Of the three numbers of a vector, the furthest move.
+  Long move_of_vector(std::size_t i) const { return std::max({move(i), move(i + 1), move(i + 2)}); }
+  /// Number i is certainly less than number k.
+  bool less(std::size_t i, std::size_t k) const {
+    if (moves.empty()) return c.values[i] < c.values[k];
+    return Long(c.values[k]) - c.values[i] > (move(i) + move(k)) * (1 + rounding);
+  }
+};
+
 /// The rounding error of the cross product is at most 16 roundings of |v| (|e| + |f|), where |v| is the largest
-/// coordinate.
-bool has_area(const Case& c, const std::array<std::size_t, 3>& corners) {
-  const Vector v0 = vector(c, corners[0]), v1 = vector(c, corners[1]), v2 = vector(c, corners[2]);
+/// coordinate. If each coordinate moves by at most m, each coordinate of e and f moves by at most 2 m, and one of the
+/// cross product by at most 2 m (|e| + |f|) sqrt(2) + 8 m^2.
+bool has_area(const Neighbourhood& n, const std::array<std::size_t, 3>& corners) {
+  const Vector v0 = vector(n.c, corners[0]), v1 = vector(n.c, corners[1]), v2 = vector(n.c, corners[2]);
   const Vector e = v1 - v0, f = v2 - v0;
-  const Long magnitude = std::max({largest(v0), largest(v1), largest(v2)});
-  return largest(cross(e, f)) > rounding * magnitude * (length(e) + length(f));
+  const Long magnitude = std::max({largest(v0), largest(v1), largest(v2)}), sides = length(e) + length(f);
+  const Long m = std::max({n.move_of_vector(corners[0]), n.move_of_vector(corners[1]), n.move_of_vector(corners[2])});
+  return largest(cross(e, f)) > rounding * magnitude * sides + 3 * m * sides + 9 * m * m;
 }
 
-bool differ(const Case& c, std::size_t i, std::size_t k) {
-  return !std::equal(&c.values[i], &c.values[i] + 3, &c.values[k]);
+bool differ(const Neighbourhood& n, std::size_t i, std::size_t k) {
+  bool any = false;
+  for (std::size_t c = 0; c < 3; ++c) any = any || n.less(i + c, k + c) || n.less(k + c, i + c);
+  return any;
 }
 
-bool is_zero(const Case& c, std::size_t begin) {
-  return std::all_of(&c.values[begin], &c.values[begin] + 3, [](double x) { return x == 0; });
+bool is_not_zero(const Neighbourhood& n, std::size_t begin) {
+  bool any = false;
+  for (std::size_t i = begin; i < begin + 3; ++i) any = any || std::abs(Long(n.c.values[i])) > n.move(i);
+  return any;
 }
 
-bool has_no_zero_sizes(const Case& c, const Parts& parts) {
+bool has_no_zero_sizes(const Neighbourhood& n, const Parts& parts) {
   const auto each = [](const auto& list, auto holds) { return std::all_of(list.begin(), list.end(), holds); };
   const auto has_sides = [&](std::size_t i) {
-    return c.values[i] < c.values[i + 3] && c.values[i + 1] < c.values[i + 4] && c.values[i + 2] < c.values[i + 5];
+    return n.less(i, i + 3) && n.less(i + 1, i + 4) && n.less(i + 2, i + 5);
   };
-  return each(parts.sizes, [&](std::size_t i) { return c.values[i] > 0; }) && each(parts.aaboxes, has_sides) &&
-         each(parts.segments, [&](const auto& s) { return differ(c, s[0], s[1]); }) &&
-         each(parts.triangles, [&](const auto& t) { return has_area(c, t); });
+  return each(parts.sizes, [&](std::size_t i) { return n.c.values[i] > n.move(i); }) &&
+         each(parts.aaboxes, has_sides) && each(parts.segments, [&](const auto& s) { return differ(n, s[0], s[1]); }) &&
+         each(parts.triangles, [&](const auto& t) { return has_area(n, t); });
 }
 
-/// The ball at the start and the obstacle, as a case of another query of the catalogue.
-Case beside(const Case& c, QueryId query, std::vector<double> values) {
-  return {&query_of(query), c.scalar, std::move(values), "start", 0, 0, {}};
-}
+/// The ball at the start and the obstacle, as a case of another query of the catalogue whose decision tells whether
+/// they touch.
+class StartAsCase {
+ public:
+  StartAsCase(const Neighbourhood& n, const Parts::Start& start, QueryId query)
+      : n_(n), start_(start), derived_(n.c, query) {}
 
-bool overlaps(const Case& c, const Parts::Start& s, QueryId query, const std::vector<std::size_t>& rest) {
-  std::vector<double> values(&c.values[s.place], &c.values[s.place] + 3);
-  values.push_back(s.radius ? c.values[*s.radius] : 0.0);
-  for (const std::size_t i : rest) values.push_back(c.values[i]);
-  return exact_decision(beside(c, query, std::move(values)));
+  void set(std::string_view to, std::optional<std::size_t> index) { derived_.set(to, index); }
+  void set_ball(const std::string& to) {
+    derived_.set_vector(to + ".center", start_.place);
+    derived_.set(to + ".radius", start_.radius);
+  }
+  /// The numbers of the obstacle, which has the same members there; a member with the name `first` takes that with the
+  /// name `second`.
+  void set_obstacle(const std::string& to, std::span<const Renamed> renamed = {}) {
+    for (const Field& f : derived_.question().query->inputs) {
+      if (!f.name.starts_with(to + '.')) continue;
+      std::string member = f.name.substr(to.size() + 1);
+      const auto other =
+          std::find_if(renamed.begin(), renamed.end(), [&](const Renamed& r) { return member.starts_with(r.first); });
+      if (other != renamed.end()) member.replace(0, other->first.size(), other->second);
+      derived_.set(f.name, obstacle_number(member));
+    }
+  }
+  /// The index of a number of the obstacle in the case.
+  std::size_t obstacle_number(std::string_view member) const {
+    const Query& q = *n_.c.query;
+    const std::string_view first = q.inputs[start_.begin].name;
+    return field(q, {first.substr(0, first.find('.')), start_.begin, start_.count}, member).value();
+  }
+  bool surely_apart() const {
+    if (n_.moves.empty()) return !exact_decision(derived_.question());
+    const std::vector<double> moves = derived_.of_inputs({n_.moves.begin(), n_.moves.end()});
+    return decision_within(derived_.question(), moves) == std::optional(false);
+  }
+
+ private:
+  const Neighbourhood& n_;
+  const Parts::Start& start_;
+  DerivedCase derived_;
+};
+
+bool apart_from(const Neighbourhood& n, const Parts::Start& s, QueryId query, const std::string& ball,
+                const std::string& obstacle, std::span<const Renamed> renamed = {}) {
+  StartAsCase start(n, s, query);
+  start.set_ball(ball);
+  start.set_obstacle(obstacle, renamed);
+  return start.surely_apart();
 }
 
 /// A ball at rest hits exactly what it touches or overlaps. Only the sum of the radii matters. The ball gets the larger
 /// radius, because a point inside a capsule hits nothing.
-bool overlaps_capsule(const Case& c, const Parts::Start& s) {
-  const double own = s.radius ? c.values[*s.radius] : 0.0, other = c.values[s.begin + 6];
-  std::vector<double> values(&c.values[s.place], &c.values[s.place] + 3);
-  values.insert(values.end(), {std::max(own, other), 0, 0, 0});
-  values.insert(values.end(), &c.values[s.begin], &c.values[s.begin] + 6);
-  values.push_back(std::min(own, other));
-  return exact_decision(beside(c, QueryId::moving_sphere_capsule, std::move(values)));
-}
-
-bool is_in_aabox(const Case& c, const Parts::Start& s) {
-  bool inside = true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = c.values[s.place + k];
-    inside = inside && c.values[s.begin + k] <= x && x <= c.values[s.begin + 3 + k];
+bool apart_from_capsule(const Neighbourhood& n, const Parts::Start& s) {
+  StartAsCase start(n, s, QueryId::moving_sphere_capsule);
+  start.set_ball("sphere");
+  start.set_obstacle("capsule");
+  const std::size_t other = start.obstacle_number("radius");
+  if (!s.radius || n.c.values[*s.radius] < n.c.values[other]) {
+    start.set("sphere.radius", other);
+    start.set("capsule.radius", s.radius);
   }
-  return inside;
+  return start.surely_apart();
 }
 
-std::vector<std::size_t> numbers(std::size_t begin, std::size_t count) {
-  std::vector<std::size_t> all(count);
-  for (std::size_t i = 0; i < count; ++i) all[i] = begin + i;
-  return all;
+bool apart_from_aabox(const Neighbourhood& n, const Parts::Start& s) {
+  const StartAsCase start(n, s, QueryId::sphere_sphere_overlap);
+  const std::size_t low = start.obstacle_number("min.x"), high = start.obstacle_number("max.x");
+  bool any = false;
+  for (std::size_t k = 0; k < 3; ++k) any = any || n.less(s.place + k, low + k) || n.less(high + k, s.place + k);
+  return any;
 }
 
-bool starts_in_touch(const Case& c, const Parts::Start& s) {
-  const auto all = numbers(s.begin, s.count);
+/// Both triangles of a rectangle count.
+bool apart_from_rectangle(const Neighbourhood& n, const Parts::Start& s) {
+  constexpr std::array<Renamed, 2> second{Renamed{"v1", "v2"}, Renamed{"v2", "v3"}};
+  return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle") &&
+         apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle", second);
+}
+
+bool starts_outside(const Neighbourhood& n, const Parts::Start& s) {
   switch (s.obstacle) {
-    case Obstacle::plane: return overlaps(c, s, QueryId::sphere_plane_penetration, all);
-    case Obstacle::triangle: return overlaps(c, s, QueryId::sphere_triangle_overlap, all);
-    case Obstacle::sphere: return overlaps(c, s, QueryId::sphere_sphere_overlap, all);
-    case Obstacle::box: return overlaps(c, s, QueryId::sphere_box_overlap, all);
-    case Obstacle::capsule: return overlaps_capsule(c, s);
-    case Obstacle::aabox: return is_in_aabox(c, s);
-    case Obstacle::rectangle: break;
+    case Obstacle::plane: return apart_from(n, s, QueryId::sphere_plane_penetration, "sphere", "plane");
+    case Obstacle::triangle: return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
+    case Obstacle::rectangle: return apart_from_rectangle(n, s);
+    case Obstacle::sphere: return apart_from(n, s, QueryId::sphere_sphere_overlap, "sphere1", "sphere2");
+    case Obstacle::capsule: return apart_from_capsule(n, s);
+    case Obstacle::box: return apart_from(n, s, QueryId::sphere_box_overlap, "sphere", "box");
+    case Obstacle::aabox: return apart_from_aabox(n, s);
   }
-  auto second = numbers(s.begin, 3);  // v0 v2 v3
-  for (const std::size_t i : numbers(s.begin + 6, 6)) second.push_back(i);
-  return overlaps(c, s, QueryId::sphere_triangle_overlap, numbers(s.begin, 9)) ||
-         overlaps(c, s, QueryId::sphere_triangle_overlap, second);
+  throw std::logic_error("no obstacle");
+}
+
+bool meets(const Neighbourhood& n, Precondition p) {
+  const Case& c = n.c;
+  const Parts& parts = parts_of(*c.query);
+  const auto each = [](const auto& list, auto holds) { return std::all_of(list.begin(), list.end(), holds); };
+  const auto three = [&](std::size_t i) { return is_unit(c, i, 3); };
+  switch (p) {
+    case Precondition::true_rectangle: return each(parts.rectangles, [&](const auto& r) { return is_rectangle(c, r); });
+    case Precondition::unit_normal: return each(parts.normals, three);
+    case Precondition::unit_direction: return each(parts.directions, three);
+    case Precondition::unit_quaternion: return each(parts.quaternions, [&](std::size_t i) { return is_unit(c, i, 4); });
+    case Precondition::starts_outside: return !parts.start || starts_outside(n, *parts.start);
+    case Precondition::moves: return each(parts.velocities, [&](std::size_t i) { return is_not_zero(n, i); });
+    case Precondition::no_zero_sizes: return has_no_zero_sizes(n, parts);
+  }
+  throw std::logic_error("no precondition");
 }
 
 }  // namespace
@@ -204,15 +285,18 @@ Parts::Parts(const Query& q) {
   for (const Operand& t : operands) {
     const auto at = [&](std::string_view member) { return field(q, t, member); };
     if (at("v3.x")) {
-      rectangles.push_back({t.begin, t.begin + 3, t.begin + 6, t.begin + 9});
-      triangles.push_back({t.begin, t.begin + 3, t.begin + 6});
-      triangles.push_back({t.begin, t.begin + 6, t.begin + 9});
+      const Corners v{*at("v0.x"), *at("v1.x"), *at("v2.x"), *at("v3.x")};
+      rectangles.push_back(v);
+      triangles.push_back({v[0], v[1], v[2]});
+      triangles.push_back({v[0], v[2], v[3]});
     } else if (at("v2.x")) {
-      triangles.push_back({t.begin, t.begin + 3, t.begin + 6});
-    } else if (at("v1.x") || at("p1.x")) {
-      segments.push_back({t.begin, t.begin + 3});
+      triangles.push_back({*at("v0.x"), *at("v1.x"), *at("v2.x")});
+    } else if (at("v1.x")) {
+      segments.push_back({*at("v0.x"), *at("v1.x")});
+    } else if (at("p1.x")) {
+      segments.push_back({*at("p0.x"), *at("p1.x")});
     } else if (at("min.x")) {
-      aaboxes.push_back(t.begin);
+      aaboxes.push_back(*at("min.x"));
     }
   }
   for (std::size_t i = 0; i < q.inputs.size(); ++i) {
@@ -253,27 +337,29 @@ bool concerns(Precondition p, const Query& query) {
   throw std::logic_error("no precondition");
 }
 
-bool meets(const Case& c, Precondition p) {
-  const Parts& parts = parts_of(*c.query);
-  const auto each = [](const auto& list, auto holds) { return std::all_of(list.begin(), list.end(), holds); };
-  const auto three = [&](std::size_t i) { return is_unit(c, i, 3); };
-  switch (p) {
-    case Precondition::true_rectangle: return each(parts.rectangles, [&](const auto& r) { return is_rectangle(c, r); });
-    case Precondition::unit_normal: return each(parts.normals, three);
-    case Precondition::unit_direction: return each(parts.directions, three);
-    case Precondition::unit_quaternion: return each(parts.quaternions, [&](std::size_t i) { return is_unit(c, i, 4); });
-    case Precondition::starts_outside: return !parts.start || !starts_in_touch(c, *parts.start);
-    case Precondition::moves: return each(parts.velocities, [&](std::size_t i) { return !is_zero(c, i); });
-    case Precondition::no_zero_sizes: return has_no_zero_sizes(c, parts);
-  }
-  throw std::logic_error("no precondition");
-}
+bool meets(const Case& question, Precondition p) { return meets(Neighbourhood{question, {}}, p); }
 
 Preconditions unmet_by(const Case& question, Preconditions required) {
   Preconditions unmet;
   if (required.empty()) return unmet;
   for (const Precondition p : all_preconditions) {
     if (required.has(p) && !meets(question, p)) unmet.add(p);
+  }
+  return unmet;
+}
+
+Preconditions with_border(const Query& query, Preconditions required) {
+  Preconditions some;
+  for (const Precondition p : all_preconditions) {
+    if (required.has(p) && has_border(p) && concerns(p, query)) some.add(p);
+  }
+  return some;
+}
+
+Preconditions unmet_within(const Case& question, Preconditions required, std::span<const double> moves) {
+  Preconditions unmet;
+  for (const Precondition p : all_preconditions) {
+    if (required.has(p) && has_border(p) && !meets(Neighbourhood{question, moves}, p)) unmet.add(p);
   }
   return unmet;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,18 @@ bool concerns(Precondition p, const Query& query);
 bool meets(const Case& question, Precondition p);
 /// Those of `required` that the case does not certainly meet.
 Preconditions unmet_by(const Case& question, Preconditions required);
+
+/// True for a precondition beyond whose border a library may answer by a rule of its own, such as that a start in touch
+/// is a hit. The other ones hold within rounding and have no such border: an input that breaks one of them by little
+/// has the exact answer of an input nearby that meets it.
+constexpr bool has_border(Precondition p) {
+  return p == Precondition::starts_outside || p == Precondition::moves || p == Precondition::no_zero_sizes;
+}
+/// Those of `required` with a border that concern the query.
+Preconditions with_border(const Query& query, Preconditions required);
+/// Of the preconditions with a border: those that not certainly every input meets of which each number lies within
+/// `moves` (one distance per number, not negative) of the case's number. Thread-safe.
+Preconditions unmet_within(const Case& question, Preconditions required, std::span<const double> moves);
 
 /// "it requires unit quaternions and a start outside".
 std::string requires_text(Preconditions required);

@@ -148,7 +148,9 @@ std::set<std::string> ties_of(const Case& c, const Truth& t) {
     for (std::size_t i = 0; i < std::min({a.count, b.count, query.outputs.size()}); ++i) {
       if (a.many_normals && query.outputs[i].role == Role::normal) continue;
       const bool apart = a.values[i].high < b.values[i].low || b.values[i].high < a.values[i].low;
-      if (apart) ties.insert(std::string(name_of(query.outputs[i].role)));
+      // Two cones may be one normal each.
+      const bool of_cones = query.outputs[i].role == Role::normal && !query.traits.ties.has(Tie::normal);
+      if (apart) ties.insert(of_cones ? "cone" : std::string(name_of(query.outputs[i].role)));
     }
   }
   return ties;

@@ -127,7 +127,7 @@ class Penetration {
 
   /// Half way between the face and any of the points; `shift` is half the depth along the normal, away from the face.
   void face(int k, const Vector<N>& normal, const N& depth, const Furthest& furthest, const Vector<N>& shift) {
-    constexpr std::size_t contact = 5;
+    constexpr std::size_t contact = begin_of<collide::BoxPenetration<double>>("contact");
     const auto answer = [&](const Vector<N>& point) -> collide::BoxPenetration<N> {
       return {depth, k, answer_vector(normal), answer_vector(point)};
     };

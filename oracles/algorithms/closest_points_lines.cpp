@@ -22,7 +22,8 @@ NumberVector<Form> forms_of(const collide::Line<Interval>& line) {
 template <class Out>
 void points_on_lines(const inputs::closest_points_lines<Interval>& q, const collide::ClosestPoints<Interval>& points,
                      Out& out) {
-  constexpr std::size_t point1 = 0, point2 = 3;
+  constexpr std::size_t point1 = begin_of<collide::ClosestPoints<double>>("point1");
+  constexpr std::size_t point2 = begin_of<collide::ClosestPoints<double>>("point2");
   const Bounds on1 = ulps_from(forms_of(q.line1), point1, out), on2 = ulps_from(forms_of(q.line2), point2, out);
   out.yes(points, SetDistance{{{point1, on1}, {point2, on2}}, {std::max(on1.low, on2.low), HUGE_VAL}});
 }

@@ -72,7 +72,8 @@ struct CapsuleContacts {
   /// radius 0, it is only its axis, and only the normals against the motion are right.
   template <class Out>
   void yes_on_axis(const CapsuleContact<N>& c, Normals<N> normals, Out& out) const {
-    constexpr std::size_t location = 1, normal = 4;
+    constexpr std::size_t location = begin_of<collide::Impact<double>>("location");
+    constexpr std::size_t normal = begin_of<collide::Impact<double>>("normal");
     yes_to_any(NormalWithPlace<N>{std::move(normals), c.on_axis, m.radius, normal, location}, out,
                [&](const Vector<N>& n, const Vector<N>& place) -> collide::Impact<N> {
                  return {c.time, answer_vector(place), answer_vector(n)};

@@ -10,7 +10,7 @@ template <class N, class Out>
 void moving_sphere_triangle(const inputs::moving_sphere_triangle<N>& q, Out& out) {
   SphereAndTriangle<N> pair(vector(q.sphere.center), q.sphere.radius, vector(q.velocity),
                             {vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)});
-  constexpr std::size_t before_weights = 7;  // time, location, normal
+  constexpr std::size_t before_weights = begin_of<collide::TriangleImpact<double>>("weights");
   const TriangleContacts<N> all = pair.contacts();
   for (const TriangleContact<N>& c : all.list) {
     if (c.any_weights)

@@ -9,7 +9,7 @@ namespace nearmiss::oracle {
 
 namespace {
 
-constexpr std::size_t weights = 0;  // index of the first weight in the answer
+constexpr std::size_t weights = begin_of<collide::Containment<double>>("weights");
 
 /// A triangle without area, projected along an axis, with the point on it.
 template <class N>

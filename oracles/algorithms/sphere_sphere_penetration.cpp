@@ -17,7 +17,8 @@ void sphere_sphere_penetration(const inputs::sphere_sphere_penetration<N>& q, Ou
     return {depth, answer_vector(normal), answer_vector(contact)};
   };
   if (may_be_zero(distance2)) {  // any normal, with the contact that belongs to it
-    constexpr std::size_t normal = 1, contact = 4;
+    constexpr std::size_t normal = begin_of<collide::Penetration<double>>("normal");
+    constexpr std::size_t contact = begin_of<collide::Penetration<double>>("contact");
     return yes_to_any(NormalWithPlace<N>{Normals<N>::any(), center, q.sphere1.radius, normal, contact}, out, answer);
   }
   Vector<N> normal = times(between, N(N(1) / distance));

@@ -43,17 +43,6 @@ class Wide {
   mpfr_t value_;
 };
 
-/// The unit in which a member's numbers are compared: one ulp of the largest of them, given or exact.
-double unit_of(const Answer& about, const Layout::Part& part, std::span<const Bounds> errors, Scalar scalar) {
-  double largest = 0;
-  for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (std::isinf(about.values[i])) return ulp(largest_finite(scalar), scalar);
-    largest = std::max(largest, std::abs(about.values[i]));
-    largest = std::max({largest, about.values[i] + errors[i].high, -(about.values[i] + errors[i].low)});
-  }
-  return ulp(std::min(largest, largest_finite(scalar)), scalar);
-}
-
 bool gives_all(const Answer& about, const Layout::Part& part) {
   bool all = true;
   for (std::size_t i = part.begin; i < part.end; ++i) all = all && about.gives(i);
@@ -64,8 +53,8 @@ bool gives_all(const Answer& about, const Layout::Part& part) {
 double apart_from_unit_vectors(const double* n) {
   const long double length = std::sqrt(static_cast<long double>(n[0]) * n[0] + static_cast<long double>(n[1]) * n[1] +
                                        static_cast<long double>(n[2]) * n[2]);
-  constexpr long double below_the_root_of_a_third = 0.577L;  // exceeds by far the rounding here
-  const double apart = static_cast<double>(below_the_root_of_a_third * std::abs(length - 1));
+  // The factor is below 1 / sqrt(3) by far more than the rounding here.
+  const double apart = static_cast<double>(least_of_largest_component * std::abs(length - 1));
   return apart > 0 ? std::min(apart, std::numeric_limits<double>::max()) : 0;
 }
 
@@ -93,22 +82,47 @@ Bounds bounds(const Exact& x) {
   return value.around(value);
 }
 
+Bounds magnitude_bounds(const Exact& x) {
+  const Bounds b = bounds(x);
+  Bounds m{b.nearest_to_zero(), b.furthest_from_zero()};
+  if (!(m.high > 0) || std::isinf(m.high)) return m;
+  const double border = std::ldexp(1.0, std::ilogb(m.high));  // the only power of two that the bounds may enclose
+  if (m.low >= border) return m;
+  (may_be_at_most(Exact(border), magnitude(x)) ? m.low : m.high) = border;
+  if (m.high == border) m.high = std::nextafter(border, 0.0);
+  return m;
+}
+
 EnclosureAccumulator::EnclosureAccumulator(const Answer& about, Scalar scalar, const Layout& layout)
     : about_(about), scalar_(scalar), layout_(layout) {
-  constexpr long double most_from_unit = 0.5L;  // beyond this, the vector is compared as given
   for (const Layout::Part& part : layout.parts) {
-    if (part.role != Role::normal || !about.yes || !about.gives(part.begin)) continue;
-    const double* n = &about.values[part.begin];
-    const long double length = std::sqrt(static_cast<long double>(n[0]) * n[0] + static_cast<long double>(n[1]) * n[1] +
-                                         static_cast<long double>(n[2]) * n[2]);
-    if (!(std::abs(length - 1) < most_from_unit)) continue;
-    unit_normal_.known = true;
-    for (int k = 0; k < 3; ++k) {
-      const long double x = n[k] / length;
-      unit_normal_.high[k] = double(x);
-      unit_normal_.low[k] = double(x - unit_normal_.high[k]);
-    }
+    if (part.role != Role::normal || !about.yes || !gives_all(about, part)) continue;
+    unit_normal_ = UnitNormal::of(&about.values[part.begin]);
   }
+}
+
+EnclosureAccumulator::UnitNormal EnclosureAccumulator::UnitNormal::of(const double* normal) {
+  UnitNormal unit;
+  double largest = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(normal[k])) return unit;
+    largest = std::max(largest, std::abs(normal[k]));
+  }
+  if (largest == 0) return unit;
+  // Multiplied by a power of two, so that no square overflows. What underflows here is far below the slack.
+  std::array<long double, 3> x;
+  for (int k = 0; k < 3; ++k) x[k] = std::ldexp(normal[k], -std::ilogb(largest));
+  const long double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  const bool along_axis = std::count(normal, normal + 3, 0.0) == 2;
+  constexpr double below_one = 1 - 0x1p-53;
+  unit.known = true;
+  for (int k = 0; k < 3; ++k) {
+    const long double component = x[k] / length;
+    unit.high[k] = double(component);
+    if (!along_axis) unit.high[k] = std::clamp(unit.high[k], -below_one, below_one);
+    unit.low[k] = double(component - unit.high[k]);
+  }
+  return unit;
 }
 
 SetDistance EnclosureAccumulator::without_units(SetDistance set) const {
@@ -135,29 +149,54 @@ struct EnclosureAccumulator::Distance {
   double absolute = 0;  ///< the least distance, not in ulps
   int number = -1;      ///< index of the number with this distance
 
-  void include(const Bounds& off, double unit, std::size_t i) {
-    most = std::max(most, off.furthest_from_zero() / unit);
-    const double at_least = off.nearest_to_zero() / unit;
+  void include(const Bounds& off, const Bounds& unit, std::size_t i) {
+    most = std::max(most, off.furthest_from_zero() / unit.low);
+    const double at_least = off.nearest_to_zero() / unit.high;
     if (at_least > least || number < 0) least = at_least, absolute = off.nearest_to_zero(), number = int(i);
   }
+  /// Raises the distance to at least `apart`, which is not in ulps.
+  void raise_to(double apart, const Bounds& unit) {
+    if (apart > absolute) absolute = apart, least = std::max(least, apart / unit.high), most = std::max(most, least);
+  }
 };
+
+double EnclosureAccumulator::largest_given(const Layout::Part& part) const {
+  double largest = 0;
+  for (std::size_t i = part.begin; i < part.end; ++i) largest = std::max(largest, std::abs(about_.values[i]));
+  return largest;
+}
+
+Bounds EnclosureAccumulator::unit_of(const Layout::Part& part, const Errors& errors, double largest_given) const {
+  Bounds largest{largest_given, largest_given};
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    largest.low = std::max(largest.low, errors.magnitude[i].low);
+    largest.high = std::max(largest.high, errors.magnitude[i].high);
+  }
+  const auto unit = [&](double x) { return ulp(std::min(x, largest_finite(scalar_)), scalar_); };
+  return {unit(largest.low), unit(largest.high)};
+}
+
+double EnclosureAccumulator::apart_from_directions(const Layout::Part& part) const {
+  const bool lacks_direction = part.role == Role::normal && !unit_normal_.known && gives_all(about_, part);
+  return lacks_direction ? apart_from_unit_vectors(&about_.values[part.begin]) : 0;
+}
 
 /// The distance of a normal is the smaller of two: as given, and divided by its length, because its length is judged
 /// separately. A vector without a direction is no normal, whatever the right normals are.
 EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors) const {
-  const double unit = unit_of(about_, part, errors.of, scalar_);
+  const bool has_direction = part.role == Role::normal && unit_normal_.known;
+  const Bounds unit = unit_of(part, errors, largest_given(part));
   Distance as_given, of_direction;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (!about_.gives(i)) continue;
-    as_given.include(errors.of[i], unit, i);
-    if (part.role == Role::normal) of_direction.include(errors.of_direction[i - part.begin], unit, i);
+    if (about_.gives(i)) as_given.include(errors.of[i], unit, i);
   }
-  if (part.role == Role::normal && !unit_normal_.known && gives_all(about_, part)) {
-    const double apart = apart_from_unit_vectors(&about_.values[part.begin]);
-    if (apart > as_given.absolute) as_given.least = apart / unit, as_given.absolute = apart;
+  if (const double apart = apart_from_directions(part); apart > 0) as_given.raise_to(apart, unit);
+  if (!has_direction) return as_given;
+  const Bounds unit_of_direction = unit_of(part, errors, unit_normal_.largest());
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    of_direction.include(errors.of_direction[i - part.begin], unit_of_direction, i);
   }
-  const bool nearer = part.role == Role::normal && unit_normal_.known && of_direction.least < as_given.least;
-  return nearer ? of_direction : as_given;
+  return of_direction.least < as_given.least ? of_direction : as_given;
 }
 
 const Layout::Part& EnclosureAccumulator::part_at(std::size_t number) const {
@@ -175,17 +214,26 @@ void EnclosureAccumulator::include_enclosure(const Errors& errors, SetDistance& 
   }
 }
 
+/// Lower bound of the unit of a vector that belongs to a set; of a normal, in either of its forms. A normal of the set
+/// has a component of more than 1/2.
+double EnclosureAccumulator::least_unit(const Layout::Part& part) const {
+  const auto unit = [&](double largest) { return ulp(std::min(largest, largest_finite(scalar_)), scalar_); };
+  const double given = largest_given(part);
+  if (part.role != Role::normal) return unit(given);
+  const double as_given = unit(std::max(given, least_of_largest_component));
+  return unit_normal_.known ? std::min(as_given, unit(unit_normal_.largest())) : as_given;
+}
+
 /// The distance of a vector that belongs to a set; `number` is the component furthest from its enclosure.
 EnclosureAccumulator::Distance EnclosureAccumulator::distance_of(const Layout::Part& part, const Errors& errors,
                                                                  const Bounds& ulps) const {
-  double largest = 0;
   std::size_t furthest = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    largest = std::max(largest, std::abs(about_.values[i]));
     if (errors.of[i].nearest_to_zero() > errors.of[furthest].nearest_to_zero()) furthest = i;
   }
-  const double least_unit = ulp(std::min(largest, largest_finite(scalar_)), scalar_);
-  return {ulps.low, ulps.high, ulps.low * least_unit, int(furthest)};
+  Distance d{ulps.low, ulps.high, ulps.low * least_unit(part), int(furthest)};
+  d.raise_to(apart_from_directions(part), unit_of(part, errors, largest_given(part)));
+  return d;
 }
 
 NumberVector<GivenVector> EnclosureAccumulator::given_vector(std::size_t begin) const {

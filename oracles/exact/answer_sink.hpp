@@ -6,11 +6,13 @@
 #include <cmath>
 #include <optional>
 #include <source_location>
+#include <string_view>
 #include <vector>
 
 #include "impl/catalogue/layout.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "oracles/exact/arithmetic.hpp"
+#include "oracles/exact/decimal.hpp"
 #include "oracles/exact/normals.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/exact/scaling.hpp"
@@ -21,11 +23,21 @@ inline Bounds bounds(const Interval& x) { return {x.inf(), x.sup()}; }
 /// Tight even where the two parts of a + b sqrt(c) nearly cancel.
 Bounds bounds(const Exact& x);
 
+/// Encloses |x|.
+inline Bounds magnitude_bounds(const Interval& x) {
+  const Bounds b = bounds(x);
+  return {b.nearest_to_zero(), b.furthest_from_zero()};
+}
+/// Encloses |x| by two numbers that lie on the same side of each power of two as |x|, so that they have its ulp.
+Bounds magnitude_bounds(const Exact& x);
+
 /// Exact - given, number by number.
 struct Errors {
   std::array<Bounds, Answer::capacity> of{};
   /// The same for the three numbers of the normal, with the given normal divided by its length.
   std::array<Bounds, 3> of_direction{};
+  /// The magnitudes of the exact numbers.
+  std::array<Bounds, Answer::capacity> magnitude{};
 };
 
 /// The distance, in ulps, of the given answer from the nearest member of a set of right answers.
@@ -39,6 +51,20 @@ struct SetDistance {
   Bounds together{0, 0};  ///< all vectors, each compared with the same member of the set
 };
 
+/// The index of the first number of the member with that name among the numbers of an answer type.
+template <class A>
+consteval std::size_t begin_of(std::string_view member) {
+  A a{};
+  std::size_t at = 0;
+  std::optional<std::size_t> begin;
+  collide::for_each_member(a, [&](std::string_view name, auto& value, Role role) {
+    if (name == member) begin = at;
+    collide::for_each_leaf(
+        value, [&](auto&, Role) { ++at; }, role);
+  });
+  return begin.value();  // an error of the compiler where there is no such member
+}
+
 /// The part of AnswerSink that does not depend on the answer's type: accumulates the enclosure of all reported answers.
 class EnclosureAccumulator {
  public:
@@ -47,9 +73,10 @@ class EnclosureAccumulator {
   const Enclosure& result() const { return result_; }
   /// True if the given answer is a yes, so that its numbers are compared. Otherwise only the decision counts.
   bool compares_yes() const { return about_.yes; }
-  /// Three numbers of the given answer from `begin` on, in the units of the input. For a normal whose length is near 1
+  /// Three numbers of the given answer from `begin` on, in the units of the input. For a normal that has a direction
   /// also the normal divided by its length. The distance of the normal is that of the nearer form.
   NumberVector<GivenVector> given_vector(std::size_t begin) const;
+  /// The right answers, for people; of the exact stage.
   void list_in(std::vector<Alternative>* list) { list_ = list; }
   /// The units in which the oracle reports. `scaling` must outlive this object.
   void measure_in(const Scaling& scaling) { scaling_ = scaling.any() ? &scaling : nullptr; }
@@ -78,10 +105,15 @@ class EnclosureAccumulator {
   const Scaling* scaling_ = nullptr;  ///< nullptr: the units of the input
 
   /// The given normal divided by its length, as a sum of two doubles within `direction_slack` of it in each component.
-  /// Unknown if there is no normal or its length is not near 1.
+  /// `high` is below 1 where the component is. Unknown if there is no normal, or if it has no direction: it is zero, or
+  /// a number of it is not given or not finite.
   struct UnitNormal {
     bool known = false;
     std::array<double, 3> high{}, low{};
+
+    static UnitNormal of(const double* normal);
+    /// The largest magnitude in `high`.
+    double largest() const { return std::max({std::abs(high[0]), std::abs(high[1]), std::abs(high[2])}); }
   };
   /// At most ten operations in long double, each with a relative error of at most 2^-63 in any rounding mode.
   static constexpr double direction_slack = 0x1p-59;
@@ -89,6 +121,13 @@ class EnclosureAccumulator {
 
  private:
   struct Distance;
+  /// The unit in which a member's numbers are compared: one ulp of the largest of them, given or exact. The bounds
+  /// differ where the magnitudes of the exact ones enclose numbers with different ulps.
+  Bounds unit_of(const Layout::Part& part, const Errors& errors, double largest_given) const;
+  double largest_given(const Layout::Part& part) const;
+  double least_unit(const Layout::Part& part) const;
+  /// A normal without a direction is no unit vector: at least so far, in the maximum norm, from each. Otherwise 0.
+  double apart_from_directions(const Layout::Part& part) const;
   Distance distance_of(const Layout::Part& part, const Errors& errors) const;
   Distance distance_of(const Layout::Part& part, const Errors& errors, const Bounds& ulps) const;
   void count_member(std::size_t member, const Distance& d);
@@ -147,13 +186,21 @@ class AnswerSink : public EnclosureAccumulator {
     });
     return a;
   }
-  void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set);
+  /// `late`: the no stands for a contact beyond the scalar's largest time.
+  void add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set,
+           bool late = false);
+  /// The answer for people.
+  Alternative alternative(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves) const;
   /// Exact - given for the first `leaves` leaves, or the exact values themselves if `from_zero`. Returns how many.
   std::size_t errors_of(const A& a, bool many_normals, std::size_t leaves, bool from_zero, Errors& errors) const;
   SetDistance from(const Normals<N>& normals) const;
   /// The leaves that a hit beyond the scalar's largest time gives with its miss: only that it starts outside.
   static constexpr std::size_t leaves_of_late_hit = requires(A a) { a.inside; } ? 1 : 0;
+  static_assert(begin_of<collide::Entry<double>>("inside") == 0);
 };
+
+/// Below 1 / sqrt(3): the largest component of a unit vector has at least that magnitude.
+inline constexpr double least_of_largest_component = 0.577;
 
 /// Exact - given. A given infinity matches every exact number beyond the largest finite number.
 template <class N>
@@ -175,9 +222,11 @@ std::size_t AnswerSink<N, A>::errors_of(const A& a, bool many_normals, std::size
     if constexpr (std::is_same_v<std::decay_t<decltype(leaf)>, N>) {
       if (role == Role::normal && many_normals) {
         errors.of[i] = {-1 - std::abs(given), 1 + std::abs(given)};
+        errors.magnitude[i] = {least_of_largest_component, 1};
       } else if (role == Role::normal) {
         const N exact = assume_within(leaf, -1.0, 1.0);
         errors.of[i] = error_of(exact, given, scalar_);
+        errors.magnitude[i] = magnitude_bounds(exact);
         if (!from_zero && unit_normal_.known) {
           const Bounds off = bounds(N(N(exact - N(unit_normal_.high[component])) - N(unit_normal_.low[component])));
           errors.of_direction[component] = {off.low - direction_slack, off.high + direction_slack};
@@ -185,9 +234,11 @@ std::size_t AnswerSink<N, A>::errors_of(const A& a, bool many_normals, std::size
         ++component;
       } else {
         errors.of[i] = error_of(N(leaf), given, scalar_);
+        errors.magnitude[i] = magnitude_bounds(N(leaf));
       }
     } else {
       errors.of[i] = {double(leaf) - given, double(leaf) - given};
+      errors.magnitude[i] = {std::abs(double(leaf)), std::abs(double(leaf))};
     }
     ++i;
   });
@@ -203,30 +254,69 @@ SetDistance AnswerSink<N, A>::from(const Normals<N>& normals) const {
   return set;
 }
 
+/// `a` with this normal.
 template <class N, class A>
-void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves,
-                           const SetDistance& set) {
+A with_normal(A a, const Vector<N>& normal) {
+  std::size_t k = 0;
+  collide::for_each_leaf(a, [&](auto& leaf, Role role) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(leaf)>, N>) {
+      if (role == Role::normal) leaf = normal[k++];
+    }
+  });
+  return a;
+}
+
+template <class N, class A>
+Alternative AnswerSink<N, A>::alternative(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves) const {
+  Alternative shown{.yes = yes, .many_normals = normals.many};
+  Errors values;
+  shown.count = errors_of(a, shown.many_normals, leaves, true, values);
+  shown.values = values.of;
+  collide::for_each_leaf(a, [&](const auto& leaf, Role) {
+    if (shown.decimals.size() == shown.count) return;
+    const auto exact = [&] {
+      if constexpr (std::is_same_v<std::decay_t<decltype(leaf)>, N>) {
+        return leaf;
+      } else {
+        return N(double(leaf));
+      }
+    }();
+    shown.nearest.push_back(nearest_number(exact, scalar_));
+    shown.decimals.push_back(decimal_of(exact, shown.nearest.back(), scalar_));
+  });
+  if (!shown.many_normals) return shown;
+  for (const Facing<N>& f : normals.facing) {
+    const N length2 = norm2(f.direction);
+    if (may_be_zero(length2)) continue;
+    const Vector<N> unit = times(f.direction, N(N(1) / root(length2)));
+    shown.facing.push_back({{bounds(unit[0]), bounds(unit[1]), bounds(unit[2])},
+                            {decimal_of(unit[0], scalar_), decimal_of(unit[1], scalar_), decimal_of(unit[2], scalar_)},
+                            {double(f.low), double(f.high)}});
+  }
+  return shown;
+}
+
+template <class N, class A>
+void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set,
+                           bool late) {
   if constexpr (kind_of<A> == Kind::impact) {
     if (yes) {  // a time beyond the largest finite number is a miss
       const N beyond = a.time - N(largest_finite(scalar_));
-      if (may_be_positive(beyond)) add(false, A{}, {}, leaves_of_late_hit, {});
+      if (may_be_positive(beyond)) add(false, A{}, {}, leaves_of_late_hit, {}, true);
       if (!may_be_at_most_zero(beyond)) return;
     }
   }
-  Errors errors;
-  if (list_ != nullptr) {
-    const std::size_t count = errors_of(a, normals.many, leaves, true, errors);
-    Alternative alternative{yes, count, errors.of, normals.many, {}};
-    for (const Facing<N>& f : normals.facing) {
-      const N length2 = norm2(f.direction);
-      if (may_be_zero(length2)) continue;
-      const Vector<N> unit = times(f.direction, N(N(1) / root(length2)));
-      alternative.facing.push_back(
-          {{bounds(unit[0]), bounds(unit[1]), bounds(unit[2])}, {double(f.low), double(f.high)}});
+  if constexpr (!is_enclosure<N>) {
+    if (const auto only = only_normal(normals)) {  // a cone of one normal is that normal
+      return add(yes, with_normal(a, *only), Normals<N>::as_given(), leaves, set, late);
     }
-    list_->push_back(std::move(alternative));
+    if (list_ != nullptr) {
+      list_->push_back(alternative(yes, a, normals, leaves));
+      list_->back().late = late;
+    }
   }
-  if (yes != about_.yes) return count(yes, errors, 0, {});
+  if (yes != about_.yes) return count(yes, {}, 0, {});
+  Errors errors;
   const std::size_t given = errors_of(a, normals.many, leaves, false, errors);
   SetDistance nearest = normals.many ? from(normals) : set;
   if constexpr (is_enclosure<N>) include_enclosure(errors, nearest);

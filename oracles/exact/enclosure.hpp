@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "impl/catalogue/answer.hpp"
@@ -76,14 +77,20 @@ struct Alternative {
   bool yes = false;
   std::size_t count = 0;  ///< how many of the values it has
   std::array<Bounds, Answer::capacity> values{};
+  /// For each of them the nearest number of the scalar, and a decimal for readers (oracles/exact/decimal.hpp).
+  std::vector<double> nearest{};
+  std::vector<std::string> decimals{};
+  /// For a miss: there is a contact, at a time beyond the largest finite number.
+  bool late = false;
   /// A range of `direction . normal`.
   struct Face {
     std::array<Bounds, 3> direction;
+    std::array<std::string, 3> decimals;  ///< the direction as decimals
     Bounds range;
     bool operator==(const Face&) const = default;
   };
   bool many_normals = false;  ///< every unit vector that satisfies `facing` is a right normal
-  std::vector<Face> facing;
+  std::vector<Face> facing{};
 
   bool operator==(const Alternative&) const = default;
 };

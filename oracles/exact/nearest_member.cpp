@@ -356,6 +356,39 @@ Vector<Exact> some_normal(const Cone& cone) {
   return *found;
 }
 
+namespace {
+
+/// True unless both have the same direction.
+bool have_two_directions(const RationalVector& x, const RationalVector& y) {
+  const RationalVector across = cross(x, y);
+  return dot(across, across) != 0 || dot(x, y) < 0;
+}
+
+}  // namespace
+
+/// Where the directions of the sides span the space, the cone is spanned by its edges. Each edge is perpendicular to
+/// the directions of two sides. Otherwise the cone contains a line, and so no vector or more than one.
+std::optional<Vector<Exact>> only_normal(const Cone& cone) {
+  std::optional<RationalVector> edge;
+  bool spans_space = false;
+  for (std::size_t s = 0; s < cone.size(); ++s) {
+    for (std::size_t r = 0; r < s; ++r) {
+      const RationalVector line = cross(cone[r].direction, cone[s].direction);
+      if (dot(line, line) == 0) continue;
+      for (const Side& side : cone) spans_space = spans_space || dot(side.direction, line) != 0;
+      for (const RationalVector& x : {line, negated(line)}) {
+        if (!in_cone(x, cone)) continue;
+        if (edge && (have_two_directions(*edge, x))) return std::nullopt;
+        edge = x;
+      }
+    }
+  }
+  if (!spans_space || !edge) return std::nullopt;
+  const Rational length2 = dot(*edge, *edge);
+  const Exact scale = root(Exact(Rational(1 / length2)));
+  return times(Vector<Exact>{Exact((*edge)[0]), Exact((*edge)[1]), Exact((*edge)[2])}, scale);
+}
+
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone) {
   const auto find = [&](double ulps) -> std::optional<Vector<Exact>> {
     for (const RationalBox& box : within(given, ulps, Rational(1))) {

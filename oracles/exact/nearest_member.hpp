@@ -59,6 +59,8 @@ struct NearestPoint {
 
 /// A unit vector of the cone; along a coordinate axis if possible.
 Vector<Exact> some_normal(const Cone& cone);
+/// The unit vector of the cone, if it contains exactly one.
+std::optional<Vector<Exact>> only_normal(const Cone& cone);
 /// The nearest unit vector of the cone, which must contain one.
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone);
 /// The same for the normal together with its place.

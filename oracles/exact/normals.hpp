@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "oracles/exact/nearest_member.hpp"
@@ -47,6 +48,11 @@ inline Cone cone_of(const Normals<Exact>& normals) {
     cone.push_back({rational(f.low == 0 ? negated(f.direction) : f.direction), f.low == f.high});
   }
   return cone;
+}
+
+/// A set of many normals, if it is one direction after all.
+inline std::optional<Vector<Exact>> only_normal(const Normals<Exact>& normals) {
+  return normals.many ? only_normal(cone_of(normals)) : std::nullopt;
 }
 
 /// The smaller of two distances.

@@ -9,6 +9,7 @@
 #include "corpus/scenes/recorded_cases.hpp"
 #include "corpus/scenes/trace_scene.hpp"
 #include "impl/catalogue/query_ids.hpp"
+#include "impl/catalogue/roles.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -31,16 +32,19 @@ namespace fs = std::filesystem;
 /// The benchmark asks about the times from 0 to 1, both included.
 constexpr double end_of_time = 1;
 
+/// The index of the time among the numbers of an answer.
+std::size_t time_of(const Query& query) { return index_of_role(query.outputs, Role::time).value(); }
+
 /// The oracle's exact decision of the benchmark's question.
 bool exactly_collides(const Case& question) {
   Answer at_end;
   at_end.yes = true;
-  at_end.values[0] = end_of_time;
+  at_end.values[time_of(*question.query)] = end_of_time;
   const Enclosure e = oracle_of(*question.query).exact(question.values, at_end, question.scalar, nullptr);
-  return e.may_be_yes && e.error[0].high <= 0;  // error is the exact time less end_of_time
+  return e.may_be_yes && e.error[time_of(*question.query)].high <= 0;  // error is the exact time less end_of_time
 }
 
-bool says_collides(const Answer& a) { return a.yes && a.values[0] <= end_of_time; }
+bool says_collides(const Query& query, const Answer& a) { return a.yes && a.values[time_of(query)] <= end_of_time; }
 
 std::string word(bool collides) { return collides ? "collides" : "does not collide"; }
 
@@ -129,7 +133,7 @@ class NyuCcd : public Sink {
     if (f.verdict == Verdict::cannot_answer) ++s.cannot_answer;
     if (f.verdict == Verdict::not_asked) ++s.outside;
     if (a.status != Answer::Status::answered) return;
-    if (says_collides(a) == truth) {
+    if (says_collides(*e.question.query, a) == truth) {
       ++s.right;
       return;
     }

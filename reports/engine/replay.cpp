@@ -38,10 +38,6 @@ std::string inputs_text(const Case& c) {
   return table_text(rows_of(c.query->inputs, [&](std::size_t i) { return number_text(c.values[i], c.scalar); }), "  ");
 }
 
-std::string vector_text(const std::array<Bounds, 3>& v) {
-  return fmt::format("({}, {}, {})", bounds_text(v[0]), bounds_text(v[1]), bounds_text(v[2]));
-}
-
 std::string alternative_text(const Query& query, const Alternative& a) {
   std::vector<Field> fields;
   std::vector<std::size_t> at;
@@ -50,12 +46,12 @@ std::string alternative_text(const Query& query, const Alternative& a) {
     fields.push_back(query.outputs[i]);
     at.push_back(i);
   }
-  std::string text = table_text(rows_of(fields, [&](std::size_t i) { return bounds_text(a.values[at[i]]); }), "  ");
+  std::string text = table_text(rows_of(fields, [&](std::size_t i) { return a.decimals[at[i]]; }), "  ");
   if (!a.many_normals) return text;
   if (a.facing.empty()) return text + "  normal  any unit vector\n";
   text += "  normal  any unit vector n with\n";
   for (const Alternative::Face& f : a.facing) {
-    text += fmt::format("    {} · n from {} to {}\n", vector_text(f.direction), number_text(f.range.low),
+    text += fmt::format("    ({}) · n from {} to {}\n", fmt::join(f.decimals, ", "), number_text(f.range.low),
                         number_text(f.range.high));
   }
   return text;

@@ -52,6 +52,18 @@ Json enclosures(const std::vector<Field>& fields, std::size_t count, std::span<c
   return with_vectors(nested);
 }
 
+/// The numbers of an alternative as decimals, nested by name.
+Json decimals(const Query& query, const Alternative& a) {
+  Json nested = Json::object();
+  for (std::size_t i = 0; i < std::min(a.count, query.outputs.size()); ++i) {
+    if (a.many_normals && query.outputs[i].role == Role::normal) continue;
+    std::string pointer = "/" + query.outputs[i].name;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    nested[Json::json_pointer(pointer)] = a.decimals[i];
+  }
+  return with_vectors(nested);
+}
+
 Json normal_cone(const Alternative& a) {
   Json facing = Json::array();
   for (const Alternative::Face& f : a.facing) {
@@ -63,6 +75,7 @@ Json normal_cone(const Alternative& a) {
 
 Json alternative(const Query& query, const Alternative& a) {
   Json j{{"yes", a.yes}, {"values", enclosures(query.outputs, a.count, a.values, a.many_normals)}};
+  if (Json shown = decimals(query, a); !shown.empty()) j["decimals"] = std::move(shown);
   if (a.many_normals) j["normal_cone"] = normal_cone(a);
   return j;
 }

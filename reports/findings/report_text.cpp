@@ -7,6 +7,8 @@
 #include <functional>
 #include <optional>
 
+#include "impl/catalogue/roles.hpp"
+#include "oracles/requirements.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -15,11 +17,6 @@ namespace {
 
 bool has_role(const std::vector<Field>& fields, Role role) {
   return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; });
-}
-
-int index_of(const std::vector<Field>& fields, Role role) {
-  const auto at = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; });
-  return at == fields.end() ? -1 : int(at - fields.begin());
 }
 
 /// The decisions in the words of the query.
@@ -65,9 +62,9 @@ Phrases phrases(const Query& query) {
 
 /// The number that completes a decision: " at time 0.5", ", depth 0.25". Empty where the kind has no such number.
 std::string measure_text(const Query& query, bool yes, const std::function<std::string(std::size_t)>& number) {
-  const int time = index_of(query.outputs, Role::time), depth = index_of(query.outputs, Role::depth);
-  if (query.kind == Kind::impact && yes && time >= 0) return " at time " + number(std::size_t(time));
-  if (query.kind == Kind::depth && depth >= 0) return ", depth " + number(std::size_t(depth));
+  const auto time = index_of_role(query.outputs, Role::time), depth = index_of_role(query.outputs, Role::depth);
+  if (query.kind == Kind::impact && yes && time) return " at time " + number(*time);
+  if (query.kind == Kind::depth && depth) return ", depth " + number(*depth);
   return "";
 }
 
@@ -197,15 +194,25 @@ class Explanation {
   std::string decision() const {
     const Answer& a = r_.answer;
     if (!decides(query_.kind)) return name_of_member(member()) + " is " + given_member(member());
-    const int measure = index_of(query_.outputs, query_.kind == Kind::depth ? Role::depth : Role::time);
-    const bool measured = measure >= 0 && is_part(query_, a, std::size_t(measure));
+    const auto measure = index_of_role(query_.outputs, query_.kind == Kind::depth ? Role::depth : Role::time);
+    const bool measured = measure && is_part(query_, a, *measure);
     return (a.yes ? phrases_.yes : phrases_.no) +
            (measured ? measure_text(query_, a.yes, [&](auto i) { return given(i); }) : "");
   }
   std::string not_unit() const {
-    const double length = 1 + r_.finding.unit_error * unit_roundoff(scalar_);
     return fmt::format("{} gives a normal of length {}, which is {:.3g} epsilon from 1", r_.subject,
-                       number_text(length), std::abs(r_.finding.unit_error));
+                       number_text(length_of_normal()), std::abs(r_.finding.unit_error));
+  }
+  double length_of_normal() const {
+    double length = 0;
+    for (std::size_t i = 0; i < query_.outputs.size(); ++i) {
+      if (query_.outputs[i].role == Role::normal) length = std::hypot(length, r_.answer.values[i]);
+    }
+    return length;
+  }
+  /// The given member is a normal, and zero.
+  bool is_without_direction(std::size_t member) const {
+    return query_.layout.parts[member].role == Role::normal && length_of_normal() == 0;
   }
   /// The right answer whose member is nearest to the given one.
   const Alternative* nearest(std::size_t member) const {
@@ -222,6 +229,7 @@ class Explanation {
     const Layout::Part& part = query_.layout.parts[member()];
     std::string said = fmt::format("{} gives {} {}", r_.subject, name_of_member(member()), given_member(member()));
     if (head.disagreement == Disagreement::off_surface) said += ", which is off the surface that it is to lie on";
+    if (is_without_direction(member())) said += ", which has no direction";
     if (r_.answer.yes != r_.truth.yes) {
       return {
           said, "Exactly, " + truth_text(query_, r_.truth),
@@ -230,10 +238,10 @@ class Explanation {
     const Alternative* right = nearest(member());
     if (right == nullptr) return {said};
     if (right->many_normals && part.role == Role::normal) {
-      return {said, "Many normals are right there, and this is none of them"};
+      return {said, right->facing.empty() ? "Any unit vector is right there"
+                                          : "Many normals are right there, and this is none of them"};
     }
-    const std::string exact =
-        member_text(query_, member(), [&](std::size_t i) { return bounds_text(right->values[i]); });
+    const std::string exact = member_text(query_, member(), [&](std::size_t i) { return right->decimals[i]; });
     const std::string one_of = r_.truth.alternatives.size() > 1 ? "The nearest exact answer is " : "Exactly, it is ";
     const Off off = off_by(part, *right, r_.answer);
     return {said, fmt::format("{}{}: {} is off by {:.3g}{}, {:.3g} units in the last place", one_of, exact,
@@ -258,14 +266,17 @@ class Explanation {
     const Finding& f = r_.finding;
     const std::optional<double> proved = above();
     if (f.disagreement == Disagreement::none || !proved) return "";
+    const std::string why = f.ended_by.empty() ? "" : ", which may break a precondition: " + requires_text(f.ended_by);
     if (*proved == 0) {
-      return "This is proved for exactly these numbers; nothing is proved for the numbers next to them";
+      return "This is proved for exactly these numbers; nothing is proved for the numbers next to them" + why;
     }
     if (const double still = same_decision_within(); still > 0 && still >= *proved) {
       return fmt::format("Even after moving {}, {}", moves_text(r_.question, still),
                          r_.truth.yes ? phrases_.still_yes : phrases_.still_no);
     }
-    return fmt::format("Moving {} cannot make that {} right", moves_text(r_.question, *proved), what_differs());
+    const std::string beyond = why.empty() ? "" : "; nothing is proved for inputs further away" + why;
+    return fmt::format("Moving {} cannot make that {} right{}", moves_text(r_.question, *proved), what_differs(),
+                       beyond);
   }
   std::string what_differs() const {
     const MemberFinding* head = r_.finding.headline_member();
@@ -274,6 +285,7 @@ class Explanation {
   /// For a wrong decision: the exact decision is proved to be the same for all inputs within this many epsilon.
   double same_decision_within() const {
     const Finding& f = r_.finding;
+    if (!f.ended_by.empty()) return -1;
     if (f.disagreement == Disagreement::false_miss && query_.kind != Kind::depth) {
       return std::max(f.backward->above, r_.truth.margin_at_least);  // a miss has no number that could differ
     }
@@ -392,11 +404,12 @@ std::string answer_text(const Query& query, const Answer& answer, Scalar scalar)
 std::string truth_text(const Query& query, const Truth& truth) {
   const Alternative* right = truth.alternatives.empty() ? nullptr : &truth.alternatives[0];
   const auto number = [&](std::size_t i) {
-    return right != nullptr && i < right->count ? bounds_text(right->values[i]) : std::string("?");
+    return right != nullptr && i < right->count ? right->decimals[i] : std::string("?");
   };
   if (!decides(query.kind)) return query.member_name(0) + " is " + member_text(query, 0, number);
   const Phrases p = phrases(query);
-  return (truth.yes ? p.it_yes : p.it_no) + (right == nullptr ? "" : measure_text(query, truth.yes, number));
+  const std::string because = truth.because.empty() ? "" : ", because " + truth.because;
+  return (truth.yes ? p.it_yes : p.it_no) + (right == nullptr ? "" : measure_text(query, truth.yes, number)) + because;
 }
 
 }  // namespace nearmiss

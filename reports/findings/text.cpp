@@ -20,10 +20,6 @@ std::size_t width_of(std::string_view s) {
 
 /// Most bytes of an unknown word that an error message quotes.
 constexpr std::size_t most_of_a_word = 100;
-/// Bounds at most this many double ulps apart are shown as one decimal.
-constexpr double shown_as_one = 8;
-/// Enough digits for a decimal between any two neighbouring doubles.
-constexpr int most_digits = 18;
 
 }  // namespace
 
@@ -31,20 +27,6 @@ std::string number_text(double x, Scalar scalar) {
   if (std::isnan(x)) return "NaN";
   if (std::isinf(x)) return x > 0 ? "Infinity" : "-Infinity";
   return scalar == Scalar::float32 ? fmt::format("{}", float(x)) : fmt::format("{}", x);
-}
-
-std::string bounds_text(const Bounds& b) {
-  if (b.low == b.high) return value_text(b.low);
-  const long double middle = (static_cast<long double>(b.low) + b.high) / 2;
-  if (b.high - b.low > shown_as_one * ulp(double(middle), Scalar::float64)) {
-    return fmt::format("between {} and {}", value_text(b.low), value_text(b.high));
-  }
-  for (int digits = 1; digits <= most_digits; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", middle + 0.0L, digits);
-    const long double read = std::strtold(text.c_str(), nullptr);
-    if (b.low <= read && read <= b.high) return text;
-  }
-  return value_text(b.low);
 }
 
 std::string epsilons_text(double k) {

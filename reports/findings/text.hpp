@@ -16,8 +16,6 @@ namespace nearmiss {
 std::string number_text(double x, Scalar scalar = Scalar::float64);
 /// The same for a number of an answer, where zero has no sign.
 inline std::string value_text(double x, Scalar scalar = Scalar::float64) { return number_text(x + 0.0, scalar); }
-/// The shortest decimal within the bounds where they are at most a few ulps apart, otherwise "between LOW and HIGH".
-std::string bounds_text(const Bounds& b);
 /// "0", "1", "2", "4", "8", "2^4", ... for a rung of the judge's ladder; any other number as a decimal.
 std::string epsilons_text(double k);
 /// "0.78 % of the largest number of its group, 2^46 epsilon"; `k` in units of the scalar's epsilon.

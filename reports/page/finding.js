@@ -76,15 +76,15 @@ nearmiss.finding = (() => {
     if (answer.status !== "answered")
       return section("Answer", element("p", {}, `${subject.name} ${answer.status === "broke" ? "broke" : "has no answer"}: ${answer.reason}. Exactly, ${truth.text}.`),
         r.report.output && r.report.output.length ? element("pre", {class: "output"}, r.report.output.join("\n")) : null);
-    const alternative = nearestAlternative(r), said = new Map(leaves(answer.values)), right = new Map(leaves(alternative.values));
+    const alternative = nearestAlternative(r), said = new Map(leaves(answer.values)), right = new Map(leaves(alternative.values)), decimals = new Map(leaves(alternative.decimals || {}));
     const most = 16, all = [...new Set([...said.keys(), ...right.keys()])];
     const differs = name => said.has(name) && right.has(name) && said.get(name) !== middle(right.get(name));
     const names = all.length <= most ? all : [...all.filter(differs), ...all.filter(n => !differs(n))].slice(0, most);
     const line = name => {
-      const a = said.get(name), b = right.get(name), text = b === undefined ? "" : exact(middle(b), scalar === "float" && typeof middle(b) === "number" ? "double" : scalar);
+      const a = said.get(name), b = right.get(name), text = b === undefined ? "" : decimals.get(name) ?? exact(middle(b), "double");
       const apart = typeof a === "number" && typeof middle(b) === "number" ? a - middle(b) : null;
       const many = alternative.normal_cone && b === undefined;
-      return element("tr", {}, element("th", {scope: "row"}, name), element("td", {}, a === undefined ? "–" : [sign(a), compared(exact(a, scalar), text)]),
+      return element("tr", {}, element("th", {scope: "row"}, name), element("td", {}, a === undefined ? "–" : [sign(a), compared(exact(a, scalar), text.replace("≈", ""))]),
         element("td", {}, text ? [sign(middle(b)), text] : many ? "one of many" : "–"), element("td", {class: "apart"}, apart === null ? "" : about(apart)));
     };
     const yes = v => (v ? "yes" : "no");
@@ -151,7 +151,7 @@ nearmiss.finding = (() => {
   }
   function said(answer) {
     if (answer.status !== "answered") return `${answer.status}: ${answer.reason}`;
-    const first = leaves(answer.values)[0];
+    const all = leaves(answer.values), first = all.find(([name]) => name === "time" || name === "depth") || all[0];
     return `${answer.yes ? "yes" : "no"}${first ? `, ${first[0]} ${about(first[1])}` : ""}`;
   }
   function referees(r) {

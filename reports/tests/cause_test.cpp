@@ -11,6 +11,7 @@
 #include "corpus/fit.hpp"
 #include "corpus/generator.hpp"
 #include "corpus/source_folder.hpp"
+#include "impl/catalogue/roles.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
@@ -18,6 +19,7 @@
 #include "reports/triage/cause.hpp"
 #include "reports/triage/crossings.hpp"
 #include "reports/triage/magnitudes.hpp"
+#include "reports/triage/quantities.hpp"
 #include "reports/triage/ratios.hpp"
 #include "reports/triage/readings.hpp"
 #include "reports/triage/regions.hpp"
@@ -459,6 +461,34 @@ TEST(Cause, TooFewHalvingsOfATime) {
   const Cause c = cause(s, case_of("moving_sphere_sphere", {-20.3, 0.1, 0.2, 0.4, 1.7, 0.1, 0, 1.9, 1.3, 0.1, 0.5}));
   EXPECT_EQ(c.kind, CauseKind::iteration_limit) << text_of(c);
   EXPECT_EQ(c.key, "steps of the time");
+}
+
+/// The same for a point and an axis-aligned box, whose answer has the time after the place.
+Answer bisects_entry(Values q) {
+  static const std::size_t time = *index_of_role(find_query("moving_point_aabox")->outputs, Role::time);
+  Answer a = right("moving_point_aabox", q);
+  if (!a.yes) return a;
+  const double longest = 2 * std::hypot(q[0] - q[6], q[1] - q[7], q[2] - q[8]) / std::hypot(q[3], q[4], q[5]);
+  double low = 0, high = longest;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = (low + high) / 2;
+    (middle < a.values[time] ? low : high) = middle;
+  }
+  a.values[time] = high;
+  return a;
+}
+
+TEST(Cause, TooFewHalvingsOfATimeWhereverTheAnswerHasIt) {
+  const Subject s = planted("moving_point_aabox", bisects_entry);
+  const Case question = case_of("moving_point_aabox", {-20.3, 0.1, 0.2, 1.7, 0.1, 0, 1.4, -1.7, -1.4, 2.9, 1.9, 1.6});
+  const Cause c = cause(s, question);
+  EXPECT_EQ(c.kind, CauseKind::iteration_limit) << text_of(c);
+  EXPECT_EQ(c.key, "steps of the time");
+  const auto quantities = quantities_of(question, false);
+  const auto contact = std::find_if(quantities.begin(), quantities.end(),
+                                    [](const Quantity& x) { return x.name == "the time of the contact"; });
+  ASSERT_NE(contact, quantities.end());
+  EXPECT_NEAR(contact->value, (1.4 + 20.3) / 1.7, 1e-12);
 }
 
 Answer missed(Answer a) {

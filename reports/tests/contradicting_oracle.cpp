@@ -22,7 +22,7 @@ Enclosure interval(std::span<const double> values, Widening, const Answer& about
 
 Enclosure exact(std::span<const double> values, const Answer& about, Scalar, std::vector<Alternative>* list) {
   const bool yes = is_planted(values) && about.yes;
-  if (list != nullptr) list->push_back({yes, 0, {}, false, {}});
+  if (list != nullptr) list->push_back({.yes = yes});
   return decided(yes, about);
 }
 

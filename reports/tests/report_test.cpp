@@ -87,6 +87,27 @@ Report unasked_report() {
   return r;
 }
 
+/// A report about a point just outside of a box that moves away, for a subject that requires a start outside.
+Report report_at_a_border() {
+  const Case leaving{find_query("moving_point_box"),
+                     Scalar::float64,
+                     {std::nextafter(1.0, 2.0), 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1},
+                     "test",
+                     0,
+                     0,
+                     {}};
+  Subject s = stooge(leaving.query->name, {.backward = 8});
+  s.offerings.front().required = {Precondition::starts_outside};
+  Workers workers;
+  Report r = examine(leaving, s, answer(true, {0, leaving.values[0], 0, 0, 1, 0, 0}), workers);
+  r.replay = "nearmiss replay report.json";
+  return r;
+}
+/// Two balls of radius 1 whose centers are x apart.
+Case overlapping_spheres(double x) {
+  return {find_query("sphere_sphere_penetration"), Scalar::float64, {0, 0, 0, 1, x, 0, 0, 1}, "test", 0, 0, {}};
+}
+
 Report report(const Case& question, const Answer& given, const collide::Contract& contract = strict) {
   Workers workers;
   Report r = examine(question, stooge(question.query->name, contract), given, workers);
@@ -268,14 +289,66 @@ const Expectation expectations[] = {
        c.values[0] = -2, c.values[4] = -2;
        return report(c, hit(0));
      },
-     Verdict::violates_contract, Disagreement::false_hit, "Exactly, it is a miss."},
+     Verdict::violates_contract, Disagreement::false_hit,
+     "Exactly, it is a miss, because the sphere starts in touch with the box and moves away."},
     {"a_point_that_starts_inside",
      [] {
        Case c = flight(0);
        c.values[0] = 0, c.values[3] = 0;
        return report(c, hit(0));
      },
-     Verdict::violates_contract, Disagreement::false_hit, "Exactly, it is a miss."},
+     Verdict::violates_contract, Disagreement::false_hit,
+     "Exactly, it is a miss, because the sphere starts inside the box."},
+    {"a_time_beyond_the_largest_number",
+     [] {
+       const Case c{find_query("moving_point_plane"),
+                    Scalar::float64,
+                    {0, 0, 1e200, 0, 0, -1e-200, 0, 0, 1, 0},
+                    "test",
+                    0,
+                    0,
+                    {}};
+       return report(c, answer(true, {infinity, 0, 0, 0, 0, 0, 1}));
+     },
+     Verdict::violates_contract, Disagreement::false_hit,
+     "stooge says that the point hits the plane at time Infinity. Exactly, it is a miss, because the contact comes at "
+     "a "
+     "time beyond the largest number."},
+    {"a_normal_without_direction",
+     [] {
+       return report(overlapping_spheres(1), answer(true, {1, 0, 0, 0, 1, 0, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_normal,
+     "stooge gives normal (0, 0, 0), which has no direction. Exactly, it is (1, 0, 0)"},
+    {"no_direction_where_any_is_right",
+     [] {
+       return report(overlapping_spheres(0), answer(true, {2, 0, 0, 0, 0, 0, 0}), {.backward = 4});
+     },
+     Verdict::violates_contract, Disagreement::wrong_normal,
+     "stooge gives normal (0, 0, 0), which has no direction. Any unit vector is right there"},
+    {"a_number_that_is_cut",
+     [] {
+       const Case c{
+           find_query("sphere_sphere_penetration"), Scalar::float64, {0, 0, 0, 0.2, 0, 0, 0, 0.1}, "test", 0, 0, {}};
+       return report(c, answer(true, {0.3, 0, 0, 1, 0, 0, 0.2}));
+     },
+     Verdict::agrees, Disagreement::none, "Exactly, they touch or overlap, depth ≈0.30000000000000004."},
+    {"the_normal_of_a_face",
+     [] {
+       const Case c{find_query("moving_point_box"),
+                    Scalar::float64,
+                    {-3, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1},
+                    "test",
+                    0,
+                    0,
+                    {}};
+       return report(c, answer(true, {2, -1, 0, 0, 0, 1, 0}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_normal,
+     "stooge gives normal (0, 1, 0). Exactly, it is (-1, 0, 0): normal.y is off by 1, 4.5e+15 units in the last place"},
+    {"the_border_of_a_precondition", report_at_a_border, Verdict::not_proved, Disagreement::false_hit,
+     "Exactly, it is a miss. This is proved for exactly these numbers; nothing is proved for the numbers next to them, "
+     "which may break a precondition: it requires a start outside"},
     {"parallel_axes",
      [] {
        const Case c{find_query("box_box_parallel_axis"),

@@ -188,13 +188,6 @@ TEST(Breakage, IsToldByItsReason) {
       << "the cause decides, not the words";
 }
 
-TEST(Text, ShowsTheShortestDecimalWithinTightBounds) {
-  EXPECT_EQ(bounds_text({0.6625 - 1e-16, 0.6625 + 1e-16}), "0.6625");
-  EXPECT_EQ(bounds_text({0.1, 0.1}), "0.1");
-  EXPECT_EQ(bounds_text({1.0 / 3, std::nextafter(1.0 / 3, 1)}), "0.33333333333333334");
-  EXPECT_EQ(bounds_text({1, 2}), "between 1 and 2");
-}
-
 TEST(Text, TellsEpsilonsAndTheirShare) {
   EXPECT_EQ(epsilons_text(0), "0");
   EXPECT_EQ(epsilons_text(8), "8");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "impl/catalogue/roles.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -21,8 +22,8 @@ class MotionSteps : public TestOfCause {
     const std::vector<Trial> moved = trials().ask(with_moved_starts());
     std::vector<double> times;
     for (const Trial& t : moved) {
-      if (t.answer.status == Answer::Status::answered && t.answer.yes && t.answer.values[0] > 0)
-        times.push_back(t.answer.values[0]);
+      if (t.answer.status == Answer::Status::answered && t.answer.yes && given_time(t) > 0)
+        times.push_back(given_time(t));
     }
     const std::size_t all = times.size();
     std::sort(times.begin(), times.end());
@@ -114,20 +115,22 @@ class MotionSteps : public TestOfCause {
  private:
   static constexpr std::size_t samples = 64;
 
+  /// The index of the time among the numbers of an impact.
+  static std::size_t time_of(const Query& q) { return index_of_role(q.outputs, Role::time).value(); }
+  static double given_time(const Trial& t) { return t.answer.values[time_of(*t.question.query)]; }
+
   /// The sine of the angle between the velocity and the surface at the exact contact, unless it is at the start.
   static void add_sine(const Trial& t, std::vector<double>& sines) {
     const auto& velocities = parts_of(*t.question.query).velocities;
-    const auto& outputs = t.question.query->outputs;
-    const auto normal = std::size_t(
-        std::find_if(outputs.begin(), outputs.end(), [](const Field& f) { return f.role == Role::normal; }) -
-        outputs.begin());
-    if (velocities.empty() || !t.finding.truth_yes) return;
+    const auto normal = index_of_role(t.question.query->outputs, Role::normal);
+    if (velocities.empty() || !normal || !t.finding.truth_yes) return;
     const double* v = &t.question.values[velocities[0]];
     for (const Alternative& right : truth_of(t.question).alternatives) {
-      if (!right.yes || right.many_normals || normal + 3 > right.count || right.values[0].low <= 0) continue;
+      if (!right.yes || right.many_normals || *normal + 3 > right.count) continue;
+      if (right.values[time_of(*t.question.query)].low <= 0) continue;
       double along = 0;
       for (std::size_t k = 0; k < 3; ++k)
-        along += v[k] * (right.values[normal + k].low + right.values[normal + k].high) / 2;
+        along += v[k] * (right.values[*normal + k].low + right.values[*normal + k].high) / 2;
       sines.push_back(std::abs(along) / std::hypot(v[0], v[1], v[2]));
       return;
     }
@@ -151,9 +154,7 @@ class MotionSteps : public TestOfCause {
   std::optional<std::size_t> limit_of_time() const {
     const Query& q = trials().query();
     if (q.kind != Kind::decision || parts_of(q).velocities.empty()) return std::nullopt;
-    const auto found =
-        std::find_if(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::time; });
-    return found == q.inputs.end() ? std::nullopt : std::optional(std::size_t(found - q.inputs.begin()));
+    return index_of_role(q.inputs, Role::time);
   }
   /// The case with a limit in place of any time.
   Case with_limit(std::size_t limit, double time) const {
@@ -182,7 +183,8 @@ class MotionSteps : public TestOfCause {
   bool has_wrong_time() const {
     const Finding full = trials().in_full(trials().base());
     const MemberFinding* member = full.headline_member();
-    return member != nullptr && member->worst == 0 && trials().base().answer.yes && !asked_.is_wrong_decision();
+    return member != nullptr && member->worst == int(time_of(trials().query())) && trials().base().answer.yes &&
+           !asked_.is_wrong_decision();
   }
   /// Wherever the motion begins, a wrong contact is the same one: a search that ends too early finds another one from
   /// each start.
@@ -204,8 +206,9 @@ class MotionSteps : public TestOfCause {
   /// The given time less the exact one; empty where one of them is no contact.
   static std::optional<double> error_of_time(const Trial& t) {
     if (t.answer.status != Answer::Status::answered || !t.answer.yes) return std::nullopt;
+    const std::size_t time = time_of(*t.question.query);
     for (const Alternative& right : truth_of(t.question).alternatives) {
-      if (right.yes) return t.answer.values[0] - (right.values[0].low + right.values[0].high) / 2;
+      if (right.yes) return t.answer.values[time] - (right.values[time].low + right.values[time].high) / 2;
     }
     return std::nullopt;
   }
@@ -218,7 +221,7 @@ class MotionSteps : public TestOfCause {
     std::vector<double> errors;
     for (const Trial& t : trials().ask(cases)) {
       const auto error = error_of_time(t);
-      if (!error || *error == t.answer.values[0]) return {};
+      if (!error || *error == given_time(t)) return {};
       errors.push_back(*error);
     }
     return errors;
@@ -249,12 +252,12 @@ class MotionSteps : public TestOfCause {
   bool follows_scales() {
     constexpr int nearest = 8;
     constexpr double tolerated = 0.01;
-    const double own = trials().base().answer.values[0], error = error_of_time(trials().base()).value_or(0);
+    const double own = given_time(trials().base()), error = error_of_time(trials().base()).value_or(0);
     return std::all_of(asked_.scans().begin(), asked_.scans().end(), [&](const ScaleScan& s) {
       return std::all_of(s.trials.begin(), s.trials.end(), [&](const ScaleScan::At& a) {
         if (std::abs(a.k) > nearest || a.trial.outcome == Outcome::none) return true;
         const auto e = error_of_time(a.trial);
-        return e && std::abs(*e / a.trial.answer.values[0] - error / own) <= tolerated * std::abs(error / own);
+        return e && std::abs(*e / given_time(a.trial) - error / own) <= tolerated * std::abs(error / own);
       });
     });
   }
@@ -346,10 +349,11 @@ class MotionSteps : public TestOfCause {
     if (trials().query().kind == Kind::decision) return time_of_decision();
     if (trials().query().kind != Kind::impact) return 0;
     for (const Alternative& right : truth_of(question()).alternatives) {
-      if (right.yes) return std::max(0.0, right.values[0].low);
+      if (right.yes) return std::max(0.0, right.values[time_of(trials().query())].low);
     }
     const Answer& a = trials().base().answer;
-    return a.status == Answer::Status::answered && a.yes && std::isfinite(a.values[0]) ? std::max(0.0, a.values[0]) : 0;
+    const double given = given_time(trials().base());
+    return a.status == Answer::Status::answered && a.yes && std::isfinite(given) ? std::max(0.0, given) : 0;
   }
 };
 

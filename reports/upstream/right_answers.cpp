@@ -118,7 +118,7 @@ class Builder {
     right.yes = a.yes;
     Answer values;
     values.yes = a.yes;
-    for (std::size_t i = 0; i < a.count; ++i) values.values[i] = to_scalar(middle(a.values[i]), question_.scalar);
+    for (std::size_t i = 0; i < a.count; ++i) values.values[i] = a.nearest[i];
     for (const std::size_t m : members) {
       if (question_.query->layout.parts[m].end > a.count) continue;
       MemberCondition c = condition(a, values, m);
@@ -160,7 +160,7 @@ class Builder {
       if (a.yes != truth_.yes || a.count < part.end || (a.many_normals && part.role == Role::normal)) continue;
       Answer right;
       right.yes = a.yes;
-      for (std::size_t i = 0; i < a.count; ++i) right.values[i] = to_scalar(middle(a.values[i]), question_.scalar);
+      for (std::size_t i = 0; i < a.count; ++i) right.values[i] = a.nearest[i];
       const double d = Tolerances::distance_to(right, part, given_);
       if (!any || d < least) nearest = right, least = d, any = true;
     }

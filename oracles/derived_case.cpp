@@ -1,0 +1,35 @@
+#include "oracles/derived_case.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace nearmiss {
+
+DerivedCase::DerivedCase(const Case& from, QueryId query)
+    : from_(from), question_{&query_of(query), from.scalar, {}, from.origin, 0, 0, {}} {
+  question_.values.resize(question_.query->inputs.size());
+  index_.resize(question_.values.size());
+}
+
+void DerivedCase::set(std::string_view input, std::optional<std::size_t> index) {
+  const std::vector<Field>& inputs = question_.query->inputs;
+  const auto at = std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return f.name == input; });
+  if (at == inputs.end()) {
+    throw std::logic_error(std::string(question_.query->name) + " has no input " + std::string(input));
+  }
+  const auto i = std::size_t(at - inputs.begin());
+  index_[i] = index;
+  question_.values[i] = index ? from_.values[*index] : 0;
+}
+
+void DerivedCase::set_vector(const std::string& input, std::size_t begin) {
+  for (std::size_t k = 0; k < 3; ++k) set(input + "." + "xyz"[k], begin + k);
+}
+
+std::vector<double> DerivedCase::of_inputs(const std::vector<double>& values) const {
+  std::vector<double> own(index_.size());
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = index_[i] ? values[*index_[i]] : 0;
+  return own;
+}
+
+}  // namespace nearmiss
