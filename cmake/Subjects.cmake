@@ -291,6 +291,7 @@ function(nearmiss_finish_subjects)
     host/processes.cpp
     host/separation.cpp
     host/supervisor.cpp
+    host/error_line.cpp
     host/replies.cpp
     host/worker.cpp
     subject/printable.cpp)

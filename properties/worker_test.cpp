@@ -11,18 +11,23 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "impl/host/processes.hpp"
+#include "impl/host/reasons.hpp"
 #include "impl/host/separation.hpp"
 #include "impl/host/serve.hpp"
 #include "impl/host/worker.hpp"
@@ -30,7 +35,33 @@
 namespace nearmiss {
 namespace {
 
-enum Misdeed { none, aborts, crashes, throws, throws_an_int, hangs, sleeps, eats_memory, exits };
+enum Misdeed {
+  none,
+  aborts,
+  crashes,
+  throws,
+  throws_an_int,
+  hangs,
+  sleeps,
+  eats_memory,
+  exits,
+  keeps_memory,
+  scribbles,
+  scribbles_far,
+  speaks
+};
+
+/// The memory of the answers in a host, which finds it as a wild pointer would.
+unsigned char* memory_of_answers() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find("nearmiss-answered") != std::string::npos)
+      return reinterpret_cast<unsigned char*>(std::stoul(line, nullptr, 16));
+  }
+  throw std::runtime_error("no memory of answers");
+}
+
+char* volatile kept_memory = nullptr;
 
 /// Misbehaves as the first input says; otherwise answers with the second.
 Answer misbehave(std::span<const double> inputs) {
@@ -48,6 +79,14 @@ Answer misbehave(std::span<const double> inputs) {
     case eats_memory:
       for (std::vector<std::vector<char>> kept;;) kept.emplace_back(std::size_t{1} << 24, 'x');
     case exits: std::_Exit(3);
+    case keeps_memory: kept_memory = new char[std::size_t{64} << 20]; break;
+    case scribbles:
+      std::memset(memory_of_answers() + offsetof(wire::SharedAnswers, heads), 0x5a, sizeof(wire::SharedAnswers::heads));
+      break;
+    case scribbles_far: std::memset(memory_of_answers() + offsetof(wire::SharedAnswers, numbers), 0x5a, 64); break;
+    case speaks:
+      if (write(wire::to_judge, "noise", 5) != 5) throw std::runtime_error("the judge does not listen");
+      break;
     case none: break;
   }
   Answer a;
@@ -105,6 +144,64 @@ TEST(Worker, SurvivesWhenEveryCaseBreaks) {
   std::vector<double> inputs;
   for (int i = 0; i < 20; ++i) inputs.insert(inputs.end(), {double(aborts), 0.0});
   for (const Answer& a : worker.ask(offering(), inputs, 2)) EXPECT_EQ(a.status, Answer::Status::broke);
+}
+
+/// The positions of the cases that broke among `cases`, of which those in `misdeeds` misbehave. Every other case must
+/// have its own answer.
+std::vector<std::size_t> broken_of(std::size_t cases, Misdeed misdeed, const std::set<std::size_t>& misdeeds) {
+  Worker worker(limits());
+  std::vector<double> inputs;
+  for (std::size_t i = 0; i < cases; ++i)
+    inputs.insert(inputs.end(), {double(misdeeds.contains(i) ? misdeed : none), double(i)});
+  const std::vector<Answer> answers = worker.ask(offering(), inputs, 2);
+  EXPECT_EQ(answers.size(), cases);
+  std::vector<std::size_t> broken;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (answers[i].status == Answer::Status::broke) {
+      broken.push_back(i);
+      EXPECT_EQ(answers[i].reason().find(not_again_suffix), std::string_view::npos) << i << ": " << answers[i].reason();
+    } else {
+      EXPECT_EQ(answers[i].values[0], double(i));
+    }
+  }
+  return broken;
+}
+
+class WildWrite : public testing::TestWithParam<Misdeed> {};
+
+TEST_P(WildWrite, CostsItsOwnCaseAlone) {
+  EXPECT_EQ(broken_of(400, GetParam(), {57, 130, 399}), (std::vector<std::size_t>{57, 130, 399}));
+  EXPECT_EQ(broken_of(6000, GetParam(), {1499, 2999, 4499, 5999}), (std::vector<std::size_t>{1499, 2999, 4499, 5999}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, WildWrite, testing::Values(scribbles, scribbles_far, speaks));
+
+TEST(Worker, StartsAnewWhereMemoryHasRunOut) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer leaves no address space to limit";
+#endif
+  Worker worker(limits());  // room for three or so
+  std::vector<double> inputs;
+  for (int i = 0; i < 30; ++i) inputs.insert(inputs.end(), {double(keeps_memory), double(i)});
+  const std::vector<Answer> answers = worker.ask(offering(), inputs, 2);
+  ASSERT_EQ(answers.size(), 30u);
+  std::size_t broke = 0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (answers[i].status != Answer::Status::broke) continue;
+    ++broke;
+    EXPECT_EQ(answers[i].reason(), "memory limit reached");
+    EXPECT_TRUE(i == 0 || answers[i - 1].status == Answer::Status::answered) << "a breakage erases the next answer";
+  }
+  EXPECT_GE(broke, 5u);
+  EXPECT_LE(broke, 15u);
+}
+
+TEST(Worker, StopsABatchThatBreaksFromItsStart) {
+  Worker worker(limits());
+  worker.send(offering(), std::vector<double>{aborts, 0, aborts, 1, aborts, 2, none, 3}, 2);
+  EXPECT_EQ(worker.receive(2).size(), 2u);
+  worker.send(offering(), std::vector<double>{none, 0, aborts, 1, aborts, 2, aborts, 3}, 2);
+  EXPECT_EQ(worker.receive(2).size(), 4u);
 }
 
 /// Uses a tenth of a second of processor time.
@@ -502,14 +599,15 @@ TEST(Wire, CarriesAnswersWholeWhileOthersAreWritten) {
   std::vector<Answer> answers(wire::capacity);
   for (int round = 0; round < rounds; ++round) {
     asked->answer = halves;
-    asked->inputs = 1, asked->first = 0, asked->count = wire::capacity;
+    asked->inputs = 1, asked->first = 0, asked->numbers_at = 0, asked->count = wire::capacity,
+    asked->batch = std::uint32_t(round);
     for (std::size_t i = 0; i < wire::capacity; ++i) asked->values[i] = double(round) * 10'000 + double(i);
     answered->done.store(0, std::memory_order_relaxed);
     ASSERT_EQ(write(to_host[1], "g", 1), 1);
     std::size_t got = 0, numbers = 0;
     while (got < wire::capacity) {
       const std::size_t done = answered->done.load(std::memory_order_acquire);
-      ASSERT_TRUE(wire::take(*answered, got, done, numbers, 0, answers.data()));
+      ASSERT_TRUE(wire::take(*answered, asked->batch, got, done, numbers, 0, answers.data()));
     }
     char byte = 0;
     ASSERT_EQ(read(to_judge[0], &byte, 1), 1);

@@ -27,7 +27,7 @@ def ray_meets_ball(numbers):
         return {"yes": False}
     time = c / (math.sqrt(b * b - a * c) - b)
     location = [p + v * time for p, v in zip(point, velocity)]
-    normal = [(l - c) / radius for l, c in zip(location, center)] if radius > 0 else [None] * 3
+    normal = [(l - c) / radius for l, c in zip(location, center)] if radius > 0 else ["none"] * 3
     return {"yes": True, "values": [time, *location, *normal]}
 
 

@@ -131,6 +131,18 @@ Preconditions requirements_in(const Json& list, const std::string& query) {
   return required;
 }
 
+/// Checks the names of the outputs that an offer gives (wire::given_by_offers).
+void check_given(const Json& list, const Query& query) {
+  for (const Json& j : list) {
+    if (j.is_string() && wire::bits_of_output(query, j.get_ref<const std::string&>()) != 0) continue;
+    std::vector<std::string_view> names;
+    for (const Field& f : query.outputs) names.push_back(f.name);
+    const std::string name = j.is_string() ? j.get<std::string>() : j.dump();
+    refuse("it gives '{}' for {}, whose outputs are: {}", name.substr(0, most_of_a_name), query.name,
+           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+  }
+}
+
 /// The context of the function that asks a host without a Worker of the caller.
 struct HostedOffer {
   std::shared_ptr<const HostProgram> host;
@@ -148,7 +160,7 @@ Answer ask_hosted(const void* offer, std::span<const double> inputs) {
 
 void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedOffers& hosted) {
   const Members m(j, fmt::format("offer {}", position + 1),
-                  {"query", "inputs", "outputs", "by_equivalence", "how", "contract", "requires"});
+                  {"query", "inputs", "outputs", "by_equivalence", "how", "contract", "requires", "gives"});
   const std::string name = m.text("query");
   const Query* query = find_query(name);
   if (query == nullptr) refuse("it offers the query '{}', which the catalogue does not have", name);
@@ -167,6 +179,7 @@ void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedO
     o.required = requirements_in(m.list("requires"), name);
     o.position = position;
     o.outputs = std::uint32_t(outputs);
+    check_given(m.list("gives"), *query);
     o.decides = decides(query->kind);
     o.answer = AnswerFunction(ask_hosted, &hosted.emplace_back(HostedOffer{subject.host, o}));
   }
@@ -190,11 +203,24 @@ void check_layout(const std::string& stated) {
       "copies there");
 }
 
+/// Names are words of the command line, and parts of file names.
+void check_name(const std::string& name) {
+  if (name.empty() || name.size() > most_of_a_name ||
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
+    refuse("its name is '{}': it must be of small letters, digits and '-', at most {}", name, most_of_a_name);
+  }
+  if (name.front() == '-' || name.back() == '-')
+    refuse("its name is '{}': it must begin and end with a letter or a digit", name);
+  if (name == "added") refuse("its name is 'added', the word for the subjects of NEARMISS_ADD");
+}
+
 Subject described(std::string_view hello, HostProgram program) {
   if (wire::nesting(hello) > wire::most_nested) refuse("its hello is nested more than {} deep", wire::most_nested);
   const Json j = Json::parse(hello, nullptr, false);
   if (j.is_discarded())
     refuse("what it says first is no JSON: {}", hello.substr(0, std::min<std::size_t>(hello.find('\n'), 60)));
+  if (const auto twice = wire::repeated_member(hello, j))
+    refuse("its hello has '{}' twice in one object", twice->substr(0, most_of_a_name));
   const bool may_share = program.batches == HostProgram::Batches::shared;
   const Members m =
       may_share ? Members(j, "its hello",
@@ -210,10 +236,7 @@ Subject described(std::string_view hello, HostProgram program) {
   if (may_share) check_layout(m.text("layout"));
   Subject s;
   s.name = m.text("name");
-  if (s.name.empty() || s.name.size() > most_of_a_name ||
-      s.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
-    refuse("its name is '{}': it must be of small letters, digits and '-', at most {}", s.name, most_of_a_name);
-  }
+  check_name(s.name);
   s.version = m.text("version");
   const std::string scalar = m.text("scalar");
   if (scalar != "float" && scalar != "double") refuse("its scalar is '{}': it must be \"float\" or \"double\"", scalar);

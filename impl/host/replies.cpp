@@ -5,6 +5,10 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "impl/subject/printable.hpp"
 
 namespace nearmiss::wire {
 
@@ -20,7 +24,7 @@ void append(std::string& text, double x) {
   text.append(digits.data(), end);
 }
 
-Taken error(std::string what) { return {0, {}, std::move(what)}; }
+Taken error(std::string what, bool names_its_case = false) { return {0, {}, std::move(what), names_its_case}; }
 
 /// Quotes Infinity, -Infinity and NaN, which some JSON writers print as bare words.
 std::string with_quoted_words(std::string_view line) {
@@ -63,45 +67,85 @@ std::string neither_0_nor_1(const char* which, int byte) {
          ": it must be 0 or 1";
 }
 
-Taken answer_in(const Json& j, std::uint32_t number, std::size_t outputs, Taken taken) {
+bool is_known(const std::string& member) {
+  return member == "case" || member == "yes" || member == "values" || member == "cannot";
+}
+
+/// The number of a reply's case, or an error.
+Taken case_in(const Json& j, std::uint32_t due) {
   if (!j.is_object()) return error("a line that is no object");
-  for (const auto& [name, value] : j.items()) {
-    if (name != "case" && name != "yes" && name != "values" && name != "cannot") {
-      return error(std::string("'").append(name, 0, 40) +
-                   "', which is none of \"case\", \"yes\", \"values\", \"cannot\"");
-    }
-  }
   const auto named = j.find("case");
   if (named == j.end() || !named->is_number_unsigned())
     return error("an object without \"case\", the number of its case");
-  if (*named != number) return error(another_case(named->get<std::uint64_t>(), number));
+  if (*named != due) return error(another_case(named->get<std::uint64_t>(), due));
+  return {};
+}
+
+/// Puts the numbers of a reply into the answer. Returns the error; empty where there is none.
+std::string take_values(const Json& values, const Due& due, Answer& a) {
+  if (!values.is_array() || values.size() != due.outputs)
+    return "\"values\" is no list of " + std::to_string(due.outputs) + " numbers";
+  const std::uint64_t part = a.yes ? due.gives : due.gives & due.of_misses;
+  for (std::size_t i = 0; i < due.outputs; ++i) {
+    const Json& value = values[i];
+    const bool gives = (due.gives >> i & 1u) != 0;
+    if (value == "none" || (value.is_null() && (part >> i & 1u) == 0)) continue;
+    if (!gives) return "number " + std::to_string(i + 1) + ", which is not among what its offer \"gives\"";
+    const std::optional<double> x = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : number_in(value);
+    if (!x) return "\"values\" has something that is no number";
+    a.values[i] = *x;
+    a.given |= std::uint64_t{1} << i;
+  }
+  return {};
+}
+
+/// The answer in a reply that names the case that is due.
+Taken answer_in(const Json& j, const Due& due, Taken taken) {
+  for (const auto& [name, value] : j.items()) {
+    if (is_known(name)) continue;
+    return error(std::string("'").append(name, 0, 40) + "', which is none of \"case\", \"yes\", \"values\", \"cannot\"",
+                 true);
+  }
   if (const auto why = j.find("cannot"); why != j.end()) {
-    if (j.contains("yes") || j.contains("values")) return error("\"cannot\" beside \"yes\" or \"values\"");
-    if (!why->is_string()) return error("\"cannot\" is no text");
+    if (j.contains("yes") || j.contains("values")) return error("\"cannot\" beside \"yes\" or \"values\"", true);
+    if (!why->is_string()) return error("\"cannot\" is no text", true);
     taken.answer = Answer::without(Answer::Status::cannot_answer, why->get_ref<const std::string&>());
     return taken;
   }
   Answer& a = taken.answer;
-  a.count = std::uint8_t(outputs);
+  a.count = std::uint8_t(due.outputs);
   a.given = 0;
   const auto yes = j.find("yes");
-  if (yes != j.end() && !yes->is_boolean()) return error("\"yes\" is neither true nor false");
+  if (yes != j.end() && !yes->is_boolean()) return error("\"yes\" is neither true nor false", true);
   a.yes = yes == j.end() || yes->get<bool>();
   const auto values = j.find("values");
-  if (yes == j.end() && values == j.end()) return error("an object without \"yes\", \"values\" and \"cannot\"");
+  if (yes == j.end() && values == j.end()) return error("an object without \"yes\", \"values\" and \"cannot\"", true);
   if (values == j.end()) return taken;
-  if (!values->is_array() || values->size() != outputs) {
-    return error("\"values\" is no list of " + std::to_string(outputs) + " numbers");
-  }
-  for (std::size_t i = 0; i < outputs; ++i) {
-    const Json& value = (*values)[i];
-    if (value.is_null()) continue;
-    const std::optional<double> x = number_in(value);
-    if (!x) return error("\"values\" has something that is no number");
-    a.values[i] = *x;
-    a.given |= std::uint64_t{1} << i;
-  }
+  if (std::string wrong = take_values(*values, due, a); !wrong.empty()) return error(std::move(wrong), true);
   return taken;
+}
+
+/// The members of all objects in it.
+std::size_t members_of(const Json& j) {
+  std::size_t count = j.is_object() ? j.size() : 0;
+  if (!j.is_structured()) return 0;
+  for (const Json& part : j) count += members_of(part);
+  return count;
+}
+
+/// The characters `wanted` of the text outside of its strings.
+std::size_t count_outside_strings(std::string_view json, char wanted) {
+  std::size_t count = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (in_string && json[i] == '\\') {
+      ++i;
+      continue;
+    }
+    if (json[i] == '"') in_string = !in_string;
+    count += !in_string && json[i] == wanted;
+  }
+  return count;
 }
 
 }  // namespace
@@ -118,6 +162,61 @@ std::size_t nesting(std::string_view json) {
     if ((c == ']' || c == '}') && depth > 0) --depth;
   }
   return deepest;
+}
+
+std::optional<std::string> repeated_member(std::string_view json, const Json& parsed) {
+  if (count_outside_strings(json, ':') == members_of(parsed)) return std::nullopt;  // a parsed object has each once
+  std::vector<std::set<std::string>> seen;
+  std::string repeated;
+  const Json::parser_callback_t look = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) seen.emplace_back();
+    if (event == Json::parse_event_t::object_end) seen.pop_back();
+    if (event == Json::parse_event_t::key && !seen.back().insert(value.get<std::string>()).second)
+      repeated = value.get<std::string>();
+    return true;
+  };
+  [[maybe_unused]] const Json again = Json::parse(json, look, false);
+  return repeated;
+}
+
+std::optional<std::string> difference_between(std::string_view first, std::string_view now) {
+  if (first == now) return std::nullopt;
+  if (nesting(now) > most_nested) return "it is nested more than 64 deep";
+  const Json before = Json::parse(first, nullptr, false), after = Json::parse(now, nullptr, false);
+  if (after.is_discarded())
+    return "it is no JSON: " + std::string(now.substr(0, std::min<std::size_t>(now.find('\n'), 60)));
+  const Json changes = Json::diff(before, after);
+  if (changes.empty()) return std::nullopt;
+  const Json::json_pointer where(changes.front().at("path").get<std::string>());
+  const auto part = [&](const Json& hello) {
+    return hello.contains(where) ? printable(hello.at(where).dump().substr(0, 60)) : std::string("missing");
+  };
+  const std::string name = where.empty() ? "it" : printable(where.to_string().substr(1, 60));
+  return name + " was " + part(before) + " and is " + part(after);
+}
+
+std::uint64_t bits_of_output(const Query& query, std::string_view name) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; !name.empty() && i < query.outputs.size(); ++i) {
+    const std::string_view output = query.outputs[i].name;
+    const bool is_of_vector = output.size() > name.size() && output[name.size()] == '.';
+    if (output.starts_with(name) && (output.size() == name.size() || is_of_vector)) bits |= std::uint64_t{1} << i;
+  }
+  return bits;
+}
+
+std::vector<std::uint64_t> given_by_offers(std::string_view hello) {
+  std::vector<std::uint64_t> given;
+  const Json parsed = Json::parse(hello);
+  for (const Json& offer : parsed.at("offers")) {
+    given.push_back(~std::uint64_t{0});
+    const auto list = offer.find("gives");
+    if (list == offer.end()) continue;
+    const Query& query = *find_query(offer.at("query").get_ref<const std::string&>());
+    given.back() = 0;
+    for (const Json& name : *list) given.back() |= bits_of_output(query, name.get_ref<const std::string&>());
+  }
+  return given;
 }
 
 std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values,
@@ -140,15 +239,15 @@ std::string json_request(std::string_view query, std::uint32_t first, std::span<
   return line + "]]}\n";
 }
 
-Taken take_binary(std::string_view bytes, std::uint32_t number, std::size_t outputs) {
+Taken take_binary(std::string_view bytes, const Due& due) {
   Reply head;
   if (bytes.size() < sizeof head) return {};
   std::memcpy(&head, bytes.data(), sizeof head);
   if (head.status > 1) return error(neither_0_nor_1("first", head.status));
   if (head.yes > 1) return error(neither_0_nor_1("second", head.yes));
-  if (head.number != number) return error(another_case(head.number, number));
+  if (head.number != due.number) return error(another_case(head.number, due.number));
   Taken taken;
-  const std::size_t size = sizeof head + (head.status == 0 ? 8 * outputs : head.reason);
+  const std::size_t size = sizeof head + (head.status == 0 ? 8 * due.outputs : head.reason);
   if (bytes.size() < size) return taken;
   const char* rest = bytes.data() + sizeof head;
   taken.bytes = size;
@@ -158,21 +257,25 @@ Taken take_binary(std::string_view bytes, std::uint32_t number, std::size_t outp
   }
   Answer& a = taken.answer;
   a.yes = head.yes != 0;
-  a.given = head.given;
-  a.count = std::uint8_t(outputs);
-  std::memcpy(a.values.data(), rest, 8 * outputs);
+  a.given = head.given & due.gives;
+  a.count = std::uint8_t(due.outputs);
+  std::memcpy(a.values.data(), rest, 8 * due.outputs);
   return taken;
 }
 
-Taken take_json(std::string_view bytes, std::uint32_t number, std::size_t outputs) {
+Taken take_json(std::string_view bytes, const Due& due) {
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos) return bytes.size() > max_line ? error("a line without end") : Taken{};
   if (end > max_line) return error("a line of more than 65,536 bytes");
   if (nesting(bytes.substr(0, end)) > most_nested) return error("a line that is nested more than 64 deep");
-  const Json j = Json::parse(with_quoted_words(bytes.substr(0, end)), nullptr, false);
+  const std::string line = with_quoted_words(bytes.substr(0, end));
+  const Json j = Json::parse(line, nullptr, false);
   if (j.is_discarded())
     return error("a line that is no JSON: " + std::string(bytes.substr(0, std::min<std::size_t>(end, 60))));
-  return answer_in(j, number, outputs, {end + 1, {}, {}});
+  if (const Taken named = case_in(j, due.number); !named.error.empty()) return named;
+  if (const auto twice = repeated_member(line, j))
+    return error("'" + twice->substr(0, 40) + "' twice in one object", *twice != "case");
+  return answer_in(j, due, {end + 1, {}, {}});
 }
 
 }  // namespace nearmiss::wire

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "impl/host/shared_layout.hpp"
@@ -68,19 +70,61 @@ Answer answer_in(Rounding rounding, const AnswerFunction& answer, std::span<cons
   return a;
 }
 
-void answer_batch(const AnswerFunction& answer, const wire::SharedRequest& asked, wire::SharedAnswers& answered) {
+/// Keeps the answers of a batch in memory of the host's own, and writes them into the shared memory. So a wild write of
+/// the subject over the shared memory is noticed, and the answers are written again.
+class PublishedAnswers {
+ public:
+  explicit PublishedAnswers(wire::SharedAnswers& shared) : shared_(shared) {}
+
+  void begin(const wire::SharedRequest& asked) {
+    first_ = asked.first, batch_ = asked.batch, numbers_at_ = asked.numbers_at;
+    heads_.clear(), numbers_.clear(), reasons_.clear();
+  }
+  /// True where something other than add() has counted answers. Asked after each call, it tells which one did it.
+  bool is_count_overwritten() const { return shared_.done.load(std::memory_order_relaxed) != first_ + heads_.size(); }
+  /// True where an answer is not as add() has written it.
+  bool is_overwritten() const {
+    const auto differ = [](const auto& kept, const auto* shared) {
+      return !kept.empty() && std::memcmp(kept.data(), shared, kept.size() * sizeof kept.front()) != 0;
+    };
+    return differ(heads_, shared_.heads.data() + first_) || differ(numbers_, shared_.numbers.data() + numbers_at_);
+  }
+  void restore() {
+    std::copy(heads_.begin(), heads_.end(), shared_.heads.begin() + std::ptrdiff_t(first_));
+    std::copy(numbers_.begin(), numbers_.end(), shared_.numbers.begin() + std::ptrdiff_t(numbers_at_));
+    for (const auto& [i, why] : reasons_) shared_.reasons[i] = why;
+  }
+  void add(const Answer& a, std::uint8_t raised) {
+    const std::size_t i = first_ + heads_.size(), at = numbers_at_ + numbers_.size();
+    heads_.push_back(wire::head_of(batch_, i, a, raised));
+    numbers_.insert(numbers_.end(), a.values.begin(), a.values.begin() + a.count);
+    if (a.status != Answer::Status::answered) reasons_.emplace_back(i, a.why);
+    wire::put(shared_, i, at, heads_.back(), a);
+    shared_.done.store(std::uint32_t(i + 1), std::memory_order_release);
+  }
+
+ private:
+  wire::SharedAnswers& shared_;
+  std::size_t first_ = 0, numbers_at_ = 0;
+  std::uint32_t batch_ = 0;
+  std::vector<wire::SharedAnswers::Head> heads_;
+  std::vector<double> numbers_;
+  std::vector<std::pair<std::size_t, decltype(Answer::why)>> reasons_;
+};
+
+void answer_batch(const AnswerFunction& answer, const wire::SharedRequest& asked, PublishedAnswers& answered) {
   const std::size_t count = asked.count, inputs = asked.inputs;
-  std::size_t used = 0;
+  answered.begin(asked);
   for (std::size_t i = asked.first; i < count; ++i) {
     const std::span<const double> values{asked.values.data() + i * inputs, inputs};
     std::uint8_t raised = 0;
-    const Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
-                                                         : answer_in(asked.rounding, answer, values, raised);
-    answered.heads[i] = {a.status, a.yes, a.count, a.cause, raised, a.given};
-    std::copy_n(a.values.begin(), a.count, answered.numbers.begin() + std::ptrdiff_t(used));
-    if (a.status != Answer::Status::answered) answered.reasons[i] = a.why;
-    used += a.count;
-    answered.done.store(std::uint32_t(i + 1), std::memory_order_release);
+    Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
+                                                   : answer_in(asked.rounding, answer, values, raised);
+    if (answered.is_count_overwritten()) {
+      answered.restore();
+      a = Answer::without(Answer::Status::broke, "wrote over the memory that holds its answers");
+    }
+    answered.add(a, raised);
   }
 }
 
@@ -88,14 +132,17 @@ void answer_batch(const AnswerFunction& answer, const wire::SharedRequest& asked
 
 void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire::SharedAnswers& answered,
            std::span<const OfferedFunctions> offers) {
+  PublishedAnswers published(answered);
   while (wait_for_wake_up(from_judge)) {
     const OfferedFunctions offer = offers.empty() ? OfferedFunctions{asked.answer} : offers[asked.offer];
     if (asked.timed) {
       time_batch(offer, asked, answered);
     } else {
-      answer_batch(offer.answer, asked, answered);
+      answer_batch(offer.answer, asked, published);
     }
-    if (!write_all(to_judge, "d")) return;
+    const bool is_overwritten = !asked.timed && published.is_overwritten();
+    if (is_overwritten) published.restore();
+    if (!write_all(to_judge, is_overwritten ? wire::all_done_and_overwritten : wire::all_done)) return;
   }
 }
 

@@ -164,9 +164,10 @@ void time_batch(const OfferedFunctions& offer, const wire::SharedRequest& asked,
   });
   const bool ok = outcome.status == Answer::Status::answered;
   for (std::size_t i = 0; i < cases; ++i) {
-    answered.heads[first + i] = {outcome.status, true, std::uint8_t(ok ? 2 : 0), outcome.cause, 0, outcome.given};
-    if (ok) answered.numbers[2 * i] = times[i], answered.numbers[2 * i + 1] = double(stages[i]);
-    if (!ok) answered.reasons[first + i] = outcome.why;
+    Answer a = outcome;
+    a.yes = true;
+    if (ok) a.count = 2, a.values[0] = times[i], a.values[1] = double(stages[i]);
+    wire::put(answered, first + i, asked.numbers_at + 2 * i, wire::head_of(asked.batch, first + i, a, 0), a);
   }
   answered.done.store(std::uint32_t(count), std::memory_order_release);
 }

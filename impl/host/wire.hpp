@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include "impl/host/arithmetic.hpp"
 #include "impl/subject/subject.hpp"
@@ -26,8 +27,13 @@ enum File : int {
   plugin_file = 8,     ///< likewise
 };
 
+/// What a host that shares memory says after a batch. The second: something wrote over its answers, and it has written
+/// them again.
+inline constexpr std::string_view all_done = "d", all_done_and_overwritten = "w";
+
 inline constexpr std::size_t capacity = 2048;             ///< most cases in a batch
 inline constexpr std::size_t max_values = capacity * 64;  ///< most numbers in a batch
+inline constexpr std::size_t most_shift = 1024;           ///< of the numbers of a request in shared memory
 inline constexpr std::size_t max_hello = std::size_t{1} << 20;
 inline constexpr std::size_t max_reason = 65535;
 
@@ -36,6 +42,8 @@ struct SharedRequest {
   std::uint32_t offer;  ///< index among the offers of the hello
   std::uint32_t inputs;
   std::uint32_t first, count;  ///< the host answers the cases [first, count)
+  std::uint32_t batch;         ///< number of this request: an answer to an earlier one is never taken for its answer
+  std::uint32_t numbers_at;    ///< where the numbers of its answers begin: below most_shift
   Rounding rounding;           ///< other than its_own: the answers also have the raised exceptions
   bool timed;                  ///< each answer has two numbers: nanoseconds of the case's call, and an AnswerStage
   AnswerFunction answer;       ///< replaces `offer` for a host that is a fork of this process
@@ -59,15 +67,53 @@ struct SharedAnswers {
     std::uint8_t count;
     BreakCause cause;
     std::uint8_t raised;  ///< of a case that is asked in a given rounding
+    std::uint32_t check;  ///< check_of() this answer: a write over the answers is noticed
     std::uint64_t given;
   };
 
   std::atomic<std::uint32_t> done;  ///< the cases before this one are answered
   std::array<Head, capacity> heads;
-  std::array<double, capacity * Answer::capacity> numbers;  ///< from the case `first` on
-  std::array<decltype(Answer::why), capacity> reasons;      ///< written only for cases without an answer
-  TimedBatch timed;                                         ///< of a timed batch, once all its cases are done
+  std::array<double, capacity * Answer::capacity + most_shift> numbers;  ///< from the case `first` on
+  std::array<decltype(Answer::why), capacity> reasons;                   ///< written only for cases without an answer
+  TimedBatch timed;  ///< of a timed batch, once all its cases are done
 };
+
+/// A hash of an answer to a request, of its head (without the member `check`) and of its numbers.
+inline std::uint32_t check_of(std::uint32_t batch, std::size_t number_of_case, const SharedAnswers::Head& head,
+                              const double* numbers) {
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
+  std::uint64_t hash = odd * ((std::uint64_t{batch} << 32 | number_of_case) + 1);
+  const auto add = [&](std::uint64_t word) {
+    hash = (hash ^ word) * odd;
+    hash ^= hash >> 32;
+  };
+  std::uint8_t status, yes, cause;
+  std::memcpy(&status, &head.status, 1), std::memcpy(&yes, &head.yes, 1), std::memcpy(&cause, &head.cause, 1);
+  add(std::uint64_t{status} | std::uint64_t{yes} << 8 | std::uint64_t{head.count} << 16 | std::uint64_t{cause} << 24 |
+      std::uint64_t{head.raised} << 32);
+  add(head.given);
+  for (std::size_t i = 0; i < head.count; ++i) {
+    std::uint64_t bits;
+    std::memcpy(&bits, numbers + i, sizeof bits);
+    add(bits);
+  }
+  return std::uint32_t(hash);
+}
+
+inline SharedAnswers::Head head_of(std::uint32_t batch, std::size_t number_of_case, const Answer& a,
+                                   std::uint8_t raised) {
+  SharedAnswers::Head head{a.status, a.yes, a.count, a.cause, raised, 0, a.given};
+  head.check = check_of(batch, number_of_case, head, a.values.data());
+  return head;
+}
+
+/// Writes the answer to a case; its numbers begin at `at`.
+inline void put(SharedAnswers& into, std::size_t number_of_case, std::size_t at, const SharedAnswers::Head& head,
+                const Answer& a) {
+  std::copy_n(a.values.begin(), a.count, into.numbers.begin() + std::ptrdiff_t(at));
+  into.heads[number_of_case] = head;
+  if (a.status != Answer::Status::answered) into.reasons[number_of_case] = a.why;
+}
 
 /// The header of a binary batch; count * inputs doubles follow. Every reply names its case, so that a surplus or
 /// missing reply is never taken for the reply to another case.
@@ -86,11 +132,12 @@ struct Reply {
 };
 static_assert(sizeof(Request) == 16 && sizeof(Reply) == 16);
 
-/// Reads the answers [begin, end) from shared memory and advances `begin`; `at` counts the numbers before `begin`.
-/// Returns false at the first malformed answer: `begin` is then its index, and no later answer is read. `outputs` is
-/// the required count of numbers, or 0.
-inline bool take(const SharedAnswers& from, std::size_t& begin, std::size_t end, std::size_t& at, std::size_t outputs,
-                 Answer* into) {
+/// Reads the answers [begin, end) to a request from shared memory and advances `begin`; `at` counts the numbers before
+/// `begin`.
+/// Returns false at the first answer that is malformed or was changed after it was written: `begin` is then its index,
+/// and no later answer is read. `outputs` is the required count of numbers, or 0.
+inline bool take(const SharedAnswers& from, std::uint32_t batch, std::size_t& begin, std::size_t end, std::size_t& at,
+                 std::size_t outputs, Answer* into) {
   for (; begin < end; ++begin) {
     const SharedAnswers::Head head = from.heads[begin];
     std::atomic_signal_fence(
@@ -111,6 +158,7 @@ inline bool take(const SharedAnswers& from, std::size_t& begin, std::size_t end,
     std::copy_n(from.numbers.begin() + std::ptrdiff_t(at), head.count, a.values.begin());
     if (head.count < a.count) std::fill(a.values.begin() + head.count, a.values.begin() + a.count, 0.0);
     a.count = head.count;
+    if (check_of(batch, begin, head, a.values.data()) != head.check) return false;
     if (head.status == Answer::Status::answered) {
       a.why[0] = '\0';
     } else {

@@ -13,10 +13,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "impl/catalogue/query.hpp"
+#include "impl/host/error_line.hpp"
+#include "impl/host/reasons.hpp"
 #include "impl/host/replies.hpp"
 #include "impl/host/serve.hpp"
 #include "impl/host/throw_errno.hpp"
@@ -28,7 +32,10 @@ namespace nearmiss {
 namespace {
 
 constexpr int poll_interval = 50;  ///< milliseconds
+constexpr unsigned char poison_byte = 0xa5;
+constexpr const char* overwritten = "wrote over the memory that holds its answers";
 constexpr std::size_t max_output = 4096;
+constexpr std::size_t max_searched_output = 16384;  ///< in which the line with the error is looked for
 
 /// Raises the limit of file sizes to its maximum for its lifetime. Shared memory is a file here, and a limit that is
 /// meant for files on disk must not apply to it.
@@ -66,11 +73,6 @@ bool is_resource_shortage(int error) {
   return error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE;
 }
 
-std::string last_line_of(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  return text.substr(text.find_last_of('\n') + 1);
-}
-
 /// Reasons of a subject go to terminals and into reports.
 void make_printable(Answer& a) {
   if (a.status != Answer::Status::answered) a.explain(printable(a.reason()));
@@ -82,6 +84,23 @@ bool is_duration(double nanoseconds) { return nanoseconds >= 0 && std::isfinite(
 /// Whether a host's number is that of a stage.
 bool is_stage(double number) {
   return number >= 0 && number <= double(AnswerStage::plain) && std::floor(number) == number;
+}
+
+/// ": what happened" of a host's output; empty where it wrote nothing.
+std::string error_in(const SupervisedProcess& host) {
+  const std::string error = error_line_of(host.output(max_searched_output));
+  return error.empty() ? "" : ": " + error;
+}
+
+/// Bits of the outputs that are also part of a miss, as the judge sees it.
+std::uint64_t parts_of_misses(std::string_view query) {
+  std::uint64_t parts = 0;
+  const Query* q = find_query(query);
+  for (std::size_t i = 0; q != nullptr && i < q->outputs.size(); ++i) {
+    const Role role = q->outputs[i].role;
+    if (role == Role::depth || role == Role::flag || role == Role::index) parts |= std::uint64_t{1} << i;
+  }
+  return parts;
 }
 
 std::string seconds_text(double s) {
@@ -254,9 +273,11 @@ void Worker::start() {
   spawn();
   if (program_ == nullptr) return;
   try {
-    if (first_line() != program_->hello)
-      throw HostFailed("it says something else of itself than when it was first started");
+    if (const auto other = wire::difference_between(program_->hello, first_line()))
+      throw HostFailed("its hello differs from that of its first start: " + *other, HostFailed::another_hello);
     refused_since_.reset();
+    failed_starts_ = 0;
+    lost_.clear();
   } catch (const HostFailed&) {
     end();
     throw;
@@ -284,11 +305,10 @@ std::string Worker::first_line() {
         timeout.restart();
         continue;
       }
-      const std::string last = last_line_of(child_->process->output(max_output));
-      throw HostFailed(child_->process->exit_text() + (last.empty() ? "" : ": " + last));
+      throw HostFailed(child_->process->exit_text() + error_in(*child_->process));
     }
     if (const auto late = timeout.expired(*child_->process, limits_)) {
-      throw HostFailed(std::string("no hello").append(*late, std::string_view("no answer").size()), true);
+      throw HostFailed(std::string("no hello").append(*late, std::string_view("no answer").size()), HostFailed::late);
     }
   }
   throw HostFailed("interrupted");
@@ -312,7 +332,7 @@ void Worker::send(const Offering& offering, std::span<const double> values, std:
   const FloatingPointScope standard;
   put_request(offering, values, inputs_per_case);
   asked_->rounding = rounding;
-  request(0, count_);
+  request(0, end_of_next_request());
 }
 
 std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<const double> values,
@@ -322,7 +342,7 @@ std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<co
   put_request(offering, values, inputs_per_case);
   outputs_ = 2;
   asked_->timed = true;
-  request(0, count_);
+  request(0, end_of_next_request());
   const std::span<const Answer> answers = receive();
   if (answers.size() < count_) return std::nullopt;
   Times times{{}, answered_->timed};
@@ -339,11 +359,11 @@ std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<co
 /// Writes a batch, to be answered in the host's own rounding, into the shared memory.
 void Worker::put_request(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
   count_ = values.size() / inputs_per_case;
-  got_ = 0;
+  got_ = late_ = 0;
   outputs_ = offering.outputs;
+  if (!is_shared()) due_ = {0, offering.outputs, gives().at(offering.position), parts_of_misses(offering.query)};
   decides_ = offering.decides;
-  one_by_one_ = false;
-  suspected_.reset();
+  suspicions_.clear();
   broken_.clear();
   answers_.resize(std::max(answers_.size(), count_));
   asked_->offer = offering.position;
@@ -356,16 +376,42 @@ void Worker::put_request(const Offering& offering, std::span<const double> value
   std::copy(values.begin(), values.end(), asked_->values.begin());
 }
 
+/// The end of the next request, which begins at the next case without an answer.
+std::size_t Worker::end_of_next_request() {
+  std::size_t most = is_shared() ? capacity : piped_at_once();
+  if (is_searching()) most = searches_one_by_one() ? 1 : again_at_once_;
+  return std::min(count_, got_ + most);
+}
+
+bool Worker::searches_one_by_one() const {
+  return std::any_of(suspicions_.begin(), suspicions_.end(),
+                     [](const Suspicion& s) { return s.event.what == Event::late; });
+}
+
+/// What the host did since its last answer, where it did anything.
+std::optional<Worker::Event> Worker::event_between_requests() {
+  constexpr const char* when = ", between two requests";
+  pollfd said{child_->from_host, POLLIN, 0};
+  if (poll(&said, 1, 0) > 0) child_->read_some();
+  if (!child_->unread().empty()) return end_as(Event::broke, std::string("wrote to file 4 without being asked") + when);
+  if (!child_->process->has_ended()) return std::nullopt;
+  Event event = event_of_end();
+  event.reason += when;
+  return event;
+}
+
 /// Sends the cases [first, end) to the host; starts a host where none runs.
 void Worker::request(std::size_t first, std::size_t end_of_request) {
   cannot_start_.reset();
-  if (!is_shared()) end_of_request = std::min(end_of_request, first + piped_at_once_);
-  requested_ = end_of_request;
-  requested_since_ = Clock::now();
-  numbers_got_ = 0;
-  if (child_ && !child_->unread().empty()) {
-    this->end();  // the host wrote without a request
+  if (child_) {
+    if (auto event = event_between_requests()) {
+      suspicions_.push_back({std::move(*event), first, first + 1, true});
+      again_at_once_ = 1;
+      end_of_request = first + 1;
+    }
   }
+  first_requested_ = first, requested_ = end_of_request;
+  is_unreadable_ = false;
   if (!child_) {
     try {
       start();
@@ -374,10 +420,23 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
       return;
     }
   }
+  requested_since_ = Clock::now();
+  if (is_searching()) {
+    processor_before_ = child_->process->processor_seconds();
+    run_queue_before_ = child_->process->run_queue_seconds();
+  }
   timeout_->restart();
   if (is_shared()) {
+    numbers_begin_ = numbers_got_ = 0;
+    if (is_searching()) {
+      poison();
+      // Elsewhere at each try: a wild write that hits the place of its own answer would show nothing.
+      numbers_begin_ = numbers_got_ = 97 * requests_ % wire::most_shift;
+    }
+    asked_->numbers_at = std::uint32_t(numbers_begin_);
     asked_->first = std::uint32_t(first);
     asked_->count = std::uint32_t(end_of_request);
+    asked_->batch = ++requests_;
     answered_->done.store(std::uint32_t(first), std::memory_order_relaxed);
     [[maybe_unused]] const ssize_t woken = write(child_->to_host, "g", 1);  // receive notices a dead host
     return;
@@ -405,51 +464,83 @@ bool Worker::flush() {
   return true;
 }
 
-Worker::Event Worker::end_as(Event::What what, std::string reason, bool is_of_one_case) {
-  suspected_output_ = child_->process->output(max_output);
+Worker::Event Worker::end_as(Event::What what, std::string reason, bool is_of_next_case) {
+  Event event{what,
+              std::move(reason),
+              is_of_next_case,
+              false,
+              what == Event::late ? BreakCause::time_limit : BreakCause::other,
+              child_->process->output(max_output)};
   end();
-  return {what, std::move(reason), is_of_one_case, what == Event::late ? BreakCause::time_limit : BreakCause::other};
+  return event;
+}
+
+Worker::Event Worker::end_as_of_any(std::string reason) {
+  Event event = end_as(Event::broke, std::move(reason));
+  event.is_of_any_case = true;
+  return event;
 }
 
 /// The event for a host that has ended or closed its pipe.
 Worker::Event Worker::event_of_end() {
   constexpr int moment = 200;  // milliseconds from the last output of a process to its end
   if (!child_->process->has_ended(moment)) return end_as(Event::broke, "hung up without ending");
-  const std::string last = last_line_of(child_->process->output(max_output));
   const BreakCause cause = child_->process->break_cause();
-  Event event = end_as(Event::broke, child_->process->exit_text() + (last.empty() ? "" : ": " + last));
+  const bool is_counted = is_shared() && !is_unreadable_;
+  Event event = end_as(Event::broke, child_->process->exit_text() + error_in(*child_->process), is_counted);
   event.cause = cause;
   return event;
 }
 
-/// Reads the new answers in shared memory.
+/// Reads the new answers in shared memory. An event where the host lacks memory: it would break every later case.
 std::optional<Worker::Event> Worker::read_shared_answers() {
   const std::size_t done = answered_->done.load(std::memory_order_acquire);
-  if (done > requested_) return end_as(Event::broke, "counts more answers than it was asked for", true);
   const std::size_t before = got_;
-  const bool all = wire::take(*answered_, got_, std::max(done, got_), numbers_got_, outputs_, answers_.data());
+  is_unreadable_ = done > requested_ || !wire::take(*answered_, requests_, got_, std::max(done, got_), numbers_got_,
+                                                    outputs_, answers_.data());
   for (std::size_t i = before; i < got_; ++i) {
     if (!decides_) answers_[i].yes = true;
     raised_[i] = answered_->heads[i].raised;
     make_printable(answers_[i]);
+    if (answers_[i].status == Answer::Status::broke && answers_[i].reason() == memory_limit_reason) {
+      got_ = i;
+      return end_as(Event::broke, std::string(memory_limit_reason), true);
+    }
   }
+  has_answered_ = has_answered_ || got_ > before;
   if (got_ > before) timeout_->restart();
-  if (!all) return end_as(Event::broke, "answered with what is no answer", true);
   return std::nullopt;
+}
+
+/// The event where a host that shares memory has said something: that all is done. Until then the host may still mend
+/// what the subject wrote over its answers.
+std::optional<Worker::Event> Worker::event_of_shared_end() {
+  const std::string said(child_->unread());
+  if (said.empty()) return std::nullopt;
+  if (is_unreadable_) return end_as(Event::broke, "answered with what is no answer");
+  const char* wrong = said == wire::all_done_and_overwritten ? overwritten
+                      : said != wire::all_done               ? "wrote to file 4 more than its host does"
+                      : got_ < requested_                    ? "says that all is done, and did not answer"
+                                                             : nullptr;
+  if (wrong != nullptr) return end_as_of_any(wrong);
+  child_->understood = child_->in.size();
+  return Event{Event::all_answered};
 }
 
 std::optional<Worker::Event> Worker::read_piped_answers() {
   while (got_ < requested_) {
+    due_.number = child_->answered;
     const wire::Taken taken = program_->batches == HostProgram::Batches::binary
-                                  ? wire::take_binary(child_->unread(), child_->answered, outputs_)
-                                  : wire::take_json(child_->unread(), child_->answered, outputs_);
-    if (!taken.error.empty()) return end_as(Event::broke, "answered with " + taken.error, true);
+                                  ? wire::take_binary(child_->unread(), due_)
+                                  : wire::take_json(child_->unread(), due_);
+    if (!taken.error.empty()) return end_as(Event::broke, "answered with " + taken.error, taken.names_its_case);
     if (taken.bytes == 0) return std::nullopt;
     child_->understood += taken.bytes;
     ++child_->answered;
     answers_[got_] = taken.answer;
     if (!decides_) answers_[got_].yes = true;
     make_printable(answers_[got_++]);
+    has_answered_ = true;
     timeout_->restart();
   }
   if (!child_->unread().empty()) {
@@ -472,29 +563,18 @@ Worker::Event Worker::await() {
       open = child_->read_some();
       heard_ = true;
     }
+    if (!is_shared() && ready > 0 && files[2].revents != 0 && child_->has_more_to_write()) open = flush() && open;
+    const bool is_gone = !open || child_->process->has_ended();  // what it answered before its end is read below
+    if (auto event = is_shared() ? read_shared_answers() : read_piped_answers()) return *event;
     if (is_shared()) {
-      const bool woken = !child_->unread().empty();
-      if (auto event = read_shared_answers()) return *event;
-      if (woken) {
-        child_->understood = child_->in.size();
-        if (got_ < requested_) return end_as(Event::broke, "says that all is done, and did not answer", true);
-        return {Event::all_answered};
-      }
-    } else {
-      if (ready > 0 && files[2].revents != 0 && child_->has_more_to_write()) open = flush() && open;
-      if (auto event = read_piped_answers()) return *event;
+      if (auto event = event_of_shared_end()) return *event;
     }
-    const bool is_gone = !open || child_->process->has_ended();
     if (!is_gone && ready > 0 && Clock::now() < looked_ + std::chrono::milliseconds(poll_interval)) continue;
     looked_ = Clock::now();
     const auto late = is_gone ? std::nullopt : timeout_->expired(*child_->process, limits_);
     const bool is_too_large =
         limits_.bytes > 0 && child_->process->uses_more_memory_than(limits_.bytes + (std::size_t{1} << 28));
     if (!is_gone && !late && !is_too_large) continue;
-    if (got_ == requested_) {  // an event after the last answer concerns no case
-      end();
-      return {Event::all_answered};
-    }
     if (is_gone) {
       child_->process->has_ended(200);
       if (const int lack = child_->process->failed_to_start(); is_resource_shortage(lack)) {
@@ -504,68 +584,161 @@ Worker::Event Worker::await() {
       }
       return event_of_end();
     }
-    if (late)
-      return end_as(Event::late,
-                    is_shared() || heard_ ? *late : *late + ": it wrote nothing to file 4, or did not flush it");
-    return end_as(Event::broke, "memory limit reached");
+    if (late) {
+      const bool is_counted = is_shared() && !is_unreadable_;
+      const bool is_silent = !is_shared() && !heard_;
+      return end_as(Event::late, *late + (is_silent ? ": it wrote nothing to file 4, or did not flush it" : ""),
+                    is_counted);
+    }
+    return end_as(Event::broke, std::string(memory_limit_reason), is_shared() && !is_unreadable_);
   }
 }
 
-void Worker::mark_broken(std::size_t i, std::string_view reason, std::string output, BreakCause cause) {
-  answers_[i] = Answer::without(Answer::Status::broke, printable(reason), cause);
-  if (!output.empty()) broken_.push_back({i, std::move(output)});
+void Worker::mark_broken(std::size_t i, const Event& event, std::string_view suffix) {
+  answers_[i] = Answer::without(Answer::Status::broke, printable(event.reason), event.cause);
+  if (!suffix.empty()) {
+    const std::string whole(answers_[i].reason());
+    std::size_t most = std::min(whole.size(), sizeof(Answer::why) - 1 - suffix.size());
+    while (most < whole.size() && most > 0 && (whole[most] & 0xC0) == 0x80) --most;
+    answers_[i].explain(whole.substr(0, most) + std::string(suffix));
+  }
+  late_ += event.cause == BreakCause::time_limit;
+  std::erase_if(broken_, [i](const Output& o) { return o.of == i; });
+  if (!event.output.empty()) broken_.push_back({i, event.output});
+}
+
+/// For each offer of the hello the outputs that it gives.
+const std::vector<std::uint64_t>& Worker::gives() {
+  if (gives_.empty()) gives_ = wire::given_by_offers(program_->hello);
+  return gives_;
+}
+
+std::size_t& Worker::piped_at_once() {
+  if (piped_at_once_.size() <= asked_->offer) piped_at_once_.resize(asked_->offer + 1, 1);
+  return piped_at_once_[asked_->offer];
 }
 
 /// Adapts the size of requests: small for a host that sends its answers only at the end of a request, large for a fast
-/// one.
+/// one. A request takes much less than the time limit of one case, so that no sum of usual times is late.
 void Worker::adapt(Clock::duration took) {
-  using namespace std::chrono_literals;
-  if (took < 50ms) piped_at_once_ = std::min(2 * piped_at_once_, capacity);
-  if (took > 200ms) piped_at_once_ = std::max<std::size_t>(1, piped_at_once_ / 2);
+  using Seconds = std::chrono::duration<double>;
+  std::size_t& most = piped_at_once();
+  if (took < Seconds(std::min(0.05, limits_.case_timeout / 8))) most = std::min(2 * most, capacity);
+  if (took > Seconds(std::min(0.2, limits_.case_timeout / 2))) most = std::max<std::size_t>(1, most / 2);
 }
 
-std::span<const Answer> Worker::receive() {
+/// What the request has taken.
+Worker::Took Worker::took() const {
+  const double wall = std::chrono::duration<double>(Clock::now() - requested_since_).count();
+  return {child_->process->processor_seconds() - processor_before_,
+          wall - (child_->process->run_queue_seconds() - run_queue_before_)};
+}
+
+/// True where the cases, asked again, explain the time that the request took.
+bool Worker::was_only_slow(const Suspicion& s) const {
+  return s.event.what == Event::late &&
+         (2 * s.again.processor >= limits_.case_timeout || 2 * s.again.wall >= limits_.wall());
+}
+
+/// Counts what broke the host in a request and did not so again, for each request whose cases end at or before `end`.
+void Worker::settle(std::size_t end) {
+  for (const Suspicion& s : suspicions_) {
+    if (s.end > end || was_only_slow(s)) continue;
+    got_ = std::max(got_, s.at + 1);
+    mark_broken(s.at, s.event, s.is_earlier ? std::string_view{} : not_again_suffix);
+  }
+  std::erase_if(suspicions_, [end](const Suspicion& s) { return s.end <= end; });
+}
+
+/// Marks the next case as broken, for no host can be started. False where the host is lost.
+bool Worker::take_failed_start() {
+  const HostFailed why = *std::exchange(cannot_start_, std::nullopt);
+  if (why.why == HostFailed::another_hello && !has_answered_) throw why;
+  Event event{Event::broke, std::string("it cannot be started again: ") + why.what()};
+  if (why.why == HostFailed::late) event.cause = BreakCause::time_limit;
+  mark_broken(got_++, event);
+  if (++failed_starts_ == most_failed_starts || why.why == HostFailed::another_hello) lost_ = why.what();
+  return lost_.empty();
+}
+
+/// Fills the answers with bytes that no answer to the next request changes.
+void Worker::poison() { std::memset(static_cast<void*>(answered_), poison_byte, sizeof *answered_); }
+
+/// True where nothing but the answers to the request has changed the memory that holds them.
+bool Worker::is_poison_intact() const {
+  const auto is_poison = [](const auto* begin, const auto* end) {
+    return std::all_of(reinterpret_cast<const unsigned char*>(begin), reinterpret_cast<const unsigned char*>(end),
+                       [](unsigned char byte) { return byte == poison_byte; });
+  };
+  const auto but_the_requested = [&](const auto& all) {
+    return is_poison(all.data(), all.data() + first_requested_) &&
+           is_poison(all.data() + requested_, all.data() + all.size());
+  };
+  return but_the_requested(answered_->heads) && but_the_requested(answered_->reasons) &&
+         is_poison(answered_->numbers.data(), answered_->numbers.data() + numbers_begin_) &&
+         is_poison(answered_->numbers.data() + numbers_got_, answered_->numbers.data() + answered_->numbers.size());
+}
+
+/// Every requested case is answered.
+void Worker::take_answered() {
+  if (!is_searching()) {
+    if (!is_shared()) adapt(Clock::now() - requested_since_);
+    return;
+  }
+  if (searches_one_by_one()) {
+    const Took now = took();
+    for (Suspicion& s : suspicions_) s.again.processor += now.processor, s.again.wall += now.wall;
+  }
+  again_at_once_ *= 2;
+  if (!is_shared() || asked_->timed || is_poison_intact()) return;
+  take(end_as_of_any(overwritten));
+}
+
+void Worker::take(Event event) {
+  refused_since_.reset();
+  if (event.what == Event::all_answered) return take_answered();
+  if (got_ == requested_ && !event.is_of_any_case) {
+    event.reason += ", after its last answer";
+    event.is_of_any_case = true;
+  }
+  if (event.is_of_any_case) got_ = first_requested_;
+  if (!event.is_of_next_case && requested_ - got_ > 1) {
+    suspicions_.push_back({std::move(event), got_, requested_});
+    again_at_once_ = 1;
+    if (!is_shared()) piped_at_once() = std::max<std::size_t>(1, piped_at_once() / 2);
+    return;
+  }
+  std::erase_if(suspicions_, [](const Suspicion& s) { return !s.is_earlier; });  // this case was the one
+  mark_broken(got_++, event);
+}
+
+bool Worker::broke_from_the_start(std::size_t most) const {
+  return got_ >= most && std::all_of(answers_.begin(), answers_.begin() + std::ptrdiff_t(got_),
+                                     [](const Answer& a) { return a.status == Answer::Status::broke; });
+}
+
+std::span<const Answer> Worker::receive(std::size_t most_broken) {
   const FloatingPointScope standard;
-  for (std::size_t late = 0; got_ < count_ && late < most_late;) {
+  while (got_ < count_ && late_ < most_late && !broke_from_the_start(most_broken)) {
     if (cannot_start_) {
-      const std::string why = std::string("it cannot be started again: ") + cannot_start_->what();
-      while (got_ < count_)
-        mark_broken(got_++, why, {}, cannot_start_->late ? BreakCause::time_limit : BreakCause::other);
-      break;
-    }
-    Event event = await();
-    if (event.what == Event::gave_up) break;
-    if (event.what == Event::not_asked) {
-      request(got_, requested_);
-      continue;
-    }
-    refused_since_.reset();
-    if (event.what == Event::all_answered) {
-      if (!is_shared() && !one_by_one_) adapt(Clock::now() - requested_since_);
-      if (got_ < count_) request(got_, one_by_one_ ? got_ + 1 : count_);
-      continue;
-    }
-    // A host behind a pipe may hold back answers to earlier cases, so the next case need not be the one that broke.
-    const bool is_surely_next = is_shared() || event.is_of_one_case || requested_ - got_ == 1;
-    if (is_surely_next) {
-      mark_broken(got_++, event.reason, std::move(suspected_output_), event.cause);
-      one_by_one_ = false;
-      suspected_.reset();
-      late += event.what == Event::late;
-      if (late == most_late) break;
+      if (!keeps_waiting() || !take_failed_start()) break;
     } else {
-      one_by_one_ = true;
-      suspected_ = std::move(event);
-      suspected_at_ = got_;
-      suspected_with_ = std::move(suspected_output_);
+      Event event = await();
+      if (event.what == Event::gave_up) {
+        // Whether its cases are only slow stays open.
+        std::erase_if(suspicions_, [](const Suspicion& s) { return s.event.what == Event::late; });
+        break;
+      }
+      if (event.what == Event::not_asked) {
+        request(got_, requested_);
+        continue;
+      }
+      take(std::move(event));
     }
-    if (got_ < count_) request(got_, one_by_one_ ? got_ + 1 : count_);
+    settle(got_);
+    if (got_ < count_) request(got_, end_of_next_request());
   }
-  // The host broke in the batch but not case by case. A mere time limit in a batch does not count.
-  if (got_ == count_ && suspected_ && suspected_->what == Event::broke) {
-    mark_broken(suspected_at_, suspected_->reason + "; not again when the cases of its batch were asked one by one",
-                std::move(suspected_with_), suspected_->cause);
-  }
+  settle(count_);
   return {answers_.data(), got_};
 }
 

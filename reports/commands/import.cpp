@@ -52,7 +52,7 @@ std::string word(bool collides) { return collides ? "collides" : "does not colli
 struct Score {
   const Subject* subject = nullptr;
   std::uint64_t right = 0, false_hits = 0, false_misses = 0, outside = 0, cannot_answer = 0, broke = 0, violations = 0;
-  std::uint64_t gave_up = 0;       ///< cases not asked after too many time-outs
+  std::uint64_t gave_up = 0;       ///< cases not asked because it was given up
   std::vector<std::string> wrong;  ///< one line each
 };
 
@@ -76,7 +76,9 @@ class NyuCcd : public Sink {
     }
   }
   void take(const Examined& e) override { score(*now_, e, batch_[at_[e.of_batch]].where, truth_[at_[e.of_batch]]); }
-  void take_given_up(const Query&, const Subject&, std::uint64_t cases) override { now_->gave_up += cases; }
+  void take_given_up(const Query&, const Subject&, std::uint64_t cases, const Endurance&) override {
+    now_->gave_up += cases;
+  }
   std::string text();
   std::string summary() const;
   std::uint64_t queries() const { return queries_; }
@@ -88,8 +90,8 @@ class NyuCcd : public Sink {
   }
 
  private:
-  std::uint64_t late_of(const Score& s) {
-    return campaign_.dispatcher().lateness(*s.subject, query_of(QueryId::moving_point_triangle)).late;
+  const Endurance& endurance_of(const Score& s) {
+    return campaign_.dispatcher().endurance(*s.subject, query_of(QueryId::moving_point_triangle));
   }
   void show_progress() { progress_.show(fit_, std::nullopt, std::nullopt, oracle_wrong_.size()); }
   void take_batch(std::span<const GroundTruth> batch) {
@@ -188,7 +190,7 @@ std::string NyuCcd::text() {
       "outside of what it\nrequires)\n" +
       table_text(rows, "", 1);
   for (const Score& s : scores_) {
-    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query(), late_of(s), s.gave_up));
+    if (s.gave_up > 0) text += fmt::format("\n{}\n", given_up_text(s.subject->name, query(), endurance_of(s)));
   }
   for (const Score& s : scores_) text += lines_of("Wrong: " + s.subject->name, s.wrong);
   return text;

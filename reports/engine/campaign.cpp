@@ -92,10 +92,10 @@ bool Campaign::judge_one(const Subject& subject, const Standard& standard, const
 void Campaign::hand_on_given_up(std::span<const Subject* const> subjects, const Query& query) {
   for (const Subject* subject : subjects) {
     std::uint64_t& known = given_up_[{subject, &query}];
-    const std::uint64_t now = dispatcher_.lateness(*subject, query).gave_up;
-    if (now == known) continue;
-    for (Sink* s : sinks_) s->take_given_up(query, *subject, now - known);
-    known = now;
+    const Endurance& now = dispatcher_.endurance(*subject, query);
+    if (now.gave_up == known) continue;
+    for (Sink* s : sinks_) s->take_given_up(query, *subject, now.gave_up - known, now);
+    known = now.gave_up;
   }
 }
 

@@ -36,8 +36,8 @@ class Sink {
   virtual void take(const Examined& e) = 0;
   /// True where this sink needs the second judgement of a settled violation (oracles/confirmed.hpp).
   virtual bool needs_second(const Examined&) const { return true; }
-  /// A number of cases that were not asked because the subject was late too often.
-  virtual void take_given_up(const Query&, const Subject&, std::uint64_t) {}
+  /// A number of cases that were not asked because the subject was given up.
+  virtual void take_given_up(const Query&, const Subject&, std::uint64_t, const Endurance&) {}
   /// A number of answers that were not judged because too many were wrong (reports/engine/answer_sample.hpp).
   virtual void take_not_judged(const Query&, const Subject&, std::uint64_t) {}
   /// Called when no answer of the batch is pending: the sink may ask other cases.
@@ -54,7 +54,7 @@ class Campaign {
     std::function<void()> tick;    ///< called often, also while the campaign waits for subjects
     /// The bound for answers; without a function, Subject::standard_for.
     std::function<Standard(const Subject&, const Query&)> standard{};
-    Dispatcher::GiveUp give_up = Dispatcher::GiveUp::when_often_late;
+    Dispatcher::GiveUp give_up = Dispatcher::GiveUp::when_often_broken;
     bool every_answer = false;  ///< judge every answer to generated cases, also where most are wrong
   };
 

@@ -106,8 +106,10 @@ void Counts::count_by_class(const Examined& e) {
   for (const auto& move : e.question.moves) by_class_[{&e.subject, std::string(move)}].count(e.finding);
 }
 
-void Counts::take_given_up(const Query& query, const Subject& subject, std::uint64_t cases) {
-  tallies_.at({&query, &subject}).gave_up += cases;
+void Counts::take_given_up(const Query& query, const Subject& subject, std::uint64_t cases, const Endurance& e) {
+  Tally& t = tallies_.at({&query, &subject});
+  t.gave_up += cases;
+  t.lost = e.lost;
 }
 
 void Counts::take_not_judged(const Query& query, const Subject& subject, std::uint64_t answers) {
@@ -173,13 +175,18 @@ std::string Counts::violated_text() const {
     if (fault == "breakage" && reasons.size() > 1) counted.back() += fmt::format(" of {} kinds", reasons.size());
   }
   std::map<const Query*, std::uint64_t> asked;
-  std::uint64_t not_asked = 0;
-  for (const auto& [key, t] : tallies_) asked[key.first] += t.cases, not_asked += t.of(Verdict::not_asked);
+  std::uint64_t not_asked = 0, gave_up = 0;
+  for (const auto& [key, t] : tallies_) {
+    asked[key.first] += t.cases;
+    not_asked += t.of(Verdict::not_asked);
+    gave_up += t.gave_up;
+  }
   const auto unasked =
       std::uint64_t(std::count_if(asked.begin(), asked.end(), [](const auto& a) { return a.second == 0; }));
   return (counted.empty() ? "nothing violated" : "violations: " + list_text(counted)) +
          (not_asked == 0 ? ""
                          : fmt::format(", {} not asked for what subjects require", plural_text(not_asked, "case"))) +
+         (gave_up == 0 ? "" : fmt::format(", {} not asked after breakages", plural_text(gave_up, "case"))) +
          (not_judged_ == 0 ? "" : fmt::format(", {} not judged", plural_text(not_judged_, "answer"))) +
          (unasked == 0 ? "" : fmt::format(", {} of {} queries not asked", unasked, asked.size()));
 }
@@ -212,7 +219,7 @@ std::string Counts::table() const {
 std::string Counts::passed_over_text() const {
   std::string text;
   for (const auto& [key, t] : tallies_) {
-    if (t.gave_up > 0) text += "\n" + given_up_text(t.subject->name, t.query->name, t.late, t.gave_up);
+    if (t.gave_up > 0) text += "\n" + t.given_up();
     if (t.not_judged > 0) text += "\n" + not_judged_text(t.subject->name, t.query->name, t.not_judged);
   }
   return text.empty() ? text : text + "\n";

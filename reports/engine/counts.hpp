@@ -24,7 +24,7 @@ class Counts : public Sink {
   /// Where the second judgement may raise the worst error; and for a sample, so that a judge that contradicts itself is
   /// noticed.
   bool needs_second(const Examined& e) const override;
-  void take_given_up(const Query& query, const Subject& subject, std::uint64_t cases) override;
+  void take_given_up(const Query& query, const Subject& subject, std::uint64_t cases, const Endurance& e) override;
   void take_not_judged(const Query& query, const Subject& subject, std::uint64_t answers) override;
 
   /// The counts of one subject on one query; nullptr where the subject does not offer it.

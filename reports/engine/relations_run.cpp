@@ -102,14 +102,14 @@ std::vector<Answer> RelationsRun::ask(const Subject& subject, const std::vector<
   const Query& query = *cases.front().query;
   const std::size_t most = Workers::capacity_for(query);
   const Subject* const asked[] = {&subject};
-  const std::uint64_t passed_over = dispatcher_.lateness(subject, query).gave_up;
+  const std::uint64_t passed_over = dispatcher_.endurance(subject, query).gave_up;
   for (std::size_t at = 0; at < cases.size() && answers.size() == at; at += most) {
     dispatcher_.ask(
         asked, std::span(cases).subspan(at, std::min(most, cases.size() - at)), {},
         [&](const Subject&, std::span<const Answer> some) { answers.insert(answers.end(), some.begin(), some.end()); });
   }
   const std::uint64_t missing = cases.size() - answers.size();
-  const std::uint64_t counted = dispatcher_.lateness(subject, query).gave_up - passed_over;
+  const std::uint64_t counted = dispatcher_.endurance(subject, query).gave_up - passed_over;
   if (!should_stop()) dispatcher_.pass_over(subject, query, missing - counted);
   answers.resize(cases.size(), answer_of_given_up());
   return answers;
@@ -120,7 +120,12 @@ void RelationsRun::batch(Stream& stream, std::size_t count) {
   generate_next(stream, settings_.seed, count, cases);
   done_ += count;
   std::map<const Subject*, std::vector<Answer>> own;
-  for (const Subject* s : stream.subjects) own[s] = ask(*s, cases);
+  for (const Subject* s : stream.subjects) {
+    own[s] = ask(*s, cases);
+    const auto broke =
+        std::count_if(own[s].begin(), own[s].end(), [](const Answer& a) { return a.status == Answer::Status::broke; });
+    if (broke > 0) broke_alone_[{s, stream.query}] += std::uint64_t(broke);
+  }
   for (const Relation* r : settings_.relations) {
     if (should_stop()) return;
     relate_all(*r, cases, own);
@@ -157,7 +162,7 @@ void RelationsRun::relate_all(const Relation& relation, const std::vector<Case>&
     if (should_stop()) return;  // some answers may be missing
     const bool bits = settings_.bit_for_bit || claims_same_bits(*subject);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      // Without an answer to the original case there is nothing to compare; 'nearmiss run' reports that.
+      // Without an answer to the original case there is nothing to compare.
       if (!follow_ups[i] || first_answers[i].status != Answer::Status::answered) continue;
       if (!offers_all(*subject, *follow_ups[i])) continue;
       if (!may_be_asked_all(*subject, *follow_ups[i])) {
@@ -202,13 +207,20 @@ RelationTally RelationsRun::sum() const {
   for (const auto& [key, t] : tallies_) all.add(t);
   return all;
 }
-std::uint64_t RelationsRun::bad() const { return sum().bad(); }
+std::uint64_t RelationsRun::broke_alone() const {
+  std::uint64_t cases = 0;
+  for (const auto& [key, some] : broke_alone_) cases += some;
+  return cases;
+}
+std::uint64_t RelationsRun::bad() const { return sum().bad() + broke_alone(); }
 std::uint64_t RelationsRun::bad_of(const std::function<bool(const Subject&)>& some) const {
   RelationTally all;
   for (const auto& [key, t] : tallies_) {
     if (some(*key.subject)) all.add(t);
   }
-  return all.bad();
+  std::uint64_t alone = 0;
+  for (const auto& [key, cases] : broke_alone_) alone += some(*key.first) ? cases : 0;
+  return all.bad() + alone;
 }
 std::uint64_t RelationsRun::contradicted() const { return sum().oracle + internal_errors_.count(); }
 
@@ -219,6 +231,7 @@ Json RelationsRun::to_json() const {
          {"seed", settings_.seed},
          {"tallies", Json::array()},
          {"gave_up", Json::array()},
+         {"broke_alone", Json::array()},
          {"reports", Json::array()}};
   for (const Query* q : settings_.queries) {
     for (const Subject* s : settings_.subjects) {
@@ -241,11 +254,16 @@ Json RelationsRun::to_json() const {
       }
     }
   }
-  for (const auto& [key, l] : dispatcher_.all_lateness()) {
+  for (const auto& [key, l] : dispatcher_.all_endurance()) {
     if (l.gave_up == 0) continue;
-    j["gave_up"].push_back(
-        {{"subject", key.first->name}, {"query", key.second->name}, {"late", l.late}, {"cases", l.gave_up}});
+    j["gave_up"].push_back({{"subject", key.first->name},
+                            {"query", key.second->name},
+                            {"late", l.late},
+                            {"why", given_up_text(key.first->name, key.second->name, l)},
+                            {"cases", l.gave_up}});
   }
+  for (const auto& [key, cases] : broke_alone_)
+    j["broke_alone"].push_back({{"subject", key.first->name}, {"query", key.second->name}, {"cases", cases}});
   for (const Written& w : written_) {
     j["reports"].push_back({{"file", w.file},
                             {"query", w.key.query->name},
@@ -294,8 +312,8 @@ std::string RelationsRun::table() const {
 
 std::vector<std::string> RelationsRun::given_up() const {
   std::vector<std::string> lines;
-  for (const auto& [key, l] : dispatcher_.all_lateness()) {
-    if (l.gave_up > 0) lines.push_back(given_up_text(key.first->name, key.second->name, l.late, l.gave_up));
+  for (const auto& [key, l] : dispatcher_.all_endurance()) {
+    if (l.gave_up > 0) lines.push_back(given_up_text(key.first->name, key.second->name, l));
   }
   return lines;
 }
@@ -317,6 +335,8 @@ std::string RelationsRun::summary() const {
       plural_text(all.cases, "pair"), duration_text(std::chrono::duration<double>(Clock::now() - begin_).count()),
       plural_text(all.bad(), "broken promise"), plural_text(all.contradictions, "contradiction"),
       plural_text(written_.size(), "report"), settings_.folder.string());
+  if (broke_alone() > 0)
+    text += fmt::format("; {} before they could be compared", plural_text(broke_alone(), "breakage"));
   if (not_asked_ > 0) text += fmt::format("; {} not asked, for what subjects require", plural_text(not_asked_, "pair"));
   if (all.oracle > 0) text += fmt::format("; Nearmiss contradicts itself {} times", count_text(all.oracle));
   return text + scene_measure_text() + internal_errors_.text();

@@ -98,6 +98,7 @@ class RelationsRun {
   /// answer_of_given_up().
   std::vector<Answer> ask(const Subject& subject, const std::vector<Case>& cases);
   RelationTally sum() const;
+  std::uint64_t broke_alone() const;
   bool should_stop() const;
   void show_progress();
 
@@ -107,6 +108,8 @@ class RelationsRun {
   Dispatcher dispatcher_;
   Progress progress_;
   std::map<Key, RelationTally> tallies_;
+  /// Cases that broke a subject before they were related to others.
+  std::map<std::pair<const Subject*, const Query*>, std::uint64_t> broke_alone_;
   Retention retention_;
   std::vector<Written> written_;
   InternalErrors internal_errors_;

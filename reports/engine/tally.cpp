@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "reports/engine/dispatcher.hpp"
 #include "reports/findings/breakage.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
@@ -32,11 +33,6 @@ std::set<Disagreement> ways(const Finding& f, bool breaking) {
 bool is_wrong_decision(Disagreement d) { return d == Disagreement::false_hit || d == Disagreement::false_miss; }
 
 }  // namespace
-
-std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases) {
-  return fmt::format("{} was late {} of {}, and was not asked {} more", subject, plural_text(late, "time"), query,
-                     plural_text(cases, "case"));
-}
 
 std::string not_judged_text(std::string_view subject, std::string_view query, std::uint64_t answers) {
   return fmt::format("{} is often wrong of {}: only a sample was judged, and {} were not (--every-answer judges all)",
@@ -64,6 +60,11 @@ void Tally::count(const Finding& f) {
   if (std::isfinite(f.forward_ulps)) worst_forward = std::max(worst_forward, f.forward_ulps);
 }
 
+std::string Tally::given_up() const {
+  const std::uint64_t answered = cases - of(Verdict::broke) - of(Verdict::not_asked);
+  return given_up_text(subject->name, query->name, {cases, late, of(Verdict::broke), answered, gave_up, lost});
+}
+
 std::string Tally::breakage_of(const Finding& f) const {
   std::string kind = kind_of_breakage(f.clause, f.cause);
   return breakages.contains(kind) || breakages.size() < most_kinds ? kind : other_kind;
@@ -81,6 +82,7 @@ void Tally::add(const Tally& other) {
   wrong += other.wrong;
   late += other.late;
   gave_up += other.gave_up;
+  if (lost.empty()) lost = other.lost;
   not_judged += other.not_judged;
   decided_by_interval += other.decided_by_interval;
   decided_by_exact += other.decided_by_exact;
@@ -97,20 +99,22 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
     if (unproved + violations == 0) continue;
     disagreements[std::string(name_of(Disagreement(d)))] = {{"not_proved", unproved}, {"violations", violations}};
   }
-  return {{"query", t.query->name},
-          {"subject", t.subject->name},
-          {"cases", t.cases},
-          {"verdicts", verdicts},
-          {"disagreements", disagreements},
-          {"wrong", t.wrong},
-          {"breakages", t.breakages},
-          {"late", t.late},
-          {"gave_up", t.gave_up},
-          {"not_judged", t.not_judged},
-          {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)},
-          {"worst_forward_ulps", t.worst_forward},
-          {"decided_by", {{"interval", t.decided_by_interval}, {"exact", t.decided_by_exact}}},
-          {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
+  Json j{{"query", t.query->name},
+         {"subject", t.subject->name},
+         {"cases", t.cases},
+         {"verdicts", verdicts},
+         {"disagreements", disagreements},
+         {"wrong", t.wrong},
+         {"breakages", t.breakages},
+         {"late", t.late},
+         {"gave_up", t.gave_up},
+         {"not_judged", t.not_judged},
+         {"worst_backward_above_epsilon", t.worst_backward < 0 ? Json(nullptr) : Json(t.worst_backward)},
+         {"worst_forward_ulps", t.worst_forward},
+         {"decided_by", {{"interval", t.decided_by_interval}, {"exact", t.decided_by_exact}}},
+         {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
+  if (t.gave_up > 0) j["given_up"] = t.given_up();
+  return j;
 }
 
 namespace {

@@ -15,9 +15,6 @@
 
 namespace nearmiss {
 
-/// "X was late 8 times of QUERY, and was not asked 142 more cases".
-std::string given_up_text(std::string_view subject, std::string_view query, std::uint64_t late, std::uint64_t cases);
-
 /// "X is often wrong of QUERY: only a sample was judged, and 142 answers were not (--every-answer judges all)".
 std::string not_judged_text(std::string_view subject, std::string_view query, std::uint64_t answers);
 
@@ -38,7 +35,8 @@ struct Tally {
   static constexpr const char* other_kind = "any other reason";
   std::uint64_t wrong = 0;       ///< answers with a violation other than a wrong decision
   std::uint64_t late = 0;        ///< breakages at a time limit
-  std::uint64_t gave_up = 0;     ///< cases that were not asked because too many were late; not among `cases`
+  std::uint64_t gave_up = 0;     ///< cases that were not asked because it was given up; not among `cases`
+  std::string lost{};            ///< why its host could not be started again
   std::uint64_t not_judged = 0;  ///< answers that were not judged because too many were wrong; not among `cases`
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
   std::uint64_t truth_yes = 0;  ///< decided cases whose exact answer is yes
@@ -50,6 +48,8 @@ struct Tally {
   std::string breakage_of(const Finding& f) const;
   /// Adds the counts of another query or subject.
   void add(const Tally& other);
+  /// Why it was not asked `gave_up` cases, as given_up_text().
+  std::string given_up() const;
   std::uint64_t of(Verdict v) const { return verdicts[std::size_t(v)]; }
   std::uint64_t violations_by(Disagreement d) const { return violations[std::size_t(d)]; }
   std::uint64_t bad() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "impl/host/reasons.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -92,7 +93,12 @@ BreakCause cause_in_report(std::string_view reason, bool late) {
 
 std::string kind_of_breakage(std::string_view reason, BreakCause cause) {
   if (reason.empty()) return "no reason given";
-  if (cause == BreakCause::time_limit) return "no answer in time";
+  if (cause == BreakCause::time_limit)
+    return reason.ends_with(not_again_suffix) ? "late in a batch, not again alone" : "no answer in time";
+  if (reason.ends_with(not_again_suffix)) {
+    reason.remove_suffix(not_again_suffix.size());
+    return "in a batch, not again alone: " + kind_of_breakage(reason, cause);
+  }
   // The number of a signal and an exit code are part of the kind: only the text behind them loses its numbers.
   const std::string_view head = cause == BreakCause::other ? "" : reason.substr(0, reason.find(": "));
   const std::string place = place_in(reason);

@@ -1,7 +1,10 @@
 #include "reports/findings/workers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "impl/host/hosts.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -42,14 +45,30 @@ void Workers::send(const Subject& subject, std::span<const Case> cases, Rounding
   if (!flat_.empty()) asked.worker->send(offering, flat_, cases.front().values.size(), rounding);
 }
 
-std::span<const Answer> Workers::receive(const Subject& subject) {
-  Asked& asked = of(subject);
-  if (asked.all) return asked.worker->receive();
+std::span<const Answer> Workers::receive(const Subject& subject, std::size_t most_broken) {
+  try {
+    return received(of(subject), most_broken);
+  } catch (const HostFailed& e) {
+    throw BadSubject(fmt::format("{}: {}", subject.command.empty() ? subject.plugin : subject.command, e.what()));
+  }
+}
+
+std::span<const Answer> Workers::received(Asked& asked, std::size_t most_broken) {
+  if (asked.all) return asked.worker->receive(most_broken);
   if (asked.inside.empty()) return asked.answers;
-  const std::span<const Answer> given = asked.worker->receive();
+  const std::span<const Answer> given = asked.worker->receive(most_broken);
   for (std::size_t i = 0; i < given.size(); ++i) asked.answers[asked.inside[i]] = given[i];
   if (given.size() < asked.inside.size()) return {asked.answers.data(), asked.inside[given.size()]};
   return asked.answers;
+}
+
+bool Workers::was_sent(const Subject& subject, std::size_t case_of_batch) const {
+  return sent_at(workers_.at(&subject), case_of_batch).has_value();
+}
+
+std::string Workers::lost(const Subject& subject) const {
+  const auto found = workers_.find(&subject);
+  return found == workers_.end() ? "" : found->second.worker->lost();
 }
 
 std::optional<std::size_t> Workers::sent_at(const Asked& asked, std::size_t case_of_batch) const {

@@ -12,7 +12,8 @@
 
 namespace nearmiss {
 
-/// Not thread-safe. Throws std::system_error where a process cannot be started.
+/// Not thread-safe. Throws std::system_error where a process cannot be started, and BadSubject where the second
+/// hello of a program differs from its first.
 class Workers {
  public:
   /// `on_wait` is called while a host is awaited; false stops the waiting.
@@ -24,7 +25,12 @@ class Workers {
   /// Sends at most `capacity_for` cases. Several subjects may get cases before the first receive(); received answers
   /// stay valid until the next send() to the subject.
   void send(const Subject& subject, std::span<const Case> cases, Rounding rounding = Rounding::its_own);
-  std::span<const Answer> receive(const Subject& subject);
+  /// Stops where the first `most_broken` sent cases all broke (Worker::receive).
+  std::span<const Answer> receive(const Subject& subject, std::size_t most_broken = Worker::capacity);
+  /// True where this case of the last batch meets the subject's preconditions, so that it was sent.
+  bool was_sent(const Subject& subject, std::size_t case_of_batch) const;
+  /// Why the subject's host cannot be started any more (Worker::lost); empty where it can.
+  std::string lost(const Subject& subject) const;
   /// The output of the subject's host when this case of the last batch broke (Worker::output).
   std::string_view output(const Subject& subject, std::size_t case_of_batch) const;
 
@@ -53,6 +59,7 @@ class Workers {
     std::vector<Answer> answers;      ///< and the answers to the whole batch
   };
   Asked& of(const Subject& subject);
+  std::span<const Answer> received(Asked& asked, std::size_t most_broken);
   /// The position of this case among the cases that were sent; empty where it was not sent.
   std::optional<std::size_t> sent_at(const Asked& asked, std::size_t case_of_batch) const;
 

@@ -1,5 +1,8 @@
-/* The misdeeds of a subject, by name: the environment variable NEARMISS_ZOO selects one. Shared by the plugin and the
- * program. */
+/* The misdeeds of a subject, by name. The environment variable NEARMISS_ZOO selects one, or, where many are run at
+ * once, the name of the plugin's file or the program's argument (choose()). Shared by the plugin and the program.
+ *
+ * Words before a name say when it is done: "ask-" in every 40th case of a process, "seldom-" in every 190th, "once-" in
+ * the 40th case of the first process alone. */
 #ifndef NEARMISS_TESTS_MISDEEDS_H
 #define NEARMISS_TESTS_MISDEEDS_H
 
@@ -25,9 +28,17 @@
 #include <unistd.h>
 
 #include "reports/tests/zoo/attacks.h"
+static char chosen_name[64], subject_name[80] = "zoo";
+
+/* Selects a misdeed; the subject is then named after it. */
+static void choose(const char* misdeed) {
+  snprintf(chosen_name, sizeof chosen_name, "%s", misdeed);
+  snprintf(subject_name, sizeof subject_name, "zoo-%s", chosen_name);
+}
+static const char* the_chosen(void) { return chosen_name[0] != '\0' ? chosen_name : getenv("NEARMISS_ZOO"); }
 
 static int is_chosen(const char* what) {
-  const char* chosen = getenv("NEARMISS_ZOO");
+  const char* chosen = the_chosen();
   return chosen != NULL && strcmp(chosen, what) == 0;
 }
 
@@ -39,10 +50,12 @@ static void sleep_for_ever(void) {
   for (;;) pause();
 }
 
-/* Marks that this was done before, in the file that NEARMISS_ZOO_MARK names. */
+/* Marks that this was done before, in the file that NEARMISS_ZOO_MARK names, or in one for each subject. */
 static int is_first_time(void) {
   const char* mark = getenv("NEARMISS_ZOO_MARK");
-  const int file = mark == NULL ? -1 : open(mark, O_WRONLY | O_CREAT | O_EXCL, 0600);
+  char name[512];
+  snprintf(name, sizeof name, "%s%s", mark == NULL ? "" : mark, chosen_name);
+  const int file = mark == NULL ? -1 : open(name, O_WRONLY | O_CREAT | O_EXCL, 0600);
   if (file >= 0) close(file);
   return file >= 0;
 }
@@ -99,6 +112,32 @@ static void scribble_over_shared_memory(unsigned char with) {
   if (maps != NULL) fclose(maps);
 }
 
+/* The first shared mapping that can be written. */
+static void* shared_memory(size_t* size) {
+  FILE* maps = fopen("/proc/self/maps", "r");
+  char line[512];
+  void* found = NULL;
+  while (maps != NULL && found == NULL && fgets(line, sizeof line, maps) != NULL) {
+    unsigned long begin, end;
+    char rights[5];
+    if (sscanf(line, "%lx-%lx %4s", &begin, &end, rights) != 3 || strncmp(rights, "rw-s", 4) != 0) continue;
+    found = (void*)begin;
+    *size = end - begin;
+  }
+  if (maps != NULL) fclose(maps);
+  return found;
+}
+
+static unsigned long backtracks(unsigned depth) {
+  return depth == 0 ? 1 : backtracks(depth - 1) + backtracks(depth - 1);
+}
+
+static void* sleep_in_a_thread(void* unused) {
+  (void)unused;
+  sleep_for_ever();
+  return NULL;
+}
+
 static void* answer_for_ever(void* unused) {
   (void)unused;
   for (;;) scribble_over_shared_memory(0xff);
@@ -138,10 +177,27 @@ static void assault(void) {
   fputs("did its worst\n", stderr);
 }
 
+/* What a subject does to the memory that it shares with the judge; a program has none. */
+static void spoil_shared_memory(const char* name) {
+  size_t size = 0;
+  unsigned char* shared = (unsigned char*)shared_memory(&size);
+  if (shared == NULL) return;
+#define IF(what) if (strcmp(name, what) == 0)
+  IF("counts-more") * (volatile uint32_t*)shared += 1;
+  IF("counts-from-the-start") * (volatile uint32_t*)shared = 0;
+  IF("scribbles-behind-the-count") memset(shared + 8, 0x5a, size - 8);
+  IF("clears-behind-the-count") memset(shared + 8, 0, size - 8);
+  IF("copies-answers") memmove(shared + 8 + 240, shared + 8, 2048);
+  IF("unmaps-answers") munmap(shared, size);
+  IF("protects-answers") mprotect(shared, size, PROT_READ);
+  IF("replaces-answers") mmap(shared, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0);
+#undef IF
+}
+
 /* Returns where the misdeed lets it. The same names as of a load begin with "load-". */
 static void do_misdeed(const char* when) {
   char name[64];
-  const char* chosen = getenv("NEARMISS_ZOO");
+  const char* chosen = the_chosen();
   if (chosen == NULL || strncmp(chosen, when, strlen(when)) != 0) return;
   snprintf(name, sizeof name, "%s", chosen + strlen(when));
 #define IF(what) if (strcmp(name, what) == 0)
@@ -317,7 +373,85 @@ static void do_misdeed(const char* when) {
     pthread_create(&thread, NULL, (void* (*)(void*))(uintptr_t)16, NULL);
     usleep(200000);
   }
+  IF("closes-its-pipe-and-lives-on") close(4);
+  IF("child-holds-the-pipe") {
+    if (fork() == 0) sleep_for_ever();
+    abort();
+  }
+  IF("child-lives-on") {
+    if (fork() == 0) sleep_for_ever();
+  }
+  IF("exits-in-a-child") {
+    const pid_t child = fork();
+    if (child == 0) exit(0); /* writes what is in the buffers of its parent */
+    waitpid(child, NULL, 0);
+  }
+  IF("speaks-on-stdout") {
+    puts("{\"case\": 0, \"yes\": true}");
+    fflush(stdout);
+  }
+  IF("frees-twice") {
+    char* volatile twice = malloc(100);
+    free(twice);
+    free(twice);
+  }
+  IF("leaks") {
+    if (malloc((size_t)512 << 20) == NULL) abort();
+  }
+  IF("profiles-itself") {
+    const struct itimerval soon = {{0, 1000}, {0, 1000}};
+    setitimer(ITIMER_PROF, &soon, NULL);
+    spin();
+  }
+  IF("divides-by-zero") {
+    volatile int zero = 0;
+    zero = 1 / zero;
+  }
+  IF("runs-data") {
+    static const unsigned char data[16] = {0xc3};
+    ((void (*)(void))(uintptr_t)data)();
+  }
+  IF("breaks-a-pipe") {
+    int ends[2];
+    if (pipe(ends) == 0 && close(ends[0]) == 0 && write(ends[1], "x", 1) != 1) abort();
+  }
+  IF("lowers-its-priority") setpriority(PRIO_PROCESS, 0, 19);
+  IF("many-threads") {
+    for (int i = 0; i < 20; ++i) {
+      pthread_t thread;
+      pthread_create(&thread, NULL, sleep_in_a_thread, NULL);
+    }
+  }
+  IF("opens-every-file") {
+    while (open("/dev/null", O_RDONLY) >= 0) {
+    }
+  }
+  IF("points-the-pipe-elsewhere") dup2(open("/dev/null", O_WRONLY), 4);
+  IF("waits-for-a-request") {
+    char byte;
+    while (read(3, &byte, 1) == 1) {
+    }
+  }
+  IF("backtracks") {
+    if (backtracks(60) == 0) abort();
+  }
+  IF("says-done-twice") {
+    if (write(4, "dd", 2) != 2) abort();
+  }
+  IF("noise-once") {
+    if (write(4, "noise\n", 6) != 6) abort();
+  }
+  spoil_shared_memory(name);
 #undef IF
+}
+
+/* Called for each case, by its number in this process, from 1. */
+static void do_misdeed_of_case(unsigned number) {
+  if (number % 40 == 0) do_misdeed("ask-");
+  if (number % 190 == 0) do_misdeed("seldom-");
+  if (number == 40 && the_chosen() != NULL && strncmp(the_chosen(), "once-", 5) == 0 && is_first_time())
+    do_misdeed("once-");
+  do_misdeed("always-");
 }
 
 #endif

@@ -1,11 +1,22 @@
 /* A plugin with every fault, one at a time: NEARMISS_ZOO selects it (misdeeds.h). */
 #include "reports/tests/zoo/misdeeds.h"
 
+#include <dlfcn.h>
 #include <math.h>
 
 #include "impl/plugin/nearmiss_plugin.h"
 
+/* The misdeed in the name of this library's file, "zoo-ask-abort.so"; none in "libzoo.so". */
+static void choose_by_file(void) {
+  Dl_info here;
+  if (dladdr((void*)(uintptr_t)choose_by_file, &here) == 0) return;
+  const char* slash = strrchr(here.dli_fname, '/');
+  char name[64];
+  if (sscanf(slash == NULL ? here.dli_fname : slash + 1, "zoo-%63[a-z0-9-].so", name) == 1) choose(name);
+}
+
 __attribute__((constructor)) static void load(void) {
+  choose_by_file();
   do_misdeed("load-");
   if (is_chosen("load-rounds-upward")) fesetround(FE_UPWARD);
 }
@@ -15,9 +26,8 @@ static int ball_ball(const double* q, nearmiss_answer* answer) {
   static unsigned asked;
   const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
   answer->yes = x * x + y * y + z * z <= reach * reach;
-  if (is_chosen("always-sleeps")) sleep_for_ever();
-  if (++asked % 40 != 0) return NEARMISS_ANSWERED;
-  do_misdeed("ask-");
+  do_misdeed_of_case(++asked);
+  if (asked % 40 != 0) return NEARMISS_ANSWERED;
   if (is_chosen("answer-status")) return 7;
   if (is_chosen("answer-yes")) answer->yes = 99;
   if (is_chosen("answer-reason-without-end")) {
@@ -46,6 +56,7 @@ static const char* text_without_end(void) {
 
 const nearmiss_plugin* nearmiss_plugin_entry(void) {
   do_misdeed("entry-");
+  plugin.name = subject_name;
   if (is_chosen("told-nothing")) return NULL;
   if (is_chosen("told-wild")) return (const nearmiss_plugin*)(uintptr_t)0xdeadbeef00;
   if (is_chosen("told-version")) plugin.version = 99;

@@ -2,8 +2,11 @@
 #include "reports/tests/zoo/misdeeds.h"
 
 static const char usual_hello[] =
-    "{\"nearmiss\": 1, \"name\": \"zoo\", \"version\": \"1\", \"scalar\": \"double\", \"batches\": \"json\", "
+    "{\"nearmiss\": 1, \"name\": \"%s\", \"version\": \"%s\", \"scalar\": \"double\", \"batches\": \"json\", "
     "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}, {\"query\": \"moving_point_triangle\"}]}\n";
+static const char reordered_hello[] =
+    "{\"offers\": [{\"query\": \"sphere_sphere_overlap\"}, {\"query\": \"moving_point_triangle\"}], \"nearmiss\": 1, "
+    "\"batches\": \"json\", \"scalar\": \"double\", \"version\": \"1\", \"name\": \"%s\"}\n";
 
 /* Lines that replace the usual hello, by name. */
 static const struct {
@@ -22,6 +25,20 @@ static const struct {
     {"hello-name", "{\"nearmiss\": 1, \"name\": \"../zoo\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
     {"hello-scalar", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"half\", \"batches\": \"json\"}\n"},
     {"hello-shared", "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"shared\"}\n"},
+    {"hello-name-dash", "{\"nearmiss\": 1, \"name\": \"-\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
+    {"hello-name-option", "{\"nearmiss\": 1, \"name\": \"--help\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
+    {"hello-name-word", "{\"nearmiss\": 1, \"name\": \"added\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
+    {"hello-name-twice",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"name\": \"zoo2\", \"scalar\": \"double\", \"batches\": \"json\"}\n"},
+    {"hello-offer-twice",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+     "\"offers\": [{\"query\": \"sphere_sphere_overlap\", \"query\": \"moving_point_triangle\"}]}\n"},
+    {"hello-gives",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+     "\"offers\": [{\"query\": \"moving_point_triangle\", \"gives\": [\"time\", \"nomral\"]}]}\n"},
+    {"hello-gives-number",
+     "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", "
+     "\"offers\": [{\"query\": \"moving_point_triangle\", \"gives\": [3]}]}\n"},
     {"hello-offers",
      "{\"nearmiss\": 1, \"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", \"offers\": 3}\n"},
     {"hello-inputs",
@@ -51,6 +68,17 @@ static const struct {
     {"reply-without-case", "{\"yes\": true}\n"},
     {"reply-other-case", "{\"case\": 7, \"yes\": true}\n"},
     {"reply-none", ""},
+    {"reply-key-twice", "{\"case\": %u, \"yes\": true, \"yes\": false}\n"},
+    {"reply-case-twice", "{\"case\": 7, \"case\": %u, \"yes\": true}\n"},
+    {"reply-key-in-escapes-twice", "{\"case\": %u, \"yes\": true, \"y\\u0065s\": false}\n"},
+    {"reply-case-negative", "{\"case\": -1, \"yes\": true}\n"},
+    {"reply-case-fraction", "{\"case\": %u.5, \"yes\": true}\n"},
+    {"reply-case-text", "{\"case\": \"%u\", \"yes\": true}\n"},
+    {"reply-case-huge", "{\"case\": 99999999999999999999999, \"yes\": true}\n"},
+    {"reply-mark", "\xef\xbb\xbf{\"case\": %u, \"yes\": true}x\n"},
+    {"reply-two-on-a-line", "{\"case\": %u, \"yes\": true}{\"case\": %u, \"yes\": true}\n"},
+    {"reply-two-of-one-line", "{\"case\": %u,\n\"yes\": true}\n"},
+    {"reply-beside-noise", "a line of a log\n{\"case\": %u, \"yes\": true}\n"},
     {"reply-twice", "{\"case\": %u, \"yes\": true}\n{\"case\": %u, \"yes\": true}\n"},
 };
 
@@ -93,18 +121,79 @@ static void say_hello(FILE* judge) {
     write_all_to(4, 4096);
     sleep_for_ever();
   }
-  say(judge, usual_hello);
+  if (is_chosen("hello-drips-without-end")) {
+    for (;; usleep(1000)) say(judge, " ");
+  }
+  char hello[1024];
+  const int is_second = (is_chosen("hello-otherwise") || is_chosen("hello-reordered")) && !is_first_time();
+  if (is_chosen("hello-reordered") && is_second) {
+    snprintf(hello, sizeof hello, reordered_hello, subject_name);
+  } else {
+    snprintf(hello, sizeof hello, usual_hello, subject_name, is_second ? "2" : "1");
+  }
+  if (is_chosen("hello-drips")) {
+    for (const char* c = hello; *c != '\0'; ++c) {
+      fputc(*c, judge);
+      fflush(judge);
+    }
+    return;
+  }
+  say(judge, hello);
+  if (is_chosen("hello-and-noise")) say(judge, "and more\n");
+  if (is_chosen("hello-and-answer")) say(judge, "{\"case\": 0, \"yes\": true}\n");
+  if (is_chosen("hello-twice")) say(judge, hello);
 }
 
-int main(void) {
+/* Writes a reply in a broken or unusual way. Returns 0 where none is chosen. */
+static int reply_otherwise(FILE* judge, const char* reply, unsigned number) {
+  char text[256];
+  const int length = snprintf(text, sizeof text, reply, number, number);
+  if (is_chosen("reply-cut")) {
+    fwrite(text, 1, (size_t)length / 2, judge);
+    exit(0);
+  }
+  if (is_chosen("reply-cut-and-killed")) {
+    fwrite(text, 1, (size_t)length / 2, judge);
+    fflush(judge);
+    raise(SIGKILL);
+  }
+  if (is_chosen("reply-in-pieces")) {
+    for (int i = 0; i < length; ++i) {
+      fputc(text[i], judge);
+      fflush(judge);
+    }
+    return 1;
+  }
+  if (is_chosen("reply-with-returns")) {
+    fprintf(judge, "\t%.*s \r\n", length - 1, text);
+    return 1;
+  }
+  if (is_chosen("reply-of-next")) {
+    fprintf(judge, reply, number + 1, number + 1);
+    fputs(text, judge);
+    return 1;
+  }
+  if (is_chosen("reply-and-next")) {
+    fputs(text, judge);
+    fprintf(judge, reply, number + 1, number + 1);
+    return 1;
+  }
+  if (is_chosen("reply-thousand-times")) {
+    for (int i = 0; i < 1000; ++i) fputs(text, judge);
+    return 1;
+  }
+  return 0;
+}
+
+int main(int argc, char** argv) {
   FILE *cases = fdopen(3, "r"), *judge = fdopen(4, "w");
   static char line[1 << 22];
   unsigned asked = 0;
+  if (argc > 1) choose(argv[1]);
   do_misdeed("load-");
   if (cases == NULL || judge == NULL) return 2;
   say_hello(judge);
   while (fgets(line, sizeof line, cases) != NULL) {
-    if (is_chosen("always-sleeps")) sleep_for_ever();
     for (const char* at = strchr(strchr(line, '[') + 1, '['); at != NULL; at = strchr(at + 1, '[')) {
       double q[8];
       char* end = (char*)at + 1;
@@ -113,8 +202,8 @@ int main(void) {
       const char* reply = x * x + y * y + z * z <= reach * reach ? "{\"case\": %u, \"yes\": true}\n"
                                                                  : "{\"case\": %u, \"yes\": false}\n";
       const unsigned number = asked;
-      if (++asked % 40 == 0) {
-        do_misdeed("ask-");
+      do_misdeed_of_case(++asked);
+      if (asked % 40 == 0) {
         for (size_t i = 0; i < sizeof replies / sizeof *replies; ++i) {
           if (is_chosen(replies[i].name)) reply = replies[i].text;
         }
@@ -131,10 +220,14 @@ int main(void) {
           fflush(judge);
           sleep_for_ever();
         }
+        if (reply_otherwise(judge, reply, number)) continue;
       }
       fprintf(judge, reply, number, number);
+      if (is_chosen("seldom-sleeps")) fflush(judge);
     }
     if (!is_chosen("reply-unflushed")) fflush(judge);
+    if (is_chosen("reply-and-exit")) return 0;
+    if (is_chosen("reply-and-noise")) say(judge, "and more\n");
   }
   return 0;
 }
