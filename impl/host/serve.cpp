@@ -80,8 +80,13 @@ class PublishedAnswers {
     first_ = asked.first, batch_ = asked.batch, numbers_at_ = asked.numbers_at;
     heads_.clear(), numbers_.clear(), reasons_.clear();
   }
-  /// True where something other than add() has counted answers. Asked after each call, it tells which one did it.
-  bool is_count_overwritten() const { return shared_.done.load(std::memory_order_relaxed) != first_ + heads_.size(); }
+  /// True where the count of the answers, or the last one, is not as add() has written it. Asked after each call, it
+  /// tells which one did it.
+  bool is_end_overwritten() const {
+    if (shared_.done.load(std::memory_order_relaxed) != first_ + heads_.size()) return true;
+    return !heads_.empty() &&
+           std::memcmp(&heads_.back(), &shared_.heads[first_ + heads_.size() - 1], sizeof heads_.back()) != 0;
+  }
   /// True where an answer is not as add() has written it.
   bool is_overwritten() const {
     const auto differ = [](const auto& kept, const auto* shared) {
@@ -120,7 +125,7 @@ void answer_batch(const AnswerFunction& answer, const wire::SharedRequest& asked
     std::uint8_t raised = 0;
     Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
                                                    : answer_in(asked.rounding, answer, values, raised);
-    if (answered.is_count_overwritten()) {
+    if (answered.is_end_overwritten()) {
       answered.restore();
       a = Answer::without(Answer::Status::broke, "wrote over the memory that holds its answers");
     }

@@ -275,6 +275,9 @@ void Worker::start() {
   try {
     if (const auto other = wire::difference_between(program_->hello, first_line()))
       throw HostFailed("its hello differs from that of its first start: " + *other, HostFailed::another_hello);
+    pollfd more{child_->from_host, POLLIN, 0};
+    if (poll(&more, 1, 0) > 0) child_->read_some();
+    if (!child_->unread().empty()) throw HostFailed("it says more than its hello before it is asked");
     refused_since_.reset();
     failed_starts_ = 0;
     lost_.clear();

@@ -22,6 +22,7 @@ constexpr const char* patience = "0.04";  // seconds of processor time, and five
 /// The expected result of a misdeed.
 enum class End {
   refused,   ///< exit code 2 and one line, before the first case
+  differs,   ///< the same, at the second start
   broke,     ///< cases that broke, with the reason
   given_up,  ///< cases that broke, until the subject is given up
   either,    ///< one or the other: by the time it is looked at, all may be answered, and what is done after that is no
@@ -76,9 +77,9 @@ void expect_to_cost_only_itself(const Misdeed& m, bool plugin) {
     EXPECT_EQ(text->find('\033'), std::string::npos) << *text;
     EXPECT_EQ(text->find("\xe2\x80\xae"), std::string::npos) << *text;
   }
-  if (m.end == End::refused) {
+  if (m.end == End::refused || m.end == End::differs) {
     EXPECT_EQ(ran.exit_code, 2) << ran.out << ran.err;
-    EXPECT_EQ(ran.out, "");
+    EXPECT_TRUE(ran.out.empty() || m.end == End::differs) << ran.out;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
     EXPECT_TRUE(ran.err.starts_with("nearmiss: " + zoo(plugin)[1] + ": ")) << ran.err;
     EXPECT_NE(ran.err.find(m.says), std::string::npos) << ran.err;
@@ -244,7 +245,7 @@ const Misdeed of_plugins[] = {
     {"told-needs", End::refused, "no such bit"},
     {"told-contract", End::refused, "neither a number nor null"},
     {"told-wild-contract", End::refused, "killed by signal 11"},
-    {"told-otherwise", End::refused, "its hello differs from that of its first start: version was \"1\" and is \"2\""},
+    {"told-otherwise", End::differs, "its hello differs from that of its first start: version was \"1\" and is \"2\""},
     {"told-crash-later", End::given_up, "killed by signal 6"},
     {"told-hang-later", End::given_up, no_hello},
     {"answer-status", End::broke, "returned 7"},
@@ -290,11 +291,11 @@ const Misdeed of_programs[] = {
     {"hello-gives", End::refused, "it gives 'nomral' for moving_point_triangle, whose outputs are: time, location.x"},
     {"hello-gives-number", End::refused, "it gives '3'"},
     {"hello-drips-without-end", End::refused, no_hello},
-    {"hello-otherwise", End::refused, "its hello differs from that of its first start: version was \"1\" and is \"2\""},
-    {"hello-and-noise", End::given_up, "no JSON"},
-    {"hello-and-answer", End::given_up, ""},
-    {"hello-twice", End::given_up, "without \"case\""},
-    {"always-exit-3", End::given_up, "left with exit code 3"},
+    {"hello-otherwise", End::differs, "its hello differs from that of its first start: version was \"1\" and is \"2\""},
+    {"hello-and-noise", End::given_up, "more than its hello"},
+    {"hello-and-answer", End::given_up, "more than its hello"},
+    {"hello-twice", End::given_up, "more than its hello"},
+    {"always-exit-1", End::given_up, "left with exit code 1"},
     {"reply-nothing", End::broke, "no JSON"},
     {"reply-noise", End::broke, "no JSON"},
     {"reply-list", End::broke, "no object"},
@@ -308,6 +309,7 @@ const Misdeed of_programs[] = {
     {"reply-other-case", End::broke, "an answer to case 7"},
     {"reply-none", End::broke, ""},
     {"reply-twice", End::broke, ""},
+    {"reply-and-next", End::broke, ""},
     {"reply-long", End::broke, "a line without end"},
     {"reply-drips", End::broke, late},
     {"reply-without-end", End::broke, late},
@@ -344,9 +346,12 @@ void expect_each_to_cost_only_itself(const std::vector<OfCrowd>& crowd, bool plu
   add("well-behaved");
   for (const char* more : {"-q", "sphere_sphere_overlap", "--seed", "11", "--cases"}) arguments.emplace_back(more);
   arguments.insert(arguments.end(), {std::to_string(crowd_cases), "--out", (folder / "r").string()});
-  const Ran ran = nearmiss(arguments, {mark, "NEARMISS_ZOO_MARK=" + (folder / "mark").string()});
+  const fs::path marks = folder / "marks";  // a subject may have a user of its own
+  fs::create_directory(marks);
+  fs::permissions(marks, fs::perms::all);
+  const Ran ran = nearmiss(arguments, {mark, "NEARMISS_ZOO_MARK=" + (marks / "mark").string()});
   EXPECT_TRUE(nothing_is_left(mark)) << "something that they started lives";
-  ASSERT_EQ(ran.exit_code, 1) << ran.out << ran.err;
+  ASSERT_LE(ran.exit_code, 1) << ran.out << ran.err;
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   EXPECT_EQ(complaints(index, "run.schema.json"), "");
   const json usual = tally_of(index, "zoo-well-behaved");
@@ -362,27 +367,37 @@ void expect_each_to_cost_only_itself(const std::vector<OfCrowd>& crowd, bool plu
       EXPECT_NE(reason.find(m.says), std::string::npos) << m.name << " says " << reason;
     }
     for (const auto& [verdict, count] : usual.at("verdicts").items()) {
-      if (verdict != "broke") EXPECT_LE(own.at("verdicts").at(verdict), count) << m.name << ", " << verdict;
+      if (verdict == "broke") continue;
+      EXPECT_LE(own.at("verdicts").at(verdict), count) << m.name << ", " << verdict;
     }
     EXPECT_EQ(own.at("verdicts").at("cannot answer"), 0) << m.name;
   }
 }
 
+/// Runs them in crowds of ten, for each worker holds some files open.
+void expect_all_to_cost_only_themselves(const std::vector<OfCrowd>& all, bool plugins) {
+  constexpr std::size_t at_once = 10;
+  for (std::size_t at = 0; at < all.size(); at += at_once) {
+    const auto begin = all.begin() + std::ptrdiff_t(at);
+    expect_each_to_cost_only_itself({begin, begin + std::ptrdiff_t(std::min(at_once, all.size() - at))}, plugins);
+  }
+}
+
 TEST(Zoo, CrowdOfPlugins) {
-  expect_each_to_cost_only_itself(
+  expect_all_to_cost_only_themselves(
       {
           {"ask-abort", 10, 10, "killed by signal 6"},
           {"ask-scribbles", 10, 10, "wrote over the memory"},
           {"ask-scribbles-zeros", 10, 10, "wrote over the memory"},
           {"ask-counts-more", 10, 10, "wrote over the memory"},
           {"ask-counts-from-the-start", 10, 10, "wrote over the memory"},
-          {"ask-scribbles-behind-the-count", 1, 10, "what is no answer"},
-          {"ask-clears-behind-the-count", 1, 10, "what is no answer"},
-          {"ask-copies-answers", 0, 10, "what is no answer"},
+          {"ask-scribbles-behind-the-count", 10, 10, "wrote over the memory"},
+          {"ask-clears-behind-the-count", 10, 10, "wrote over the memory"},
+          {"ask-copies-answers", 0, 16, "wrote over the memory"},
           {"ask-unmaps-answers", 10, 10, "killed by signal 11"},
           {"ask-protects-answers", 10, 10, "killed by signal 11"},
-          {"ask-replaces-answers", 1, 10, "says that all is done"},
-          {"ask-closes-its-pipe-and-lives-on", 1, 10, ""},
+          {"ask-replaces-answers", 8, 16, "says that all is done"},
+          {"ask-closes-its-pipe-and-lives-on", 8, 16, ""},
           {"ask-child-holds-the-pipe", 10, 10, "killed by signal 6"},
           {"ask-child-lives-on", 0, 0, ""},
           {"ask-exits-in-a-child", 0, 0, ""},
@@ -410,7 +425,7 @@ TEST(Zoo, CrowdOfPlugins) {
 }
 
 TEST(Zoo, CrowdOfPrograms) {
-  expect_each_to_cost_only_itself(
+  expect_all_to_cost_only_themselves(
       {
           {"ask-abort", 8, 16, "killed by signal 6"},
           {"ask-closes-its-pipe-and-lives-on", 2, 16, ""},
@@ -448,10 +463,9 @@ TEST(Zoo, CrowdOfPrograms) {
           {"reply-in-pieces", 0, 0, ""},
           {"reply-with-returns", 0, 0, ""},
           {"reply-of-next", 8, 16, "an answer to case"},
-          {"reply-and-next", 8, 16, ""},
           {"reply-thousand-times", 8, 16, ""},
-          {"reply-and-exit", 5, 400, "left with exit code 0"},
-          {"reply-and-noise", 5, 400, ""},
+          {"reply-and-exit", 6, 16, "left with exit code 0"},
+          {"reply-and-noise", 6, 16, ""},
           {"hello-drips", 0, 0, ""},
           {"hello-reordered", 0, 0, ""},
       },

@@ -404,8 +404,8 @@ static void do_misdeed(const char* when) {
     spin();
   }
   IF("divides-by-zero") {
-    volatile int zero = 0;
-    zero = 1 / zero;
+    volatile int seven = 7, zero = 0;
+    zero = seven / zero;
   }
   IF("runs-data") {
     static const unsigned char data[16] = {0xc3};

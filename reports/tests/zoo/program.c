@@ -138,10 +138,11 @@ static void say_hello(FILE* judge) {
     }
     return;
   }
-  say(judge, hello);
-  if (is_chosen("hello-and-noise")) say(judge, "and more\n");
-  if (is_chosen("hello-and-answer")) say(judge, "{\"case\": 0, \"yes\": true}\n");
-  if (is_chosen("hello-twice")) say(judge, hello);
+  fputs(hello, judge);
+  if (is_chosen("hello-and-noise")) fputs("and more\n", judge);
+  if (is_chosen("hello-and-answer")) fputs("{\"case\": 0, \"yes\": true}\n", judge);
+  if (is_chosen("hello-twice")) fputs(hello, judge);
+  fflush(judge);
 }
 
 /* Writes a reply in a broken or unusual way. Returns 0 where none is chosen. */
@@ -194,6 +195,7 @@ int main(int argc, char** argv) {
   if (cases == NULL || judge == NULL) return 2;
   say_hello(judge);
   while (fgets(line, sizeof line, cases) != NULL) {
+    const unsigned before = asked;
     for (const char* at = strchr(strchr(line, '[') + 1, '['); at != NULL; at = strchr(at + 1, '[')) {
       double q[8];
       char* end = (char*)at + 1;
@@ -226,6 +228,7 @@ int main(int argc, char** argv) {
       if (is_chosen("seldom-sleeps")) fflush(judge);
     }
     if (!is_chosen("reply-unflushed")) fflush(judge);
+    if (asked / 40 == before / 40) continue; /* the 40th case is not in this batch */
     if (is_chosen("reply-and-exit")) return 0;
     if (is_chosen("reply-and-noise")) say(judge, "and more\n");
   }
