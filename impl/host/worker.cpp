@@ -31,7 +31,8 @@ namespace nearmiss {
 
 namespace {
 
-constexpr int poll_interval = 50;  ///< milliseconds
+constexpr int poll_interval = 50;             ///< milliseconds
+constexpr std::size_t most_one_by_one = 512;  ///< cases that are asked again one by one
 constexpr unsigned char poison_byte = 0xa5;
 constexpr const char* overwritten = "wrote over the memory that holds its answers";
 constexpr std::size_t max_output = 4096;
@@ -379,7 +380,9 @@ void Worker::put_request(const Offering& offering, std::span<const double> value
   std::copy(values.begin(), values.end(), asked_->values.begin());
 }
 
-/// The end of the next request, which begins at the next case without an answer.
+/// The end of the next request, which begins at the next case without an answer. Cases that are asked again: the first
+/// alone, then one by one, or about the square root of their number at once where they are many. So the case that
+/// breaks the host is found with two or three starts and few requests.
 std::size_t Worker::end_of_next_request() {
   std::size_t most = is_shared() ? capacity : piped_at_once();
   if (is_searching()) most = searches_one_by_one() ? 1 : again_at_once_;
@@ -692,7 +695,9 @@ void Worker::take_answered() {
     const Took now = took();
     for (Suspicion& s : suspicions_) s.again.processor += now.processor, s.again.wall += now.wall;
   }
-  again_at_once_ *= 2;
+  // After the first case alone: a start of a program costs as much as many requests of one case.
+  const std::size_t suspects = suspicions_.back().end - suspicions_.back().at;
+  again_at_once_ = suspects <= most_one_by_one ? 1 : std::size_t(std::sqrt(double(suspects)));
   if (!is_shared() || asked_->timed || is_poison_intact()) return;
   take(end_as_of_any(overwritten));
 }

@@ -47,10 +47,9 @@ struct HostFailed : std::runtime_error {
 ///
 /// A host breaks in a request of many cases, and only some events tell which case it was: a host that shares memory
 /// counts its answers, and a malformed answer may name its case. After any other event the cases without an answer are
-/// asked again: the first alone, then 2, 4, 8 … at once, so that the case that breaks the host alone is found after a
-/// few starts (one by one after a time limit, which costs its whole time at each try). Where none breaks alone, the
-/// first of them is `broke`, with not_again_suffix: no second try erases what has happened. The exception is a time
-/// limit of a request whose cases, asked again, take at least half of that time together: they are slow, not late.
+/// asked again, in small requests (end_of_next_request), until one breaks the host alone. Where none does, the first of
+/// them is `broke`, with not_again_suffix: no second try erases what has happened. The exception is a time limit of a
+/// request whose cases, asked again, take at least half of that time together: they are slow, not late.
 ///
 /// Throws std::system_error when the operating system refuses a process or memory for some seconds. No answer records
 /// this as a fault of the subject. Throws HostFailed where a host that has not answered yet sends another hello than

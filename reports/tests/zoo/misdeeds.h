@@ -266,12 +266,12 @@ static void do_misdeed(const char* when) {
   }
   IF("kills-its-parent") {
     kill(getppid(), SIGKILL);
-    usleep(200000);
+    usleep(50000);
     abort();
   }
   IF("stops-its-parent") {
     kill(getppid(), SIGSTOP);
-    usleep(200000);
+    usleep(50000);
     abort();
   }
   IF("terminates-its-parent") {
@@ -371,7 +371,7 @@ static void do_misdeed(const char* when) {
   IF("thread-that-crashes") {
     pthread_t thread;
     pthread_create(&thread, NULL, (void* (*)(void*))(uintptr_t)16, NULL);
-    usleep(200000);
+    usleep(50000);
   }
   IF("closes-its-pipe-and-lives-on") close(4);
   IF("child-holds-the-pipe") {
