@@ -1,14 +1,10 @@
 #include "corpus/codec.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -21,9 +17,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-/// In bytes: far above the size of every file that is read. A device may have no end.
-constexpr std::size_t most_of_a_file = std::size_t{256} << 20;
 
 /// Consecutive fields that share the next component of their names.
 struct Child {
@@ -525,52 +518,10 @@ json parse_json(std::string_view text, const std::string& where) {
   return json::parse(text);
 }
 
-std::string read_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw BadInput(fmt::format("{}: cannot be read: it is a folder", file.string()));
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw BadInput(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
-  std::string text, block(std::size_t{1} << 16, '\0');
-  while (in.read(block.data(), std::streamsize(block.size())) || in.gcount() > 0) {
-    text.append(block, 0, std::size_t(in.gcount()));
-    if (text.size() > most_of_a_file) {
-      throw BadInput(fmt::format("{}: cannot be read: it is longer than {} MiB", file.string(), most_of_a_file >> 20));
-    }
-  }
-  if (in.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
-  return text;
-}
-
 Case read_case(const std::filesystem::path& file, Decimals decimals) {
   Case c = case_from_json(parse_json(read_file(file), file.string()), file.string(), decimals);
   if (c.origin.empty()) c.origin = file.filename().string();
   return c;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw IoError(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-}
-
-void write_file(const std::filesystem::path& file, std::string_view text) {
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}.part", ::getpid());
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw IoError(fmt::format("{}: cannot be written: {}", file.string(), why));
-  };
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  if (!out) fail(std::strerror(errno));
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out) fail(std::strerror(errno));
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) fail(error.message());
 }
 
 std::string case_to_cpp(const Case& c) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "corpus/errors.hpp"
+#include "corpus/files.hpp"
 #include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
@@ -56,14 +57,8 @@ nlohmann::ordered_json fields_to_json(std::span<const Field> fields, std::span<c
 /// number that reads as zero are errors. Throws BadInput that names the field.
 nlohmann::json parse_json(std::string_view text, const std::string& where);
 
-/// The whole file. Throws BadInput if it cannot be read.
-std::string read_file(const std::filesystem::path& file);
 /// Reads one case file. Throws BadInput if it is unreadable, not JSON or not a case.
 Case read_case(const std::filesystem::path& file, Decimals decimals = Decimals::exact);
-/// Makes the folder and its missing parents. Throws IoError if it cannot be made.
-void make_folder(const std::filesystem::path& folder);
-/// Writes to a temporary file beside `file`, then renames it. Throws IoError if it cannot be written.
-void write_file(const std::filesystem::path& file, std::string_view text);
 
 /// C++ to paste into a test: the query's inputs by name, exactly, and a call of `Fast`.
 std::string case_to_cpp(const Case& c);

@@ -6,6 +6,8 @@
 
 namespace nearmiss {
 
+/// That of the clone that was built; the folder that the environment variable NEARMISS_SOURCES names, where the clone
+/// was moved or copied.
 std::string source_folder();
 
 }  // namespace nearmiss

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "fuzz/asked.hpp"
 
 namespace nearmiss::fuzz {
@@ -27,16 +28,17 @@ nlohmann::json profile_in(const std::string& file) {
 /// The subject that the profile has answer the query.
 std::string subject_in(const std::string& file, const Query& query) {
   const nlohmann::json profile = profile_in(file);
-  for (const nlohmann::json& q : profile["queries"]) {
-    if (q.at("query").get<std::string>() == query.name) return q.at("subject").get<std::string>();
+  for (const FileValue& q : FileValue(profile, file).at("queries").items()) {
+    if (q.at("query").text() == query.name) return q.at("subject").text();
   }
   throw BadInput(fmt::format("{}: queries: the profile does not have {}", file, query.name));
 }
 
 scenes::Scene scene_in(const std::string& file) {
-  const nlohmann::json scene = profile_in(file)["scene"];
-  if (scene["file"].is_null()) return scenes::load_scene(scene.at("name").get<std::string>());
-  const fs::path own = fs::absolute(file).parent_path() / scene["file"].get<std::string>();
+  const nlohmann::json profile = profile_in(file);
+  const FileValue scene = FileValue(profile, file).at("scene");
+  if (scene.at("file").is_null()) return scenes::load_scene(scene.at("name").text());
+  const fs::path own = fs::absolute(file).parent_path() / scene.at("file").text();
   return scenes::load_scene(own.lexically_normal().string());
 }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "corpus/source_folder.hpp"
+#include "reports/findings/encoded.hpp"
 
 namespace nearmiss {
 namespace {
@@ -69,16 +72,32 @@ bool is_source(const fs::path& p) {
   return p.extension() == ".cpp" || p.extension() == ".hpp" || p.extension() == ".h";
 }
 
-/// Each source and header of a folder, relative to the top of the project, without the overlay of another query.
+/// The names that cmake/sources prints.
+std::vector<std::string> project_files() {
+  const std::string command = shell_quoted((root / "cmake/sources").string()) + " " + shell_quoted(root.string());
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  if (pipe == nullptr) throw std::runtime_error("no shell");
+  std::vector<std::string> files{""};
+  for (int c = 0; (c = std::fgetc(pipe.get())) != EOF;) {
+    if (c == '\0') {
+      files.emplace_back();
+    } else {
+      files.back() += char(c);
+    }
+  }
+  files.pop_back();
+  return files;
+}
+
+/// Each source and header of the project in a folder of the list, without the overlay of another query.
 std::vector<std::string> sources() {
   std::set<std::string> tops;
   for (const Room& r : rooms) tops.insert(std::string(r.folder.substr(0, r.folder.find('/'))));
   std::vector<std::string> files;
-  for (const std::string& top : tops) {
-    for (const auto& f : fs::recursive_directory_iterator(root / top)) {
-      const std::string name = f.path().lexically_relative(root).generic_string();
-      if (is_source(f.path()) && name.find("/overlay/") == std::string::npos) files.push_back(name);
-    }
+  for (const std::string& name : project_files()) {
+    const bool within = tops.contains(name.substr(0, name.find('/')));
+    if (within && is_source(name) && name.find("/overlay/") == std::string::npos && fs::exists(root / name))
+      files.push_back(name);
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -9,6 +9,7 @@
 #include "corpus/scenes/operands.hpp"
 #include "corpus/scenes/recorded_cases.hpp"
 #include "corpus/scenes/scene_file.hpp"
+#include "impl/subject/printable.hpp"
 
 namespace nearmiss::scenes {
 
@@ -71,7 +72,9 @@ class SceneReader {
     const json& j = member(object, path, name);
     if (!j.is_string() || j.get_ref<const std::string&>().empty())
       fail(below(path, name), j, "a text that is not empty");
-    return j.get<std::string>();
+    const std::string text = j.get<std::string>();
+    if (printable(text) != text) fail(below(path, name), j, "a text without control characters");
+    return text;
   }
   const json& list(const json& object, std::string_view name) const {
     const json& j = member(object, "", name);

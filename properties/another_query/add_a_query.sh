@@ -15,8 +15,7 @@ fail() {
   exit 1
 }
 
-tar -C "$source_folder" --exclude=./build --exclude='./build*' --exclude=./.git --exclude=./reports/runs -cf - . |
-  tar -C "$copy" -xf -
+"$source_folder/cmake/sources" "$source_folder" | tar -C "$source_folder" --null --ignore-failed-read --files-from=- -cf - | tar -C "$copy" -xf -
 here=$source_folder/properties/another_query
 
 # The recipe.

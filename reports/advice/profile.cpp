@@ -65,7 +65,7 @@ class ProfileReader {
   Profile read() {
     if (!j_.is_object() || j_.value("schema", Json()) != 1) fail("schema", "it is not a profile of schema 1");
     Profile p;
-    p.scene = scenes::load_scene(scene_name());
+    p.scene = scene();
     p.seed = number(j_, "seed");
     p.cases = number(j_, "cases");
     for (const nlohmann::json& q : list("queries")) p.queries.push_back({query_of(q), text(q, "subject"), ""});
@@ -105,6 +105,13 @@ class ProfileReader {
     const Query* query = find_query(name);
     if (query == nullptr) fail("query", fmt::format("unknown query '{}'", name));
     return query;
+  }
+  scenes::Scene scene() const {
+    try {
+      return scenes::load_scene(scene_name());
+    } catch (const BadInput& e) {
+      fail("scene", e.what());
+    }
   }
   std::string scene_name() const {
     const nlohmann::json& scene = field(j_, "scene");

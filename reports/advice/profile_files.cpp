@@ -6,6 +6,7 @@
 #include <string>
 
 #include "reports/advice/profile.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -40,7 +41,7 @@ std::string includes_of_header(const Profile& p) {
 
 std::string function_of(const Profile& p, const ProfiledQuery& q, const TierOfSubject& t) {
   const std::string comment =
-      wrapped_text(fmt::format("`{}` in {}. {}", t.tier, t.scalar, q.evidence), "/// ", header_width);
+      wrapped_text(in_c_comment(fmt::format("`{}` in {}. {}", t.tier, t.scalar, q.evidence)), "/// ", header_width);
   return fmt::format(R"({0}template <class... Arguments>
 [[nodiscard]] inline auto {1}(const Arguments&... arguments) noexcept(collide::{2}::never_throws) {{
   using Answer = decltype(collide::{1}<collide::{2}>(arguments...));
@@ -57,11 +58,11 @@ std::string absence_of(const Query& query, const std::string& why) {
   return fmt::format(R"(template <class... Arguments>
 void {0}(const Arguments&...) {{
   static_assert(detail::is_offered<Arguments...>,
-                "{0} {1}");
+                {1});
 }}
 
 )",
-                     query.name, why);
+                     query.name, c_string(fmt::format("{} {}", query.name, why)));
 }
 
 /// Why a query has no function; empty for one that has.

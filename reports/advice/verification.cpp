@@ -75,7 +75,7 @@ std::string Verification::text() const {
   return text + wrapped_text(
                     fmt::format("{}: {} of {} keep every requirement of the scene {} on {} with the seed {}. "
                                 "Lengths in {}, times in s; times of calls are not verified.",
-                                file_.string(), verified_.size() - failed(),
+                                path_text(file_), verified_.size() - failed(),
                                 plural_text(profile_.queries.size() + profile_.missing.size(), "query"),
                                 profile_.scene.name, plural_text(cases_, "fresh case"), seed_, source_.tolerance.unit),
                     "", verification_width);

@@ -60,14 +60,14 @@ class BisectCommand : public Command {
     bisection_.repository = fs::absolute(repository_);
     catch_interrupts();
     const FirstWithFinding found = bisect(
-        bisection_, [](const BisectionStep& s) { fmt::print("{}\n", step_text(s)); }, [] { return interrupted(); });
+        bisection_, [](const BisectionStep& s) { say("{}\n", step_text(s)); }, [] { return interrupted(); });
     if (found.commits.empty()) {
       say_on_stderr("nearmiss: interrupted\n");
       return 2;
     }
-    fmt::print("\n{}\n", found.commits.size() == 1 ? "The first commit with the finding:"
-                                                   : "The first commit with the finding is one of these:");
-    for (const std::string& commit : found.commits) fmt::print("{}\n", commit);
+    say("\n{}\n", found.commits.size() == 1 ? "The first commit with the finding:"
+                                            : "The first commit with the finding is one of these:");
+    for (const std::string& commit : found.commits) say("{}\n", commit);
     return 0;
   }
 

@@ -9,6 +9,7 @@
 #include "corpus/codec.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
@@ -64,11 +65,11 @@ void ChosenFinding::declare(CLI::App& app, const std::string& what) {
 
 void ChosenFinding::write(const std::string& text) const {
   if (out_.empty()) {
-    fmt::print("{}", text);
+    say("{}", text);
     return;
   }
   write_file(out_, text);
-  fmt::print("{}\n", out_);
+  say("{}\n", one_line(out_));
 }
 
 ChosenFinding::Asked ChosenFinding::ask() const {
@@ -88,6 +89,7 @@ ChosenFinding::Asked ChosenFinding::ask() const {
     throw BadInput(fmt::format("{}: {} does not offer {}", file, subject.name, question.query->name));
   if (!same || !unmet_by(*same, offering.required).empty())
     throw BadInput(fmt::format("{}: {} cannot be asked this case", file, subject.name));
+  if (!out_.empty()) check_can_write(out_);
   Workers workers;
   return {examine(*same, subject, workers), &subject};
 }

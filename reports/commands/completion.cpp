@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "reports/commands/command.hpp"
+#include "reports/engine/output.hpp"
 
 namespace nearmiss {
 
@@ -93,7 +94,7 @@ class CompletionCommand : public Command {
     fill(script, "@commands@", commands);
     fill(script, "@cases@", cases);
     fill(script, "@root@", option_words(root));
-    fmt::print("{}", script);
+    say("{}", script);
     return 0;
   }
 

@@ -6,6 +6,7 @@
 #include "corpus/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/triage/run_diff.hpp"
 
@@ -35,9 +36,10 @@ class DiffCommand : public Command {
     app.add_option("--json", json_, "Also write the comparison to this file as JSON")->type_name("FILE");
   }
   int run(const CLI::App&) override {
+    if (!json_.empty()) check_can_write(json_);
     const std::vector<KindInRuns> kinds = compare_runs(before_, after_);
     if (!json_.empty()) write_file(json_, pretty_json(diff_to_json(before_, after_, kinds)));
-    fmt::print("{}", diff_text(after_, kinds));
+    say("{}", diff_text(after_, kinds));
     return std::any_of(kinds.begin(), kinds.end(), [](const KindInRuns& k) {
       return k.change == KindInRuns::Change::fresh || k.change == KindInRuns::Change::worse;
     });

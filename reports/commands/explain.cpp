@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/tasks.hpp"
@@ -54,9 +55,10 @@ class ExplainCommand : public Command {
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "explained"));
     catch_interrupts();
     folder_ = folder_or_usual(out_, "explained");
+    make_writable_folder(folder_);
     InternalErrors errors(folder_);
     for_each_subject(tasks, errors, [this](const Task& t, const Subject& s) { explain_for(t, s); });
-    if (json_) fmt::print("{}", pretty_json(reports_));
+    if (json_) say("{}", pretty_json(reports_));
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
     if (errors.count() > 0) return InternalError::exit_code;
     return found_ > 0 ? 1 : interrupted() ? 2 : 0;
@@ -71,7 +73,7 @@ class ExplainCommand : public Command {
     Report r = examine(*question, subject, workers_);
     if (interrupted()) return;
     if (!is_bad(r.finding)) {
-      if (!json_) fmt::print("{}: {} has no finding against it\n", t.file, subject.name);
+      if (!json_) say("{}: {} has no finding against it\n", path_text(t.file), subject.name);
       return;
     }
     const CauseLimits usual;
@@ -96,16 +98,15 @@ class ExplainCommand : public Command {
       return;
     }
     const Replay page{r.question, t.file, r.truth, {r}, {}};
-    fmt::print("{}{}\n{}", std::exchange(first_, false) ? "" : "\n", replay_text(page), cause_text(cause));
+    say("{}{}\n{}", std::exchange(first_, false) ? "" : "\n", replay_text(page), cause_text(cause));
   }
 
   /// A minimised report of the same subject stays one.
   static void keep_ranges(const Task& t, const Report& r, nlohmann::ordered_json& j) {
     const nlohmann::json given = parse_json(t.text, t.file);
-    const bool is_report = given.is_object() && given.contains("subject") && given["subject"].is_object();
-    if (is_report && given.contains("minimised") && given["subject"].value("name", "") == r.subject) {
-      j["minimised"] = given["minimised"];
-    }
+    if (!given.is_object() || !given.contains("subject") || !given.contains("minimised")) return;
+    const FileValue report(given, t.file);
+    if (report.at("subject").at("name").text() == r.subject) j["minimised"] = given["minimised"];
   }
 
   std::vector<std::string> files_;

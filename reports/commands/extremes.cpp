@@ -6,6 +6,7 @@
 #include "reports/commands/profile_option.hpp"
 #include "reports/engine/extremes.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/run.hpp"
 
 namespace nearmiss {
@@ -64,7 +65,7 @@ class ExtremesCommand : public Command {
                        profile ? scene_map_cases(profile->scene()) : generated_map_cases()});
     extremes.sweep();
     extremes.write();
-    fmt::print("{}\n{}\n", extremes.table(), extremes.summary());
+    say("{}\n{}\n", extremes.table(), extremes.summary());
     if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", extremes.summary()));
     return extremes.exit_code();
   }

@@ -253,7 +253,8 @@ class ImportCommand : public Command {
   }
   int run(const CLI::App&) override {
     catch_interrupts();
-    if (!out_.empty()) make_folder(out_);
+    if (!out_.empty()) make_writable_folder(out_);
+    if (!scene_.empty()) check_can_write(scene_);
     if (format_ != "nyu-ccd") return import_recorded();
     NyuCcd import(selection_.subjects(), out_);
     std::vector<Case> cases;
@@ -265,7 +266,7 @@ class ImportCommand : public Command {
       for (const GroundTruth& g : read.fit) cases.push_back(g.question);
     }
     if (import.queries() == 0 && !interrupted()) throw BadInput("nothing to compare: no file holds a query");
-    fmt::print("{}\n{}\n", import.text(), import.summary());
+    say("{}\n{}\n", import.text(), import.summary());
     if (!scene_.empty() && !interrupted()) write_scene(cases);
     if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", import.summary()));
     return import.exit_code();
@@ -292,10 +293,9 @@ class ImportCommand : public Command {
     const scenes::Scene s = scenes::write_trace_scene(scene_, cases, fmt::format("{}", fmt::join(names, ", ")));
     std::vector<std::string_view> asked;
     for (const Query* q : s.all_queries()) asked.push_back(q->name);
-    fmt::print(
-        "{}: {} cases, asking {}; what the scene requires is chosen from their sizes: state what the program "
+    say("{}: {} cases, asking {}; what the scene requires is chosen from their sizes: state what the program "
         "needs\n",
-        s.file.string(), count_text(s.recorded.size()), fmt::join(asked, ", "));
+        path_text(s.file), count_text(s.recorded.size()), fmt::join(asked, ", "));
   }
 
   std::string format_, out_, scene_;

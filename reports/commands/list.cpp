@@ -6,6 +6,7 @@
 #include "corpus/store.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/properties.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
@@ -173,16 +174,16 @@ class ListCommand : public Command {
   }
   int run(const CLI::App&) override {
     if (json_) {
-      fmt::print("{}", pretty_json(list_json()));
+      say("{}", pretty_json(list_json()));
     } else if (why_) {
-      fmt::print("{}", reasons_table());
+      say("{}", reasons_table());
     } else if (!members_.empty()) {
-      fmt::print("{}", members_table(*find_query(members_)));
+      say("{}", members_table(*find_query(members_)));
     } else if (!names_.empty()) {
-      for (const std::string& n : names_ == "queries" ? query_names() : subject_names()) fmt::print("{}\n", n);
+      for (const std::string& n : names_ == "queries" ? query_names() : subject_names()) say("{}\n", n);
     } else {
-      fmt::print("{}\n{}\n+ answers   ~ by equivalence   . not offered   (nearmiss list --why tells how and why)\n",
-                 subjects_table(), queries_table());
+      say("{}\n{}\n+ answers   ~ by equivalence   . not offered   (nearmiss list --why tells how and why)\n",
+          subjects_table(), queries_table());
     }
     return 0;
   }

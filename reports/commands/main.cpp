@@ -79,7 +79,7 @@ class CommandLine {
       const auto chosen = root_.get_subcommands();
       return help(chosen.empty() ? "" : chosen[0]->get_name());
     } catch (const CLI::CallForVersion& e) {
-      fmt::print("{}\n", e.what());
+      say("{}\n", e.what());
       return 0;
     } catch (const CLI::ExtrasError&) {
       throw BadInput(unexpected_text());
@@ -137,21 +137,29 @@ class CommandLine {
     CLI::App* app;
   };
 
+  /// No option means anything by an empty value; most take it for no value.
+  static void refuse_empty_values(CLI::App& app) {
+    const auto check = [](const std::string& value) { return value.empty() ? "the value is empty" : ""; };
+    for (CLI::Option* o : app.get_options()) {
+      if (o->get_items_expected_max() > 0) o->check(CLI::Validator(check, ""));
+    }
+  }
   void add(std::unique_ptr<Command> command) {
     CLI::App* app = root_.add_subcommand(command->manual().name, command->manual().summary);
     app->set_help_flag("-h,--help", "Print this manual and exit");
     command->declare(*app);
+    refuse_empty_values(*app);
     entries_.push_back({std::move(command), app});
   }
   int help(const std::string& name) const {
     if (name.empty() || name == "help") {
-      fmt::print("{}", overview_page(root_));
+      say("{}", overview_page(root_));
       return 0;
     }
     check_known(name);
     const auto entry =
         std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.app->get_name() == name; });
-    fmt::print("{}", manual_page(*entry->app, entry->command->manual()));
+    say("{}", manual_page(*entry->app, entry->command->manual()));
     return 0;
   }
   void check_known(const std::string& name) const {

@@ -95,7 +95,8 @@ std::string overview_page(const CLI::App& root) {
   text +=
       heading("ENVIRONMENT") +
       definitions({{"NEARMISS_RUNS", "The folder for runs without --out, instead of reports/runs of the source tree."},
-                   {"NEARMISS_CORPUS", "The folder of stored cases, instead of corpus of the source tree."}});
+                   {"NEARMISS_CORPUS", "The folder of stored cases, instead of corpus of the source tree."},
+                   {"NEARMISS_SOURCES", "The source tree, where it was moved after the build."}});
   text += heading("EXAMPLES") +
           definitions({{"nearmiss list", "The queries, and the subjects that answer them."},
                        {"nearmiss run --subject fcl --query moving_sphere_box", "Is FCL right about moving spheres?"},

@@ -57,9 +57,10 @@ class MinimiseCommand : public Command {
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "minimised"));
     catch_interrupts();
     folder_ = folder_or_usual(out_, "minimised");
+    make_writable_folder(folder_);
     InternalErrors errors(folder_);
     for_each_subject(tasks, errors, [this](const Task& t, const Subject& s) { minimise_for(t, s); });
-    if (json_) fmt::print("{}", pretty_json(reports_));
+    if (json_) say("{}", pretty_json(reports_));
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
     if (errors.count() > 0) return InternalError::exit_code;
     return found_ > 0 ? 1 : interrupted() ? 2 : 0;
@@ -76,7 +77,10 @@ class MinimiseCommand : public Command {
       progress_.show(questions, std::nullopt, std::nullopt, std::nullopt);
     });
     if (interrupted() && !m) return;
-    if (!m) return say(fmt::format("{}: {} has no finding against it", t.file, subject.name));
+    if (!m) {
+      if (!json_) say("{}: {} has no finding against it\n", path_text(t.file), subject.name);
+      return;
+    }
     ++found_;
     keep(t, subject, *m);
   }
@@ -94,15 +98,12 @@ class MinimiseCommand : public Command {
     }
     const Replay page{r.question, file.string(), r.truth, {r}, {}};
     const std::string end =
-        fmt::format("This is the case of {}, minimised in {} questions. The search was ended by {}.", t.file,
+        fmt::format("This is the case of {}, minimised in {} questions. The search was ended by {}.", path_text(t.file),
                     count_text(m.questions), name_of(m.end));
-    fmt::print("{}{}\n{}\n{}", separator(), replay_text(page), ranges_text(m), wrapped_text(end, ""));
+    say("{}{}\n{}\n{}", separator(), replay_text(page), ranges_text(m), wrapped_text(end, ""));
   }
   /// An empty line between pages.
   std::string separator() { return std::exchange(first_, false) ? "" : "\n"; }
-  void say(const std::string& line) const {
-    if (!json_) fmt::print("{}\n", line);
-  }
 
   std::vector<std::string> files_;
   Selection selection_;

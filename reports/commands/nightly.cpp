@@ -16,6 +16,7 @@
 #include "reports/engine/fuzz_night.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/night_changes.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/property_tests.hpp"
 #include "reports/engine/relations_run.hpp"
 #include "reports/engine/replay.hpp"
@@ -207,7 +208,7 @@ Json examine_fuzzed(Run& run) {
 void climb(Run& run) {
   Climber climber({run.settings().queries, run.settings().subjects, run.settings().seed});
   run.climb(climber);
-  fmt::print("climbing: {}; the worst are in worst/\n", climber.summary());
+  say("climbing: {}; the worst are in worst/\n", climber.summary());
 }
 
 /// Related cases of every subject. Returns 0, 1 for broken promises of a subject whose night it is, or InternalError's
@@ -226,7 +227,7 @@ int relate(Run& run, Clock::time_point until, const scenes::Scene* scene) {
                          {"contradictions", related.contradictions()},
                          {"oracle", related.contradicted()},
                          {"reports", related.reports()}});
-  fmt::print("relations: {}\n", related.summary());
+  say("relations: {}\n", related.summary());
   if (related.contradicted() > 0) return InternalError::exit_code;
   return related.bad_of([](const Subject& s) { return is_ours(s.name); }) > 0 ? 1 : 0;
 }
@@ -239,7 +240,7 @@ bool ask_properties(Run& run, Clock::time_point until) {
   if (!program || left < 1) {
     note["state"] = program ? "no time" : "not built";
     run.note("properties", note);
-    fmt::print("properties: {}\n", program ? "no time was left" : "not built");
+    say("properties: {}\n", program ? "no time was left" : "not built");
     return false;
   }
   run.set_activity("properties");
@@ -248,8 +249,8 @@ bool ask_properties(Run& run, Clock::time_point until) {
                                     [&] { run.tick(); }, [&] { return run.should_stop(); }});
   note = {{"state", "ran"}, {"seeds", o.seeds}, {"passed", o.passed}, {"failed", o.failed}, {"ended", o.ended}};
   run.note("properties", note);
-  fmt::print("properties: {} with fresh seeds passed, {} failed{}{}\n", plural_text(o.passed, "test"), o.failed.size(),
-             o.failed.empty() ? "" : ": see properties/", o.ended.empty() ? "" : fmt::format("; {}", o.ended));
+  say("properties: {} with fresh seeds passed, {} failed{}{}\n", plural_text(o.passed, "test"), o.failed.size(),
+      o.failed.empty() ? "" : ": see properties/", o.ended.empty() ? "" : fmt::format("; {}", o.ended));
   return !o.failed.empty() || !o.ended.empty();
 }
 
@@ -337,8 +338,8 @@ class NightlyCommand : public Command {
              profile ? profile->subjects() : all.subjects(), seed, end, false, scene});
     if (scene != nullptr) run.note("scene", scene->name);
     if (scene != nullptr) run.note("required", limits_to_json(*scene_limits()));
-    fmt::print("seed {}, for {}, into {}\n{}{}\n", seed, duration_text(seconds), run.settings().folder.string(),
-               measure_line(run.settings().queries, run.settings().subjects), targets_text(found));
+    say("seed {}, for {}, into {}\n{}{}\n", seed, duration_text(seconds), path_text(run.settings().folder),
+        measure_line(run.settings().queries, run.settings().subjects), targets_text(found));
     std::fflush(stdout);
     const std::vector<WrittenReport> earlier = run.kept().written();
     if (!profile) run.ask_worst_cases();
@@ -361,9 +362,9 @@ class NightlyCommand : public Command {
     run.finish();
     put_aside_fixed(changes, earlier, run.settings().folder);
     const std::optional<NightTriage> triaged = triage(run, for_triage);
-    fmt::print("\n{}\n{}{}\n{}\n{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
-               run.kept().worst_text(), triaged ? triaged->text() : changes.text(run.settings().folder),
-               unexpected_text(unexpected), run.summary(), fuzzing);
+    say("\n{}\n{}{}\n{}\n{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
+        run.kept().worst_text(), triaged ? triaged->text() : changes.text(run.settings().folder),
+        unexpected_text(unexpected), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     if (std::max(related, run.exit_code()) == InternalError::exit_code) return InternalError::exit_code;
     if (triaged && triaged->internal_errors() > 0) return InternalError::exit_code;

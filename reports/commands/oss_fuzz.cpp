@@ -12,6 +12,8 @@
 #include "corpus/source_folder.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/output.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
@@ -125,7 +127,10 @@ class OssFuzzCommand : public Command {
           "For a library that this build does not have."}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("-s,--subject", subject_, "Your library")->required()->type_name("SUBJECT");
+    app.add_option("-s,--subject", subject_, "Your library")
+        ->required()
+        ->type_name("SUBJECT")
+        ->check(plain_text("name of a subject", R"([A-Za-z0-9._+-]+)"));
     add_output_folder(app, out_, "The folder to write; new or empty");
     app.get_option("--out")->required();
     app.add_option("--add", add_, "The CMake file that adds the subject. Default: that of this build (NEARMISS_ADD)")
@@ -146,13 +151,13 @@ class OssFuzzCommand : public Command {
     if (fs::exists(out_) && (!fs::is_directory(out_) || !fs::is_empty(out_)))
       throw BadInput(fmt::format("{}: is not empty: the files go into a new folder", out_));
     kit.write(out_);
-    fmt::print("written: {}, for {}\n", out_, subject_);
+    say("written: {}, for {}\n", path_text(out_), subject_);
     std::string left;
     for (const char* word : {"nearmiss", "repository", "contact"}) {
       if (kit.words.at(word).find("OWNER") != std::string::npos)
         left += fmt::format("{}--{}", left.empty() ? "" : ", ", word);
     }
-    if (!left.empty()) fmt::print("left to fill in, where OWNER stands, or by these options: {}\n", left);
+    if (!left.empty()) say("left to fill in, where OWNER stands, or by these options: {}\n", left);
     return 0;
   }
 

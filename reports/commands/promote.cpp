@@ -9,6 +9,7 @@
 #include "oracles/requirements.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
@@ -33,7 +34,7 @@ CLI::Validator file_name() {
             });
         return good ? "" : fmt::format("'{}' must have small letters, digits and hyphens", one_line(name, 60));
       },
-      "NAME");
+      "");
 }
 
 CLI::Validator long_enough() {
@@ -43,7 +44,7 @@ CLI::Validator long_enough() {
         const auto blanks = std::size_t(std::ranges::count_if(note, is_blank));
         return note.size() - blanks >= shortest_note ? "" : "it must say what went wrong, in a sentence";
       },
-      "TEXT");
+      "");
 }
 
 class PromoteCommand : public Command {
@@ -100,7 +101,7 @@ class PromoteCommand : public Command {
     stored["expected"] = expected;
     make_folder(file.parent_path());
     write_file(file, pretty_json(stored));
-    fmt::print("{}\n", file.string());
+    say("{}\n", path_text(file));
     return 0;
   }
 

@@ -89,8 +89,7 @@ class RelationsCommand : public Command {
     RelationsRun run({typed_command_line(), folder, profile ? profile->queries() : selection_.queries(),
                       profile ? profile->subjects() : selection_.subjects(), wanted, seed, bit_for_bit_, world});
     const FolderLock lock(folder);
-    fmt::print("seed {}\n{}", seed,
-               world == nullptr ? "" : measure_line(run.settings().queries, run.settings().subjects));
+    say("seed {}\n{}", seed, world == nullptr ? "" : measure_line(run.settings().queries, run.settings().subjects));
     std::fflush(stdout);
     const std::optional<RelationsRun::Clock::time_point> until = amount_.until();
     run.run(amount_.number(), until);
@@ -105,8 +104,9 @@ class RelationsCommand : public Command {
       throw BadInput(
           "nothing was compared: no chosen subject offers a chosen query and its follow-ups by a chosen relation");
     }
-    fmt::print("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
-    if (interrupted() || run.contradicted() > 0) say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));
+    say("\n{}\n{}{}\n", run.table(), run.worst_findings(), run.summary());
+    if (interrupted() || run.contradicted() > 0 || !run.vanished().empty())
+      say_on_stderr(fmt::format("nearmiss: {}\n", run.summary()));
     if (run.contradicted() > 0) return InternalError::exit_code;
     return run.bad() > 0 ? 1 : interrupted() ? 2 : 0;
   }

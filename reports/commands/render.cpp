@@ -69,10 +69,11 @@ class RenderCommand : public Command {
     check_page_can_be_written();  // before the work
     const fs::path file = out_.empty() ? fs::path(folder_) / "index.html" : fs::path(out_);
     PageData data(folder_, fs::absolute(file).parent_path());
+    check_can_write(file);
     add_reports(data);
     write_file(file, page_with(data.to_json()));
-    fmt::print("{} in {} ({:.1f} MB)\n", plural_text(data.signatures(), "signature"), file.string(),
-               double(fs::file_size(file)) / 1e6);
+    say("{} in {} ({:.1f} MB)\n", plural_text(data.signatures(), "signature"), path_text(file),
+        double(fs::file_size(file)) / 1e6);
     if (interrupted()) say_on_stderr("nearmiss: interrupted: the page lacks reports\n");
     if (data.internal_errors() > 0)
       say_on_stderr("nearmiss: the judge contradicts itself; the page names the reports\n");
@@ -86,7 +87,7 @@ class RenderCommand : public Command {
     for (const fs::path& file : trades) {
       const fs::path page = out_.empty() || file != trades.front() ? usual_trade_page(file) : fs::path(out_);
       write_trade_page(file, page);
-      fmt::print("1 trade in {} ({:.1f} MB)\n", page.string(), double(fs::file_size(page)) / 1e6);
+      say("1 trade in {} ({:.1f} MB)\n", path_text(page), double(fs::file_size(page)) / 1e6);
     }
     return !trades.empty();
   }

@@ -13,6 +13,7 @@
 #include "reports/engine/progress.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/engine/run_folder.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 
@@ -64,11 +65,11 @@ class ReplayCommand : public Command {
       }
     }
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      if (!json_ && i > 0) fmt::print("\n");
+      if (!json_ && i > 0) say("\n");
       use_measure(measures[i]);
       std::visit([&](const auto& c) { again(c, files_[i]); }, cases[i]);
     }
-    if (json_) fmt::print("{}", pretty_json(reports_));
+    if (json_) say("{}", pretty_json(reports_));
     return contradicted_ ? InternalError::exit_code : bad_ ? 1 : 0;
   }
 
@@ -80,10 +81,27 @@ class ReplayCommand : public Command {
     if (!subject.is_object() || !subject.contains("name") || !subject["name"].is_string()) return;
     const std::string name = subject["name"];
     if (find_subject(name) != nullptr) return;
+    say_on_stderr(fmt::format("nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300),
+                              one_line(name, 60), how_to_ask_again(report, file)));
+  }
+  /// The options of the report's command that add its subject, for this file. Anybody may have written the report: no
+  /// other command is shown, and the reader is told what this one starts.
+  static std::string how_to_ask_again(const nlohmann::json& report, const std::string& file) {
     const bool has_command = report.contains("replay") && report["replay"].is_string();
-    say_on_stderr(fmt::format(
-        "nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300), one_line(name, 60),
-        has_command ? "; this asks it again: " + one_line(report["replay"].get<std::string>(), 600) : ""));
+    if (!has_command) return "";
+    constexpr std::string_view none = "; its command is not one that asks a subject again";
+    const auto words = words_of_shell(report["replay"].get<std::string>());
+    if (!words || words->size() < 3 || (*words)[0] != "nearmiss" || (*words)[1] != "replay") return std::string(none);
+    std::string options, started;
+    for (std::size_t i = 2; i + 1 < words->size(); i += 2) {
+      const auto &option = (*words)[i], &value = (*words)[i + 1];
+      if ((option != "--plugin" && option != "--command") || i + 2 >= words->size()) return std::string(none);
+      options += fmt::format("{} {} ", option, shell_quoted(value));
+      started += (started.empty() ? "" : " and ") + shell_quoted(value);
+    }
+    if (options.empty()) return "";
+    return fmt::format("; this asks it again, and starts {}: nearmiss replay {}{}", one_line(started, 300),
+                       one_line(options, 600), one_line(shell_quoted(file), 300));
   }
   void again(const Case& question, const std::string& file) {
     const Replay r = replay(question, file, selection_.subjects(), workers_);
@@ -91,7 +109,7 @@ class ReplayCommand : public Command {
       bad_ = bad_ || is_bad(report.finding);
       if (json_) reports_.push_back(report_to_json(report));
     }
-    if (!json_) fmt::print("{}", replay_text(r));
+    if (!json_) say("{}", replay_text(r));
   }
   void again(const RelationCase& related, const std::string& file) {
     const RelationReplay r = replay(related, file, selection_.subjects(), workers_);
@@ -100,7 +118,7 @@ class ReplayCommand : public Command {
       contradicted_ = contradicted_ || !report.oracle.empty();
       if (json_) reports_.push_back(report_to_json(report));
     }
-    if (!json_) fmt::print("{}", replay_text(related, r));
+    if (!json_) say("{}", replay_text(related, r));
   }
 
   std::vector<std::string> files_;

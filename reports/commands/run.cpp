@@ -7,6 +7,7 @@
 #include "reports/commands/options.hpp"
 #include "reports/commands/profile_option.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
@@ -125,16 +126,16 @@ class RunCommand : public Command {
     Run run(std::move(settings));
     if (world != nullptr) run.note("scene", world->name);
     if (const SceneLimits* limits = scene_limits()) run.note("required", limits_to_json(*limits));
-    fmt::print("seed {}, {}, into {}\n{}", seed, amount_text(), run.settings().folder.string(),
-               measure_line(run.settings().queries, run.settings().subjects));
+    say("seed {}, {}, into {}\n{}", seed, amount_text(), path_text(run.settings().folder),
+        measure_line(run.settings().queries, run.settings().subjects));
     std::fflush(stdout);
     if (world == nullptr) run.ask_worst_cases();
     const std::string climbs = climb_ ? climb(run) : "";
     if (!climb_) run.generate(amount_.number());
     run.finish();
-    fmt::print("\n{}\n", run.counts().table());
-    if (by_class_) fmt::print("{}\n", run.counts().table_by_class());
-    fmt::print("{}{}{}{}\n", climbs, run.counts().touches_text(), run.kept().worst_text(), run.summary());
+    say("\n{}\n", run.counts().table());
+    if (by_class_) say("{}\n", run.counts().table_by_class());
+    say("{}{}{}{}\n", climbs, run.counts().touches_text(), run.kept().worst_text(), run.summary());
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return run.exit_code();
   }

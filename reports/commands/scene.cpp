@@ -7,6 +7,7 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/scene_advise.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -129,7 +130,7 @@ class SceneCommand : public Command {
       throw BadInput(fmt::format("{}: scene {} does not take it", option, action_));
     if (action_ == "list") {
       if (!names_.empty()) throw BadInput(fmt::format("scene list: takes no scene, and {} is given", names_.front()));
-      fmt::print("{}", list_of_scenes());
+      say("{}", list_of_scenes());
       return 0;
     }
     if (names_.empty())
@@ -137,11 +138,11 @@ class SceneCommand : public Command {
     for (const std::string& name : names_) {
       const scenes::Scene s = scenes::load_scene(name);
       if (action_ == "show") {
-        fmt::print("{}: {}\n\n{}\n{}\n{}", s.name, s.title, world_text(s), mix_text(s), requirements_text(s));
+        say("{}: {}\n\n{}\n{}\n{}", s.name, s.title, world_text(s), mix_text(s), requirements_text(s));
       } else {
-        fmt::print("{}: valid: {} queries, {}\n", s.file.string(), s.queries.size(),
-                   s.is_recorded() ? fmt::format("{} recorded cases", count_text(s.recorded.size()))
-                                   : fmt::format("{} kinds of shapes", s.shapes.size()));
+        say("{}: valid: {} queries, {}\n", path_text(s.file), s.queries.size(),
+            s.is_recorded() ? fmt::format("{} recorded cases", count_text(s.recorded.size()))
+                            : fmt::format("{} kinds of shapes", s.shapes.size()));
       }
     }
     return 0;

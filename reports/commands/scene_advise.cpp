@@ -11,7 +11,9 @@
 #include "reports/advice/verification.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/run.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
@@ -68,13 +70,13 @@ int advise_scene(const std::string& name, const AdviseOptions& options) {
                  options.cases.value_or(usual_cases)});
   advice.find();
   advice.write();
-  fmt::print("{}\n", advice.text());
+  say("{}\n", advice.text());
   if (interrupted()) {
     say_on_stderr("nearmiss: interrupted: the advice lacks queries, and no profile is written\n");
     return advice.exit_code();
   }
   write_profile(profile_of(advice, *scene), advice);
-  fmt::print("\nprofile: {}\n", (folder / "profile.json").string());
+  say("\nprofile: {}\n", path_text(folder / "profile.json"));
   return advice.exit_code();
 }
 
@@ -88,7 +90,7 @@ int verify_profile(const std::string& file, const AdviseOptions& options) {
   catch_interrupts();
   Verification verification(profile, file, seed, options.cases.value_or(usual_cases));
   verification.ask();
-  fmt::print("{}\n", verification.text());
+  say("{}\n", verification.text());
   if (interrupted()) say_on_stderr("nearmiss: interrupted: the verification lacks queries\n");
   return verification.exit_code();
 }

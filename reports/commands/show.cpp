@@ -3,10 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/tasks.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/triage/cause_json.hpp"
 #include "reports/triage/minimise.hpp"
@@ -50,22 +51,18 @@ class ShowCommand : public Command {
  private:
   void show(const Task& t) {
     const Replay r = replay(t.question, t.file, t.subjects, workers_);
-    fmt::print("{}{}", std::exchange(first_, false) ? "" : "\n", replay_text(r));
+    say("{}{}", std::exchange(first_, false) ? "" : "\n", replay_text(r));
     for (const Report& report : r.reports) bad_ = bad_ || is_bad(report.finding);
     if (r.reports.empty()) return;
-    if (const std::string picture = scene_picture(r.reports.front()); !picture.empty())
-      fmt::print("\nScene\n{}", picture);
+    if (const std::string picture = scene_picture(r.reports.front()); !picture.empty()) say("\nScene\n{}", picture);
     show_earlier_work(t, r.reports.front());
   }
   static void show_earlier_work(const Task& t, const Report& report) {
     const nlohmann::json j = parse_json(t.text, t.file);
-    if (!j.is_object()) return;
-    try {
-      if (j.contains("cause")) fmt::print("\n{}", cause_text(cause_from_json(j["cause"])));
-      if (j.contains("minimised")) fmt::print("\n{}", ranges_text(minimised_from_json(j["minimised"], report)));
-    } catch (const nlohmann::json::exception& e) {
-      throw BadInput(fmt::format("{}: {}", t.file, e.what()));
-    }
+    const FileValue whole(j, t.file);
+    if (const auto cause = whole.find("cause")) say("\n{}", cause_text(cause_from_json(*cause)));
+    if (const auto minimised = whole.find("minimised"))
+      say("\n{}", ranges_text(minimised_from_json(*minimised, report)));
   }
 
   std::vector<std::string> files_;

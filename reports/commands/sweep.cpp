@@ -12,6 +12,7 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/engine/output.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/engine/sweep.hpp"
@@ -105,7 +106,7 @@ class SweepCommand : public Command {
     Sweep sweep({typed_command_line(), out_.empty() ? new_run_folder(seed()) : std::filesystem::path(out_),
                  std::move(slice), std::move(subjects), begin, end, jobs()});
     sweep.run();
-    fmt::print("{}\n{}\n", sweep.table(), sweep.summary());
+    say("{}\n{}\n", sweep.table(), sweep.summary());
     if (const auto why = sweep.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     return sweep.exit_code();
   }

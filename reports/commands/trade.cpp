@@ -80,7 +80,7 @@ class TradeCommand : public Command {
     trade.measure();
     trade.write();
     if (can_write_trade_pages()) write_trade_page(folder / "trade.json", folder / "trade.html");
-    fmt::print("{}\n", trade.text());
+    say("{}\n", trade.text());
     if (interrupted()) say_on_stderr("nearmiss: interrupted: the trade lacks queries\n");
     return trade.exit_code();
   }

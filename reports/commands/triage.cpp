@@ -70,6 +70,7 @@ class TriageCommand : public Command {
     name_skipped(sources);
     if (sources.reports.empty() && !sources.skipped.empty())
       throw BadInput(fmt::format("no report could be read; {} skipped", plural_text(sources.skipped.size(), "file")));
+    check_outputs();
     catch_interrupts();
     const TriageSettings settings{folder(), std::chrono::duration<double>(60 * minutes_.value_or(default_minutes)),
                                   [this](const std::string& what, std::uint64_t done, std::uint64_t of) {
@@ -82,7 +83,7 @@ class TriageCommand : public Command {
       say_on_stderr(fmt::format("nearmiss: {}: no signature has the id {}\n", decisions_, id));
     }
     write(settings.folder, t);
-    fmt::print("{}", triage_text(t, rows_.value_or(default_rows)));
+    say("{}", triage_text(t, rows_.value_or(default_rows)));
     const bool stands = std::any_of(t.signatures.begin(), t.signatures.end(), [](const auto& s) { return s.stands(); });
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
     return stands ? 1 : interrupted() ? 2 : 0;
@@ -99,6 +100,13 @@ class TriageCommand : public Command {
       if (fs::is_directory(s, error)) return fs::path(s) / "triage";
     }
     return runs_folder() / "triage";
+  }
+  /// Before the work.
+  void check_outputs() const {
+    make_writable_folder(folder());
+    for (const std::string& file : {json_, sarif_, junit_}) {
+      if (!file.empty()) check_can_write(file);
+    }
   }
   void compare(const TriageSettings& settings, Triage& t) {
     const std::vector<std::string> unasked = compare_with(read_baseline(baseline_, settings, workers_), t, workers_);

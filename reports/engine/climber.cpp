@@ -137,14 +137,15 @@ std::string update_worst_case(const Climb& c) {
   const double before = c.stored() ? c.stored()->error : 0, after = c.record() ? c.record()->error : 0;
   const bool changed_today = c.stored_now().value_or(before) != before;
   if ((before == after && !changed_today) || was_overtaken(file, c)) return "";
-  if (c.record_is_violation()) return fmt::format("{}: not stored: the worst case breaks the contract", file.string());
+  if (c.record_is_violation())
+    return fmt::format("{}: not stored: the worst case breaks the contract", path_text(file));
   if (c.record()) {
     make_folder(file.parent_path());
     write_file(file, pretty_json(worst_case_to_json(*c.record())));
   } else {
     std::filesystem::remove(file);
   }
-  return fmt::format("{}: {} {}{}", file.string(), c.record() ? fmt::format("{}", after) : "no error left,",
+  return fmt::format("{}: {} {}{}", path_text(file), c.record() ? fmt::format("{}", after) : "no error left,",
                      unit_of(c.kind()),
                      !c.stored()     ? ", new"
                      : changed_today ? fmt::format(", before {}, which today is {}", before, *c.stored_now())

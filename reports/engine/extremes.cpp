@@ -1,11 +1,8 @@
 #include "reports/engine/extremes.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +11,7 @@
 #include "corpus/source_folder.hpp"
 #include "reports/engine/html.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
@@ -118,10 +116,7 @@ Extremes::Extremes(ExtremesSettings settings)
       campaign_({settings_.folder, [this] { progress_.show(done_, total_, std::nullopt, 0); }, nothing_promised,
                  Dispatcher::GiveUp::never},
                 {place_.get()}) {
-  make_folder(settings_.folder);
-  if (access(settings_.folder.c_str(), W_OK | X_OK) != 0) {  // fails now rather than after all cases
-    throw IoError(fmt::format("{}: cannot be written: {}", settings_.folder.string(), std::strerror(errno)));
-  }
+  make_writable_folder(settings_.folder);
   for (const Query* q : settings_.queries) {
     const std::vector<MapPlane> planes = settings_.source->planes_of(*q);
     for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -204,8 +199,8 @@ nlohmann::ordered_json Extremes::to_json() const {
 std::optional<std::string> Extremes::page(const nlohmann::ordered_json& report) {
 #ifdef NEARMISS_D3_FILE
   std::string page = read_file(source_folder() + "/reports/extremes.html");
-  put_in_page(page, "/*LIBRARY*/", for_a_script(read_file(NEARMISS_D3_FILE)));
-  put_in_page(page, "/*DATA*/", for_a_script(text_of(report)));
+  put_in_page(page, "/*LIBRARY*/", in_html_script(read_file(NEARMISS_D3_FILE)));
+  put_in_page(page, "/*DATA*/", in_html_script(text_of(report)));
   return page;
 #else
   (void)report;
@@ -259,7 +254,7 @@ std::string Extremes::summary() const {
   }
   return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
                      plural_text(maps, "map"), plural_text(asked_, "case"), count_text(gave_up),
-                     (settings_.folder / "extremes.json").string(),
+                     path_text(settings_.folder / "extremes.json"),
                      drawn ? " and extremes.html" : "; no page, for this build found no node-d3",
                      campaign_.internal_errors().text());
 }

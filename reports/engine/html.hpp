@@ -9,8 +9,4 @@ namespace nearmiss {
 /// Replaces the first `mark` in the page by `text`. Throws std::logic_error where the page has none.
 void put_in_page(std::string& page, std::string_view mark, std::string_view text);
 
-/// Escapes "</" and "<!--", so that the text can neither end the script element around it nor begin a comment there. In
-/// strings of JavaScript and JSON the text means the same.
-std::string for_a_script(std::string text);
-
 }  // namespace nearmiss

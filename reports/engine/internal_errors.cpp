@@ -40,13 +40,13 @@ void InternalErrors::add(const Subject& subject, const InternalError& error) {
   j["note"] = words;
   make_folder(folder_ / subfolder);
   write_file(folder_ / below, pretty_json(j));
-  say_on_stderr(fmt::format("nearmiss: internal error: {}; {}\n", words, (folder_ / below).string()));
+  say_on_stderr(fmt::format("nearmiss: internal error: {}; {}\n", words, path_text(folder_ / below)));
   kept_.push_back({below.generic_string(), std::string(question.query->name), subject.name, error.what()});
 }
 
 std::string InternalErrors::text() const {
   if (count_ == 0) return "";
-  return fmt::format("; {}, see {}", plural_text(count_, "internal error"), (folder_ / subfolder).string());
+  return fmt::format("; {}, see {}", plural_text(count_, "internal error"), path_text(folder_ / subfolder));
 }
 
 nlohmann::ordered_json InternalErrors::to_json() const {

@@ -59,10 +59,26 @@ void KeptReports::write_report(const Pending& p) {
   write_(below, pretty_json(report_to_json(r)));
   std::erase_if(written_, [&](const WrittenReport& w) { return w.earlier && w.file == below.generic_string(); });
   const bool broke = r.finding.verdict == Verdict::broke;
-  written_.push_back({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
-                      std::string(name_of(r.finding.verdict)), std::string(name_of(r.finding.disagreement)),
-                      headline(r), broke ? counts_.of(*r.question.query, *p.subject)->breakage_of(r.finding) : "",
-                      r.finding.backward ? std::optional(r.finding.backward->above) : std::nullopt});
+  put_in_order({below.generic_string(), id_of(r), std::string(r.question.query->name), r.subject,
+                std::string(name_of(r.finding.verdict)), std::string(name_of(r.finding.disagreement)), headline(r),
+                broke ? counts_.of(*r.question.query, *p.subject)->breakage_of(r.finding) : "",
+                r.finding.backward ? std::optional(r.finding.backward->above) : std::nullopt});
+}
+
+/// By name: the order in which answers arrive depends on the speed of hosts.
+void KeptReports::put_in_order(WrittenReport w) {
+  const auto behind = std::upper_bound(written_.begin(), written_.end(), w, [](const auto& a, const auto& b) {
+    return std::pair(!a.earlier, std::string_view(a.file)) < std::pair(!b.earlier, std::string_view(b.file));
+  });
+  written_.insert(behind, std::move(w));
+}
+
+std::vector<std::string> KeptReports::vanished() const {
+  std::vector<std::string> files;
+  for (const WrittenReport& w : written_) {
+    if (!w.earlier) files.push_back(w.file);
+  }
+  return vanished_from(folder_, files);
 }
 
 std::size_t KeptReports::count() const {

@@ -29,10 +29,12 @@ class KeptReports : public Sink {
   bool needs_second(const Examined& e) const override;
   void end_batch() override;
 
-  /// All reports; those of earlier runs in the folder come first.
+  /// All reports, in the order of their names; those of earlier runs in the folder come first.
   const std::vector<WrittenReport>& written() const { return written_; }
   /// How many findings of this run there are of each kind and variant, also those that are not kept.
   const VariantCounts& variants() const { return variants_; }
+  /// The reports of this run that are no longer on the disk: others have removed them.
+  std::vector<std::string> vanished() const;
   /// The number of reports of this run.
   std::size_t count() const;
   /// Headline and file of the worst finding of each query, subject and fault; empty without findings.
@@ -48,6 +50,7 @@ class KeptReports : public Sink {
     std::string output;  ///< output of a subject that broke
   };
   void write_report(const Pending& p);
+  void put_in_order(WrittenReport w);
 
   std::filesystem::path folder_;
   const Counts& counts_;

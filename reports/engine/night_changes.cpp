@@ -58,7 +58,7 @@ std::string first_to_read(const NightChanges& all, bool ours, const fs::path& fo
     const std::vector<ChangedKind> kinds = all.of(ours, c);
     if (kinds.empty()) continue;
     const WrittenReport& w = kinds.front().worst;
-    return fmt::format("\n  {}: {}\n    {}", name_of(c), w.headline, (folder / w.file).string());
+    return fmt::format("\n  {}: {}\n    {}", name_of(c), w.headline, path_text(folder / w.file));
   }
   return "";
 }

@@ -7,21 +7,28 @@
 #include <cmath>
 #include <cstdio>
 
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
 using namespace std::chrono_literals;
 
-void say_on_stderr(const std::string& text) noexcept {
-  std::fputs(text.c_str(), stderr);
+namespace {
+
+constexpr const char* erase_line = "\r\033[K";
+
+void show_on_terminal(const std::string& line) {
+  std::fprintf(stderr, "%s%s", erase_line, for_terminal(line).c_str());
   std::fflush(stderr);
 }
+
+}  // namespace
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_shown_(begin_) {}
 
 Progress::~Progress() {
-  if (shown_ && terminal_) say_on_stderr("\r\033[K");
+  if (shown_ && terminal_) show_on_terminal("");
 }
 
 void Progress::set_activity(std::string what) { what_ = std::move(what); }
@@ -33,7 +40,8 @@ void Progress::show(std::uint64_t done, std::optional<std::uint64_t> total, std:
   last_shown_ = now;
   shown_ = true;
   const std::string text = line(done, total, seconds_left, findings);
-  say_on_stderr(terminal_ ? "\r\033[K" + text : "nearmiss: " + text + "\n");
+  if (terminal_) return show_on_terminal(text);
+  say_on_stderr("nearmiss: " + text + "\n");
 }
 
 std::string Progress::line(std::uint64_t done, std::optional<std::uint64_t> total, std::optional<double> seconds_left,

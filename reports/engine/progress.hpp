@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "reports/engine/output.hpp"
+
 namespace nearmiss {
 
 class Progress {
@@ -33,9 +35,6 @@ class Progress {
   std::string what_;
   bool shown_ = false;
 };
-
-/// Prints to standard error and ignores errors: they change neither the work nor the exit code.
-void say_on_stderr(const std::string& text) noexcept;
 
 /// "1 h 02 min", "3 min 05 s", "12 s", "0.4 s".
 std::string duration_text(double seconds);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/findings/hash.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
@@ -148,35 +149,45 @@ Json report_to_json(const RelationReport& r) {
   return j;
 }
 
+namespace {
+
+/// Whether these are the follow-ups of the file, without their answers.
+bool are_partners(const FileValue& relation, const std::vector<Case>& follow_ups) {
+  const std::optional<FileValue> partners = relation.find("partners");
+  const std::vector<FileValue> stored = partners ? partners->items() : std::vector<FileValue>();
+  if (stored.size() != follow_ups.size()) return false;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    nlohmann::json question;
+    for (const char* key : {"query", "scalar", "inputs"}) {
+      if (const auto part = stored[i].find(key)) question[key] = part->json();
+    }
+    const Case follow_up = case_from_json(question, relation.file());
+    if (follow_up.query != follow_ups[i].query || follow_up.values != follow_ups[i].values) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::optional<RelationCase> read_relation_case(const std::filesystem::path& file) {
   return read_relation_case(parse_json(read_file(file), file.string()), file.string());
 }
 
 std::optional<RelationCase> read_relation_case(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || !j.contains("finding") || !j.contains("relation")) return std::nullopt;
-  const auto malformed = [&](const std::string& what) { return BadInput(fmt::format("{}: relation: {}", file, what)); };
-  const nlohmann::json& relation = j["relation"];
-  if (!relation.is_object() || !relation.contains("name") || !relation["name"].is_string()) throw malformed("no name");
-  if (!relation.contains("seed") || !relation["seed"].is_number_unsigned()) throw malformed("no seed");
+  const FileValue whole(j, file);
+  const FileValue relation = whole.at("relation");
+  const std::string name = relation.at("name").text();
   RelationCase related{case_of(j, file), {}, {}};
-  const auto name = relation["name"].get<std::string>();
   related.choice.relation = find_relation(name);
-  if (related.choice.relation == nullptr) throw malformed(fmt::format("unknown name '{}'", name));
-  related.choice.seed = relation["seed"].get<std::uint64_t>();
-  related.choice.bit_for_bit = relation.value("bit_for_bit", false);
-  if (j.contains("subject") && j["subject"].is_object()) related.subject = j["subject"].value("name", "");
+  if (related.choice.relation == nullptr) relation.at("name").fail("the name of a relation");
+  related.choice.seed = relation.at("seed").whole();
+  if (const auto bits = relation.find("bit_for_bit")) related.choice.bit_for_bit = bits->flag();
+  if (const auto subject = whole.find("subject")) related.subject = subject->at("name").text();
   const auto follow_ups = related.choice.relation->of(related.question, related.choice.seed);
-  const nlohmann::json stored = relation.value("partners", nlohmann::json::array());
-  bool same = follow_ups && stored.is_array() && stored.size() == follow_ups->cases.size();
-  for (std::size_t i = 0; same && i < stored.size(); ++i) {
-    nlohmann::json question;
-    for (const char* key : {"query", "scalar", "inputs"}) {
-      if (stored[i].contains(key)) question[key] = stored[i][key];
-    }
-    const Case follow_up = case_from_json(question, file);
-    same = follow_up.query == follow_ups->cases[i].query && follow_up.values == follow_ups->cases[i].values;
-  }
-  if (!same) throw malformed(fmt::format("'{}' does not lead from this case to the follow-ups of the file", name));
+  if (!follow_ups || !are_partners(relation, follow_ups->cases))
+    throw BadInput(
+        fmt::format("{}: relation: '{}' does not lead from this case to the follow-ups of the file", file, name));
   return related;
 }
 
@@ -202,8 +213,8 @@ RelationReplay replay(const RelationCase& related, const std::string& file, std:
 }
 
 std::string replay_text(const RelationCase& related, const RelationReplay& r) {
-  std::string text =
-      fmt::format("{}\nRelation {}: {}\n", r.file, related.choice.relation->name, related.choice.relation->what);
+  std::string text = fmt::format("{}\nRelation {}: {}\n", path_text(r.file), related.choice.relation->name,
+                                 related.choice.relation->what);
   std::vector<Case> cases{related.question};
   const auto follow_ups = related.choice.relation->of(related.question, related.choice.seed);
   cases.insert(cases.end(), follow_ups->cases.begin(), follow_ups->cases.end());

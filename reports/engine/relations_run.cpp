@@ -9,6 +9,7 @@
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
 #include "reports/engine/interrupt.hpp"
+#include "reports/engine/run_folder.hpp"
 #include "reports/engine/schedule.hpp"
 #include "reports/engine/tally.hpp"
 #include "reports/engine/worst_findings.hpp"
@@ -69,7 +70,7 @@ RelationsRun::RelationsRun(RelationsSettings settings)
         return !should_stop();
       }),
       internal_errors_(settings_.folder) {
-  make_folder(settings_.folder);
+  make_writable_folder(settings_.folder);
 }
 
 bool RelationsRun::should_stop() const { return interrupted() || (until_ && Clock::now() >= *until_); }
@@ -199,7 +200,20 @@ void RelationsRun::take(const Key& key, const RelationChoice& choice, const Rela
   r.replay = replay_command(*key.subject, file.string());
   make_folder(file.parent_path());
   write_file(file, pretty_json(report_to_json(r)));
-  written_.push_back({key, below.generic_string(), r.breach, !r.oracle.empty(), headline(r), above});
+  put_in_order({key, below.generic_string(), r.breach, !r.oracle.empty(), headline(r), above});
+}
+
+/// By name: the order in which answers arrive depends on the speed of hosts.
+void RelationsRun::put_in_order(Written w) {
+  const auto behind = std::upper_bound(written_.begin(), written_.end(), w,
+                                       [](const Written& a, const Written& b) { return a.file < b.file; });
+  written_.insert(behind, std::move(w));
+}
+
+std::vector<std::string> RelationsRun::vanished() const {
+  std::vector<std::string> files;
+  for (const Written& w : written_) files.push_back(w.file);
+  return vanished_from(settings_.folder, files);
 }
 
 RelationTally RelationsRun::sum() const {
@@ -273,6 +287,7 @@ Json RelationsRun::to_json() const {
                             {"headline", w.headline}});
   }
   if (const SceneLimits* scene = scene_limits()) j["required"] = limits_to_json(*scene);
+  if (const auto lost = vanished(); !lost.empty()) j["vanished"] = lost;
   if (internal_errors_.count() > 0) j["internal_errors"] = internal_errors_.to_json();
   j["environment"] = environment_to_json();
   return j;
@@ -334,11 +349,13 @@ std::string RelationsRun::summary() const {
       "{}{} compared in {}: {}, {} within promises; {} in {}", interrupted() ? "interrupted: " : "",
       plural_text(all.cases, "pair"), duration_text(std::chrono::duration<double>(Clock::now() - begin_).count()),
       plural_text(all.bad(), "broken promise"), plural_text(all.contradictions, "contradiction"),
-      plural_text(written_.size(), "report"), settings_.folder.string());
+      plural_text(written_.size(), "report"), path_text(settings_.folder));
   if (broke_alone() > 0)
     text += fmt::format("; {} before they could be compared", plural_text(broke_alone(), "breakage"));
   if (not_asked_ > 0) text += fmt::format("; {} not asked, for what subjects require", plural_text(not_asked_, "pair"));
   if (all.oracle > 0) text += fmt::format("; Nearmiss contradicts itself {} times", count_text(all.oracle));
+  if (const auto lost = vanished(); !lost.empty())
+    text += "; " + vanished_text(lost, written_.size(), settings_.folder);
   return text + scene_measure_text() + internal_errors_.text();
 }
 

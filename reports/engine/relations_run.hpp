@@ -72,6 +72,8 @@ class RelationsRun {
   std::uint64_t pairs() const { return sum().cases; }
   std::uint64_t contradictions() const { return sum().contradictions; }
   std::size_t reports() const { return written_.size(); }
+  /// Written reports that are no longer on the disk: others have removed them.
+  std::vector<std::string> vanished() const;
 
  private:
   struct Key {
@@ -93,6 +95,7 @@ class RelationsRun {
   void relate_all(const Relation& relation, const std::vector<Case>& cases,
                   const std::map<const Subject*, std::vector<Answer>>& own);
   void take(const Key& key, const RelationChoice& choice, const RelationFinding& found);
+  void put_in_order(Written w);
   bool worth_a_report(const Key& key, const RelationFinding& found, double above);
   /// The answers to all cases. A case that was not asked, after time-outs or at the end of the time, has
   /// answer_of_given_up().

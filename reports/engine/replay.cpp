@@ -274,7 +274,7 @@ std::string case_page(const Case& question, const Truth& truth) {
 }
 
 std::string replay_text(const Replay& r) {
-  std::string text = fmt::format("{}\n{}\n{}", r.file, inputs_page(r.question), findings_table(r));
+  std::string text = fmt::format("{}\n{}\n{}", path_text(r.file), inputs_page(r.question), findings_table(r));
   for (const Report& report : r.reports) {
     if (report.finding.verdict == Verdict::agrees) continue;
     text += fmt::format("\n{}", wrapped_text(explanation(report), ""));

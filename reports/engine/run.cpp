@@ -33,7 +33,6 @@ using namespace std::chrono_literals;
 /// The least time between two writes of the index, and the bound on their share of the time: 1 / index_share.
 constexpr auto between_indexes = 500ms;
 constexpr int index_share = 30;
-constexpr int run_schema_version = 2;
 
 std::string utc_text(const char* format) { return fmt::format(fmt::runtime(format), fmt::gmtime(std::time(nullptr))); }
 
@@ -206,6 +205,7 @@ void Run::write_index(RunState state) {
   j.update(notes_->parts);
   j["reports"] = Json::array();
   for (const WrittenReport& w : kept_.written()) j["reports"].push_back(written_to_json(w));
+  if (!vanished_.empty()) j["vanished"] = vanished_;
   j["environment"] = environment_to_json();
   write("index.json", pretty_json(j));
   indexed_ = Clock::now();
@@ -224,6 +224,7 @@ void Run::write(const std::filesystem::path& below, const std::string& text) con
 }
 
 void Run::finish() {
+  vanished_ = kept_.vanished();
   write_index(interrupted() ? RunState::interrupted : RunState::finished);
   finished_ = true;
 }
@@ -235,22 +236,25 @@ std::vector<WrittenReport> Run::written_now() const {
 }
 
 std::optional<std::string> Run::shortfall() const {
-  const std::string index = (settings_.folder / "index.json").string();
+  const std::string index = path_text(settings_.folder / "index.json");
   if (interrupted()) {
-    return fmt::format("interrupted after {}, {}; {}", plural_text(counts_.cases(), "answer"), counts_.violated_text(),
-                       index);
+    return fmt::format("interrupted after {}, {}; {}{}", plural_text(counts_.cases(), "answer"),
+                       counts_.violated_text(), index, vanished_.empty() ? "" : "; " + lost_text());
   }
+  if (!vanished_.empty()) return lost_text() + "; " + index;
   if (counts_.cases() > 0) return std::nullopt;
   return fmt::format("nothing was asked: the time was over before the first case; {}", index);
 }
 
+std::string Run::lost_text() const { return vanished_text(vanished_, kept_.count(), settings_.folder); }
+
 std::string Run::summary() const {
   const double seconds = Campaign::seconds_since(begin_);
-  return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}{}", interrupted() ? "interrupted: " : "",
+  return fmt::format("{}{} in {} ({}/s): {}; {} in {}{}{}{}", interrupted() ? "interrupted: " : "",
                      plural_text(counts_.cases(), "answer"), duration_text(seconds),
                      count_text(std::uint64_t(double(counts_.cases()) / std::max(seconds, 1e-3))),
-                     counts_.violated_text(), plural_text(kept_.count(), "report"), settings_.folder.string(),
-                     scene_measure_text(), internal_errors().text());
+                     counts_.violated_text(), plural_text(kept_.count(), "report"), path_text(settings_.folder),
+                     vanished_.empty() ? "" : "; " + lost_text(), scene_measure_text(), internal_errors().text());
 }
 
 int Run::exit_code() const {

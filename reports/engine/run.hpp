@@ -84,11 +84,11 @@ class Run {
   /// Call it during work outside this class: shows progress, and updates the index from time to time.
   void tick();
 
-  /// Writes the last index, with the state interrupted or finished.
+  /// Writes the last index, with the state interrupted or finished, and with the reports that have vanished.
   void finish();
   /// One line with the number of answers, the time, the violations and the reports.
   std::string summary() const;
-  /// One line where the run was interrupted or had no time for a single case; empty otherwise.
+  /// One line where the run was interrupted, had no time for a single case, or has lost reports; empty otherwise.
   std::optional<std::string> shortfall() const;
   /// Errors of the judge itself, which are never counted as findings.
   const InternalErrors& internal_errors() const { return campaign_.internal_errors(); }
@@ -113,6 +113,7 @@ class Run {
   std::vector<const Subject*> offering(const Query& query) const;
   void write_record(const Climb& c, std::map<const Climb*, double>& written) const;
   void write_index(RunState state);
+  std::string lost_text() const;
   void write(const std::filesystem::path& below, const std::string& text) const;
 
   RunSettings settings_;
@@ -124,6 +125,7 @@ class Run {
   Progress progress_;
   std::optional<std::uint64_t> total_;
   bool finished_ = false;
+  std::vector<std::string> vanished_;  ///< found by finish(): reports that are no longer on the disk
   Counts counts_;
   KeptReports kept_;
   Listener listener_;

@@ -17,6 +17,7 @@
 #include "reports/findings/breakage.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/text.hpp"
 
 namespace nearmiss {
 
@@ -108,6 +109,22 @@ std::vector<WrittenReport> reports_on_disk(const fs::path& folder) {
     }
   }
   return all;
+}
+
+std::vector<std::string> vanished_from(const fs::path& folder, const std::vector<std::string>& files) {
+  std::vector<std::string> vanished;
+  for (const std::string& file : files) {
+    std::error_code error;
+    if (!fs::is_regular_file(folder / file, error)) vanished.push_back(file);
+  }
+  return vanished;
+}
+
+std::string vanished_text(const std::vector<std::string>& vanished, std::size_t of, const fs::path& folder) {
+  if (vanished.empty()) return "";
+  return fmt::format("{} of {} {} vanished from {}, the first is {}", count_text(vanished.size()),
+                     plural_text(of, "report"), vanished.size() == 1 ? "has" : "have", path_text(folder),
+                     vanished.front());
 }
 
 bool settle_run(const fs::path& folder) try {

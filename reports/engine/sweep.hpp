@@ -51,8 +51,8 @@ class Sweep {
   /// Floats in the unit of work: an eighth of those between two powers of two.
   static constexpr std::uint64_t chunk = 1u << 20;
 
-  /// Makes or opens the folder. Throws IoError where it cannot, and BadInput where another process holds it or where it
-  /// has the state of another sweep.
+  /// Makes or opens the folder. Throws IoError where it cannot, and BadInput where another process holds it, where it
+  /// has the state of another sweep, and where that state cannot be true.
   explicit Sweep(SweepSettings settings);
 
   /// Asks what is left; an interrupt stops it early. Then writes the reports and the final state.
@@ -83,7 +83,12 @@ class Sweep {
   };
 
   nlohmann::ordered_json identity() const;
+  /// Reads the state. Throws BadInput where it is that of another sweep or where a part of it cannot be true.
   void load();
+  void check_identity(const FileValue& state) const;
+  void load_counts(const FileValue& subjects);
+  void check_truth(const std::string& file) const;
+  bool is_done(std::uint64_t position) const;
   std::vector<SweptRange> left() const;
   void work(const std::vector<SweptRange>& chunks);
   void work_or_fail(const std::vector<SweptRange>& chunks);

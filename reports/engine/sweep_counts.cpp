@@ -45,11 +45,11 @@ nlohmann::ordered_json violation_to_json(const std::optional<SweptViolation>& v)
           {"above_epsilon", v->above < 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(v->above)}};
 }
 
-double bound_from_json(const nlohmann::ordered_json& j) { return j.is_null() ? -1 : j.get<double>(); }
+double bound_from_json(const FileValue& j) { return j.is_null() ? -1 : j.not_negative(); }
 
-std::optional<SweptViolation> violation_from_json(const nlohmann::ordered_json& j) {
+std::optional<SweptViolation> violation_from_json(const FileValue& j) {
   if (j.is_null()) return std::nullopt;
-  return SweptViolation{j.at("position").get<std::uint64_t>(), bound_from_json(j.at("above_epsilon"))};
+  return SweptViolation{j.at("position").count(), bound_from_json(j.at("above_epsilon"))};
 }
 
 }  // namespace
@@ -80,14 +80,17 @@ nlohmann::ordered_json sweep_counts_to_json(const SweepCounts& c) {
   return j;
 }
 
-SweepCounts sweep_counts_from_json(const nlohmann::ordered_json& j) {
+SweepCounts sweep_counts_from_json(const FileValue& j) {
   SweepCounts c;
-  for (const NamedCount& n : named_counts) c.*n.count = j.at(n.name).get<std::uint64_t>();
+  for (const NamedCount& n : named_counts) {
+    c.*n.count = j.at(n.name).count();
+    if (c.*n.count > c.asked) j.at(n.name).fail("at most the number of asked floats");
+  }
   c.worst_backward = bound_from_json(j.at("backward_epsilon"));
   c.first = violation_from_json(j.at("first_violation"));
   c.worst = violation_from_json(j.at("worst_violation"));
-  c.seconds = j.at("seconds").get<double>();
-  c.judge_seconds = j.at("judge_seconds").get<double>();
+  c.seconds = j.at("seconds").not_negative();
+  c.judge_seconds = j.at("judge_seconds").not_negative();
   return c;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "corpus/file_value.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/engine/slice.hpp"
@@ -41,8 +42,8 @@ struct SweepCounts {
 };
 
 nlohmann::ordered_json sweep_counts_to_json(const SweepCounts& c);
-/// Throws nlohmann::json::exception for another document.
-SweepCounts sweep_counts_from_json(const nlohmann::ordered_json& j);
+/// Throws BadInput for another document.
+SweepCounts sweep_counts_from_json(const FileValue& j);
 
 class SweepAsker {
  public:

@@ -7,6 +7,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/sweep.hpp"
 #include "reports/findings/report.hpp"
@@ -22,8 +23,18 @@ constexpr int sweep_schema_version = 1;
 
 const char* word_of(SliceTruth t) { return t == SliceTruth::yes ? "yes" : t == SliceTruth::no ? "no" : "invalid"; }
 
-SliceTruth truth_from(const std::string& word) {
-  return word == "yes" ? SliceTruth::yes : word == "no" ? SliceTruth::no : SliceTruth::invalid;
+SliceTruth truth_from(const FileValue& word) {
+  for (const SliceTruth t : {SliceTruth::yes, SliceTruth::no, SliceTruth::invalid}) {
+    if (word.json() == word_of(t)) return t;
+  }
+  word.fail("\"yes\", \"no\" or \"invalid\"");
+}
+
+/// A position of a float, at least `least` and at most `most`.
+std::uint64_t position_in(const FileValue& j, std::uint64_t least, std::uint64_t most) {
+  if (!j.json().is_number_unsigned() || j.whole() < least || j.whole() > most)
+    j.fail(fmt::format("a whole number from {} to {}", least, most));
+  return j.whole();
 }
 
 std::string word_of_part(const std::string& part) {
@@ -44,13 +55,21 @@ Json range_to_json(const SweptRange& r) {
   return {{"begin", r.begin}, {"end", r.end}, {"truth", truth}};
 }
 
-SweptRange range_from_json(const Json& j) {
-  SweptRange r{j.at("begin").get<std::uint64_t>(), j.at("end").get<std::uint64_t>(), {}};
-  for (const Json& t : j.at("truth")) {
-    r.truth.push_back({t.at("begin").get<std::uint64_t>(), truth_from(t.at("decision").get<std::string>())});
+/// A range that is not empty and lies in the floats from `begin` up to, without, `end`.
+SweptRange range_from_json(const FileValue& j, std::uint64_t begin, std::uint64_t end) {
+  SweptRange r{position_in(j.at("begin"), begin, end - 1), 0, {}};
+  r.end = position_in(j.at("end"), r.begin + 1, end);
+  std::uint64_t least = r.begin, most = r.begin;
+  for (const FileValue& t : j.at("truth").items()) {
+    r.truth.push_back({position_in(t.at("begin"), least, most), truth_from(t.at("decision"))});
+    least = r.truth.back().begin + 1, most = r.end - 1;
   }
+  if (r.truth.empty()) j.at("truth").fail("the decisions of the range");
   return r;
 }
+
+/// Whether both have the same members, each with the same number to the last bit.
+bool is_same_json(const nlohmann::json& a, const Json& b) { return a.dump() == nlohmann::json(b).dump(); }
 
 }  // namespace
 
@@ -70,23 +89,67 @@ Json Sweep::identity() const {
 }
 
 void Sweep::load() {
-  const std::filesystem::path file = settings_.folder / "sweep.json";
-  const Json j = Json::parse(read_file(file), nullptr, false);
-  if (!j.is_object() || j.value("schema", 0) != sweep_schema_version || !j.contains("identity")) {
-    throw BadInput(fmt::format("{}: it is not the state of a sweep; give another --out", file.string()));
+  const std::string file = (settings_.folder / "sweep.json").string();
+  const nlohmann::json j = parse_json(read_file(file), file);
+  if (!j.is_object() || !j.contains("schema") || j["schema"] != sweep_schema_version || !j.contains("identity"))
+    throw BadInput(fmt::format("{}: it is not the state of a sweep; give another --out", file));
+  const FileValue state(j, file);
+  check_identity(state);
+  std::uint64_t from = settings_.begin;
+  for (const FileValue& r : state.at("done").items()) {
+    if (from == settings_.end) r.fail("absent: the floats up to the last one are done");
+    done_.push_back(range_from_json(r, from, settings_.end));
+    from = done_.back().end;
   }
+  load_counts(state.at("subjects"));
+  seconds_before_ = state.at("seconds").not_negative();
+  check_truth(file);
+}
+
+void Sweep::check_identity(const FileValue& state) const {
+  const FileValue theirs = state.at("identity");
   const Json mine = identity();
   for (const auto& [part, value] : mine.items()) {
-    if (j["identity"].value(part, Json()).dump() == value.dump()) continue;
-    throw BadInput(fmt::format("{}: it is the state of another sweep: the {} differs; give another --out",
-                               file.string(), word_of_part(part)));
+    const std::optional<FileValue> other = theirs.find(part);
+    if (other && is_same_json(other->json(), value)) continue;
+    throw BadInput(fmt::format("{}: it is the state of another sweep: the {} differs; give another --out", state.file(),
+                               word_of_part(part)));
   }
-  try {
-    for (const Json& r : j.at("done")) done_.push_back(range_from_json(r));
-    for (std::size_t s = 0; s < counts_.size(); ++s) counts_[s] = sweep_counts_from_json(j.at("subjects").at(s));
-    seconds_before_ = j.at("seconds").get<double>();
-  } catch (const Json::exception&) {
-    throw BadInput(fmt::format("{}: a part of the state is missing; give another --out", file.string()));
+}
+
+void Sweep::load_counts(const FileValue& subjects) {
+  const std::vector<FileValue> all = subjects.items();
+  if (all.size() != counts_.size()) subjects.fail(fmt::format("an array of {}", counts_.size()));
+  const std::uint64_t valid = floats_done(true);
+  for (std::size_t s = 0; s < counts_.size(); ++s) {
+    counts_[s] = sweep_counts_from_json(all[s]);
+    if (all[s].at("subject").text() != settings_.subjects[s].name)
+      all[s].at("subject").fail(settings_.subjects[s].name);
+    if (counts_[s].asked != valid)
+      all[s].at("asked").fail(fmt::format("{}, the number of valid floats in done", valid));
+    for (const char* of : {"first_violation", "worst_violation"}) {
+      const FileValue violation = all[s].at(of);
+      if (violation.is_null()) continue;
+      const std::uint64_t at = violation.at("position").whole();
+      if (!is_done(at)) violation.at("position").fail("the position of a float that is done");
+    }
+    if (counts_[s].first.has_value() != counts_[s].worst.has_value())
+      all[s].at("worst_violation").fail("null where first_violation is null");
+  }
+}
+
+bool Sweep::is_done(std::uint64_t position) const {
+  return std::any_of(done_.begin(), done_.end(),
+                     [&](const SweptRange& r) { return r.begin <= position && position < r.end; });
+}
+
+/// Finds the exact decisions of the ranges again, which takes a small part of the time of a sweep.
+void Sweep::check_truth(const std::string& file) const {
+  for (const SweptRange& r : done_) {
+    const std::vector<TruthRange> truth = settings_.slice.truth(r.begin, r.end, [] { return interrupted(); });
+    if (interrupted()) throw BadInput(fmt::format("{}: interrupted before its decisions were checked", file));
+    if (truth == r.truth) continue;
+    throw BadInput(fmt::format("{}: its decisions are not the exact ones; give another --out", file));
   }
 }
 
@@ -210,7 +273,7 @@ std::string Sweep::summary() const {
   for (std::size_t s = 0; s < counts_.size(); ++s) text += sentence(s) + "\n";
   return fmt::format("{}{} invalid floats, {} for {}; {}{}", text, count_text(floats_done(false)),
                      duration_text(seconds()), plural_text(counts_.size(), "subject"),
-                     (settings_.folder / "sweep.json").string(), internal_errors_.text());
+                     path_text(settings_.folder / "sweep.json"), internal_errors_.text());
 }
 
 std::optional<std::string> Sweep::shortfall() const {

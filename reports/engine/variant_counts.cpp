@@ -42,14 +42,19 @@ nlohmann::ordered_json VariantCounts::to_json() const {
   return all;
 }
 
-std::vector<CountedVariant> variants_in(const nlohmann::json& index) {
+std::vector<CountedVariant> variants_in(const FileValue& index) {
   std::vector<CountedVariant> all;
-  if (!index.contains("variants")) return all;
-  for (const nlohmann::json& v : index.at("variants")) {
-    CountedVariant c{{v.at("query"), v.at("subject"), v.at("fault"), v.at("member"), v.at("clause")}, {}, {}};
-    c.variant = {std::stoull(v.at("branches").get<std::string>(), nullptr, 16), feature_regions_named(v.at("regions")),
-                 v.at("ordinary")};
-    c.count = {v.at("findings"), v.at("kept")};
+  const std::optional<FileValue> variants = index.find("variants");
+  if (!variants) return all;
+  for (const FileValue& v : variants->items()) {
+    CountedVariant c{{v.at("query").text(), v.at("subject").text(), v.at("fault").text(), v.at("member").text(),
+                      v.at("clause").text()},
+                     {},
+                     {}};
+    c.variant = {v.at("branches").hexadecimal(), feature_regions_named(v.at("regions").texts()),
+                 v.at("ordinary").flag()};
+    c.count = {v.at("findings").count(), v.at("kept").count()};
+    if (c.count.kept > c.count.findings) v.at("kept").fail("at most the number of findings");
     all.push_back(std::move(c));
   }
   return all;

@@ -42,7 +42,7 @@ struct CountedVariant {
   Variant variant;
   VariantCounts::Count count;
 };
-/// Those of an index; empty for the index of an older build. Throws nlohmann::json::exception where it is no index.
-std::vector<CountedVariant> variants_in(const nlohmann::json& index);
+/// Those of an index; empty for the index of an older build. Throws BadInput where it is no index.
+std::vector<CountedVariant> variants_in(const FileValue& index);
 
 }  // namespace nearmiss

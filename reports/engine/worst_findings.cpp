@@ -1,4 +1,6 @@
 #include "reports/engine/worst_findings.hpp"
+#include "impl/subject/printable.hpp"
+#include "reports/findings/text.hpp"
 
 #include <fmt/format.h>
 
@@ -34,7 +36,7 @@ std::string worst_text(const std::vector<WorstFinding>& findings, const std::fil
   const std::vector<const WorstFinding*> worst = worst_of_each_group(findings);
   std::string text;
   for (std::size_t i = 0; i < worst.size() && i < shown; ++i) {
-    text += fmt::format("{}\n    {}\n", worst[i]->headline, (folder / worst[i]->file).string());
+    text += fmt::format("{}\n    {}\n", printable(worst[i]->headline), path_text(folder / worst[i]->file));
   }
   if (worst.size() > shown) text += fmt::format("and {} more, see {}\n", worst.size() - shown, index);
   return text.empty() ? text : text + "\n";

@@ -68,19 +68,38 @@ FindingKind kind_of_finding(const Query& query, const std::string& subject, cons
   return k;
 }
 
-FindingKind kind_in_report(const nlohmann::json& report) {
-  const nlohmann::json& f = report.at("finding");
-  FindingKind k{report.at("query"), report.at("subject").at("name"), "", "", ""};
-  if (f.at("verdict") == name_of(Verdict::broke)) {
-    const std::string reason = report.at("answer").at("reason");
+namespace {
+
+std::string breakage_in_report(const FileValue& report) {
+  const FileValue answer = report.at("answer");
+  const std::string reason = answer.at("reason").text();
+  const std::optional<FileValue> late = answer.find("late");
+  return kind_of_breakage(reason, cause_in_report(reason, late && late->flag()));
+}
+
+/// The member of the headline: its index among the members of the finding, or none.
+std::string headline_member_in(const FileValue& finding) {
+  const std::optional<FileValue> headline = finding.find("headline");
+  if (!headline || headline->is_null()) return "";
+  const std::vector<FileValue> members = finding.at("members").items();
+  const std::uint64_t index = headline->whole();
+  if (index >= members.size()) headline->fail("the index of a member of the finding");
+  return members[index].at("member").text();
+}
+
+}  // namespace
+
+FindingKind kind_in_report(const FileValue& report) {
+  const FileValue f = report.at("finding");
+  FindingKind k{report.at("query").text(), report.at("subject").at("name").text(), "", "", ""};
+  if (f.at("verdict").text() == name_of(Verdict::broke)) {
     k.fault = name_of(Verdict::broke);
-    k.clause = kind_of_breakage(reason, cause_in_report(reason, report.at("answer").value("late", false)));
+    k.clause = breakage_in_report(report);
     return k;
   }
-  k.fault = with_hyphens(f.at("disagreement"));
-  k.clause = name_of(clause_in_words(f.at("clause"), f.at("disagreement")));
-  if (f.contains("headline") && f.at("headline").is_number_unsigned())
-    k.member = f.at("members").at(f.at("headline").get<std::size_t>()).at("member");
+  k.fault = with_hyphens(f.at("disagreement").text());
+  k.clause = name_of(clause_in_words(f.at("clause").text(), f.at("disagreement").text()));
+  k.member = headline_member_in(f);
   return k;
 }
 

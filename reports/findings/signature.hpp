@@ -2,10 +2,10 @@
 #pragma once
 
 #include <compare>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "corpus/feature_regions.hpp"
+#include "corpus/file_value.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -38,8 +38,8 @@ struct FindingKind {
 };
 
 FindingKind kind_of_finding(const Query& query, const std::string& subject, const Finding& f);
-/// The kind of the finding in a report file. Throws nlohmann::json::exception where the file is no report.
-FindingKind kind_in_report(const nlohmann::json& report);
+/// The kind of the finding in a report file. Throws BadInput where the file is no report.
+FindingKind kind_in_report(const FileValue& report);
 
 /// Findings of one kind whose cases lie in the same regions, take the same branches of the oracle, and have extreme
 /// numbers or not.

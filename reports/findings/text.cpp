@@ -82,23 +82,6 @@ std::string list_text(std::span<const std::string> items) {
   return text;
 }
 
-std::string shell_quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789/._-+:=@") == std::string::npos;
-  if (plain) return word;
-  std::string text = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      text.append("'\\''");
-    } else {
-      text.push_back(c);
-    }
-  }
-  text.push_back('\'');
-  return text;
-}
-
 std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
                          std::string_view lists_them) {
   const std::vector<std::string> close = close_matches(word, words);
@@ -120,6 +103,8 @@ std::string one_line(std::string_view text, std::size_t most) {
                      printable(text.substr(goes_on)));
 }
 
+std::string path_text(const std::filesystem::path& path) { return printable(path.string()); }
+
 std::string first_words(std::string_view text, std::size_t most) {
   constexpr std::string_view left_out = " ...";
   const std::string line = printable(text);
@@ -133,8 +118,10 @@ std::string first_words(std::string_view text, std::size_t most) {
   return line.substr(0, cut) + std::string(left_out);
 }
 
-std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent,
-                       std::size_t right_from) {
+std::string table_text(std::vector<std::vector<std::string>> rows, std::string_view indent, std::size_t right_from) {
+  for (auto& row : rows) {
+    for (std::string& cell : row) cell = printable(cell);
+  }
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
@@ -155,7 +142,9 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows, std::s
   return text;
 }
 
-std::string wrapped_text(std::string_view text, std::string_view indent, std::size_t width) {
+std::string wrapped_text(std::string_view paragraph, std::string_view indent, std::size_t width) {
+  const std::string shown = printable(paragraph);
+  std::string_view text = shown;
   std::string wrapped, line(indent);
   while (!text.empty()) {
     const std::string_view word = text.substr(0, text.find(' '));

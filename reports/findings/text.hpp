@@ -1,6 +1,7 @@
 /// Formats numbers, lists and tables for readers.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "corpus/near_words.hpp"
 #include "oracles/judge.hpp"
+#include "reports/findings/encoded.hpp"
 
 namespace nearmiss {
 
@@ -29,9 +31,6 @@ std::string plural_text(std::uint64_t n, std::string_view noun);
 /// "a", "a and b", "a, b and c".
 std::string list_text(std::span<const std::string> items);
 
-/// A word of a shell's command line, in single quotes where it holds other than plain characters.
-std::string shell_quoted(const std::string& word);
-
 /// The error for a word that is not among `words`: "unknown query 'x'; did you mean …?", or, where no word is near, the
 /// command that lists them.
 std::string unknown_text(std::string_view what, std::string_view word, std::span<const std::string> words,
@@ -41,16 +40,20 @@ std::string unknown_text(std::string_view what, std::string_view word, std::span
 /// bytes.
 std::string one_line(std::string_view text, std::size_t most = 1000);
 
+/// A file or folder for a line of text: as printable().
+std::string path_text(const std::filesystem::path& path);
+
 /// The first whole words of a text, on one line of at most `most` bytes; " ..." stands for those that are left out. A
 /// first word that is longer is cut.
 std::string first_words(std::string_view text, std::size_t most);
 
 /// A table with columns padded to their widest cell and two spaces between them; the first row is the heading. Columns
-/// from `right_from` on are aligned to the right.
-std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view indent = "",
+/// from `right_from` on are aligned to the right. Cells are shown as printable() writes them.
+std::string table_text(std::vector<std::vector<std::string>> rows, std::string_view indent = "",
                        std::size_t right_from = std::size_t(-1));
 
-/// Text broken at spaces into lines of at most `width`; each line begins with `indent`.
-std::string wrapped_text(std::string_view text, std::string_view indent, std::size_t width = 100);
+/// A paragraph, as printable() writes it, broken at spaces into lines of at most `width`; each line begins with
+/// `indent`.
+std::string wrapped_text(std::string_view paragraph, std::string_view indent, std::size_t width = 100);
 
 }  // namespace nearmiss

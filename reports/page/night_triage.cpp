@@ -120,7 +120,7 @@ std::string NightTriage::counts_text(bool ours) const {
 }
 
 std::string NightTriage::text() const {
-  const std::string page = no_page_.empty() ? (folder_ / "index.html").string() : "none: " + no_page_;
+  const std::string page = no_page_.empty() ? path_text(folder_ / "index.html") : "none: " + no_page_;
   return fmt::format("{}: {}\nother libraries: {}\n{}page: {}", subjects_of_the_night(), counts_text(true),
                      counts_text(false), compared_ ? "" : "no earlier night to compare with\n", page);
 }

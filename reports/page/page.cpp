@@ -9,6 +9,7 @@
 #include "corpus/errors.hpp"
 #include "corpus/source_folder.hpp"
 #include "reports/engine/html.hpp"
+#include "reports/findings/encoded.hpp"
 
 namespace nearmiss {
 
@@ -63,11 +64,11 @@ std::string page_with(const nlohmann::ordered_json& data) {
   check_page_can_be_written();
   std::string page = page_file("page.html");
   put_in_page(page, "/*STYLE*/", page_file("page.css") + page_file("trade.css"));
-  put_in_page(page, "/*D3*/", for_a_script(read_file(d3_file)));
-  put_in_page(page, "/*THREE*/", for_a_script(three_text()));
-  put_in_page(page, "/*SCRIPTS*/", for_a_script(scripts_text()));
+  put_in_page(page, "/*D3*/", in_html_script(read_file(d3_file)));
+  put_in_page(page, "/*THREE*/", in_html_script(three_text()));
+  put_in_page(page, "/*SCRIPTS*/", in_html_script(scripts_text()));
   put_in_page(page, "/*DATA*/",
-              for_a_script(data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
+              in_html_script(data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
   return page;
 }
 

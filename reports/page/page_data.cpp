@@ -11,6 +11,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "corpus/file_value.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/engine/replay.hpp"
@@ -28,11 +29,44 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// An object whose form nobody has checked. Throws BadInput.
-Json read_object(const fs::path& file) {
-  Json j = Json::parse(read_file(file), nullptr, false);
+/// An object that meets the given check. Throws BadInput.
+Json read_object(const fs::path& file, void (*check)(const FileValue&)) {
+  const std::string text = read_file(file);
+  const nlohmann::json j = parse_json(text, file.string());
   if (!j.is_object()) throw BadInput(fmt::format("{}: it is not a JSON object", file.string()));
-  return j;
+  check(FileValue(j, file.string()));
+  return Json::parse(text);
+}
+
+/// What the page reads of the index of a run.
+void check_index(const FileValue& index) {
+  index.expect_schema(run_schema_version);
+  for (const FileValue& t : index.at("tallies").items()) {
+    (void)t.at("query").text(), (void)t.at("subject").text(), (void)t.at("cases").count();
+    for (const auto& [verdict, count] : t.at("verdicts").members()) (void)count.count();
+  }
+  for (const FileValue& r : index.at("reports").items()) {
+    for (const char* member : {"file", "query", "subject", "verdict", "disagreement", "headline"})
+      (void)r.at(member).text();
+    (void)r.at("backward_above_epsilon").number_or_null();
+  }
+  (void)index.at("cases").count(), (void)index.at("findings").count(), (void)index.at("started").text();
+}
+
+/// What the page reads of a triage. It shows what is there: each member of a signature may be missing.
+void check_triage(const FileValue& triage) {
+  triage.expect_schema(1);
+  for (const FileValue& s : triage.at("signatures").items()) {
+    for (const char* member :
+         {"query", "subject", "id", "version", "scalar", "fault", "member", "clause", "headline", "worst", "simplest"})
+      if (const auto text = s.find(member)) (void)text->text();
+    for (const char* member : {"severity", "relative", "ordinary_share"})
+      if (const auto number = s.find(member)) (void)number->not_negative();
+    for (const char* member : {"count", "findings"})
+      if (const auto count = s.find(member)) (void)count->count();
+    for (const char* member : {"reports", "ids", "regions"})
+      if (const auto texts = s.find(member)) (void)texts->texts();
+  }
 }
 
 /// The triage in the folder, or that of the run in it: triage writes to a folder of that name.
@@ -244,12 +278,8 @@ PageData::PageData(fs::path folder, fs::path page_folder)
 }
 
 void PageData::read_triage(const fs::path& file) {
-  const Json j = read_object(file);
-  const Json& list = member_of(j, "signatures");
-  if (number_of_member(j, "schema") != 1 || !list.is_array())
-    throw BadInput(fmt::format("{}: it is not a triage of schema 1", file.string()));
-  for (const Json& s : list) {
-    if (!s.is_object()) throw BadInput(fmt::format("{}: a signature is not an object", file.string()));
+  const Json j = read_object(file, check_triage);
+  for (const Json& s : member_of(j, "signatures")) {
     Json& added = signatures_.emplace_back(s);
     if (std::string fault = text_of_member(s, "fault"); !fault.empty()) {  // a name for files: "false-miss"
       std::replace(fault.begin(), fault.end(), '-', ' ');
@@ -260,16 +290,14 @@ void PageData::read_triage(const fs::path& file) {
               {"totals", member_of(j, "totals")},
               {"sources", member_of(j, "sources")},
               {"environment", member_of(j, "environment")}};
-  if (is_run(folder_)) summary_["run"] = read_object(folder_ / "index.json");
+  if (is_run(folder_)) summary_["run"] = read_object(folder_ / "index.json", check_index);
   const Json& skipped = member_of(j, "skipped");
   if (skipped.is_array()) skipped_ = skipped;
 }
 
 void PageData::read_run(const fs::path& run) {
   run_ = run;
-  Json index = read_object(run / "index.json");
-  if (number_of_member(index, "schema") != 2)
-    throw BadInput(fmt::format("{}: it is not the index of a run, version 2", (run / "index.json").string()));
+  const Json index = read_object(run / "index.json", check_index);
   signatures_ = signatures_in_index(index);
   std::uint64_t reports = 0;
   for (const Json& s : signatures_) reports += s.at("count").get<std::uint64_t>();
@@ -284,12 +312,11 @@ void PageData::read_trend() {
   std::vector<Json> nights;
   for (const auto& entry : fs::directory_iterator(folder_)) {
     if (!entry.is_directory() || !is_run(entry.path())) continue;
-    const Json index = Json::parse(read_file(entry.path() / "index.json"), nullptr, false);
-    if (index.is_object() && number_of_member(index, "schema") == 2) {
-      nights.push_back(night_of(entry.path(), index));
-    } else {
-      skipped_.push_back(
-          {{"file", (entry.path() / "index.json").string()}, {"why", "it is not the index of a run, version 2"}});
+    const fs::path file = entry.path() / "index.json";
+    try {
+      nights.push_back(night_of(entry.path(), read_object(file, check_index)));
+    } catch (const BadInput& e) {
+      skipped_.push_back({{"file", file.string()}, {"why", e.what()}});
     }
   }
   std::sort(nights.begin(), nights.end(), [](const Json& a, const Json& b) {
@@ -349,9 +376,10 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
   try {
     const std::string text = read_file(file);
     const nlohmann::json report = parse_json(text, file.string());
+    const FileValue whole(report, file.string());
     const Case question = case_of(report, file.string());
-    Json j{{"file", path}, {"report", Json::parse(text)}, {"scene", scene_of(question, report)}, {"plots", nullptr}};
-    const Subject* subject = find_subject(report.at("subject").at("name").get<std::string>());
+    Json j{{"file", path}, {"report", Json::parse(text)}, {"scene", scene_of(question, whole)}, {"plots", nullptr}};
+    const Subject* subject = find_subject(whole.at("subject").at("name").text());
     const bool can_ask = subject != nullptr && subject->scalar == question.scalar &&
                          !(subject->offering(question.query->name).answer == nullptr);
     if (can_ask && has_time()) {
@@ -364,8 +392,6 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
     skipped_.push_back({{"file", path}, {"why", fmt::format("internal error: {}", e.what())}});
   } catch (const ReportedError& e) {
     skipped_.push_back({{"file", path}, {"why", e.what()}});
-  } catch (const Json::exception& e) {
-    skipped_.push_back({{"file", path}, {"why", fmt::format("it is no report of this version ({})", e.what())}});
   }
   return "null";
 }

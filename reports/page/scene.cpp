@@ -109,12 +109,12 @@ SceneReal distance_of(const SceneContact& a, const SceneContact& b) {
 /// Assembles the picture of one report.
 class ScenePicture {
  public:
-  ScenePicture(const Case& question, const nlohmann::json& report)
+  ScenePicture(const Case& question, const FileValue& report)
       : question_(question), inputs_(scene_inputs(*question.query, question.values)) {
-    const nlohmann::json& answer = report.at("answer");
-    if (answer.value("status", "") == "answered") claimed_ = contact_in(*question.query, answer.at("values"));
-    for (const nlohmann::json& a : report.at("truth").at("alternatives"))
-      true_.push_back(contact_in(*question.query, a.at("values")));
+    const FileValue answer = report.at("answer");
+    if (answer.at("status").text() == "answered") claimed_ = contact_in(*question.query, answer.at("values").json());
+    for (const FileValue& a : report.at("truth").at("alternatives").items())
+      true_.push_back(contact_in(*question.query, a.at("values").json()));
     std::stable_sort(true_.begin(), true_.end(), [&](const SceneContact& a, const SceneContact& b) {
       return distance_of(a, claimed_) < distance_of(b, claimed_);
     });
@@ -300,7 +300,7 @@ class ScenePicture {
 
 }  // namespace
 
-nlohmann::ordered_json scene_of(const Case& question, const nlohmann::json& report) {
+nlohmann::ordered_json scene_of(const Case& question, const FileValue& report) {
   return ScenePicture(question, report).to_json();
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "corpus/file_value.hpp"
 #include "impl/catalogue/case.hpp"
 
 namespace nearmiss {
@@ -20,7 +21,8 @@ namespace nearmiss {
 /// <= d, a sphere by |center| - radius. A moving shape stands where it is at the time `motion.time`.
 ///
 /// Positions of the true contact are enclosures, given by their middle and half their width. Where several answers are
-/// right, the one nearest to the claimed one is "true", and the others are "also true".
-nlohmann::ordered_json scene_of(const Case& question, const nlohmann::json& report);
+/// right, the one nearest to the claimed one is "true", and the others are "also true". Throws BadInput where the file
+/// is no report.
+nlohmann::ordered_json scene_of(const Case& question, const FileValue& report);
 
 }  // namespace nearmiss

@@ -9,6 +9,7 @@
 #include "corpus/errors.hpp"
 #include "corpus/source_folder.hpp"
 #include "reports/engine/html.hpp"
+#include "reports/findings/encoded.hpp"
 
 namespace nearmiss {
 
@@ -36,9 +37,14 @@ std::string scripts_of_trade_page() {
 
 /// Null for a file that is no trade.
 nlohmann::ordered_json trade_in(const fs::path& file) {
+  using Json = nlohmann::ordered_json;
   nlohmann::ordered_json trade = nlohmann::ordered_json::parse(read_file(file), nullptr, /*allow_exceptions=*/false);
-  const bool is_trade = trade.is_object() && trade.contains("schema") && trade["schema"] == 1 &&
-                        trade.contains("profile") && trade.contains("queries") && trade.contains("tolerance");
+  const auto has = [&](const char* member, Json::value_t type) {
+    return trade.contains(member) && trade[member].type() == type;
+  };
+  const bool is_trade = trade.is_object() && has("schema", Json::value_t::number_unsigned) && trade["schema"] == 1 &&
+                        has("profile", Json::value_t::object) && has("queries", Json::value_t::array) &&
+                        has("tolerance", Json::value_t::object);
   return is_trade ? trade : nullptr;
 }
 
@@ -60,10 +66,10 @@ std::string trade_page_with(const nlohmann::ordered_json& trade) {
     throw BadInput("this build writes no pages, because node-d3 5 was not found when it was configured");
   std::string page = file_of_trade_page("trade.html");
   put_in_page(page, "/*STYLE*/", file_of_trade_page("page.css") + file_of_trade_page("trade.css"));
-  put_in_page(page, "/*D3*/", for_a_script(read_file(d3_of_trades)));
-  put_in_page(page, "/*SCRIPTS*/", for_a_script(scripts_of_trade_page()));
+  put_in_page(page, "/*D3*/", in_html_script(read_file(d3_of_trades)));
+  put_in_page(page, "/*SCRIPTS*/", in_html_script(scripts_of_trade_page()));
   put_in_page(page, "/*DATA*/",
-              for_a_script(trade.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
+              in_html_script(trade.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
   return page;
 }
 

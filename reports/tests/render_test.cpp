@@ -36,6 +36,8 @@ json report_on(const Case& question, const std::function<void(Answer&)>& change 
           {"truth", truth_to_json(*question.query, question.scalar, truth_of(question))}};
 }
 
+json scene_in(const Case& question, const json& report) { return scene_of(question, FileValue(report, "report")); }
+
 Case question_of(const char* query, std::vector<double> values) {
   return {find_query(query), Scalar::float64, std::move(values), "test", 0, 0, {}};
 }
@@ -58,7 +60,7 @@ TEST(Scene, HasTheShapesOfEveryQuery) {
     for (const fs::directory_entry& file :
          fs::directory_iterator(source_folder() + "/corpus/seeds/" + std::string(q.name))) {
       const Case question = *in_scalar(read_case(file.path()), Scalar::float64);
-      const json scene = scene_of(question, report_on(question));
+      const json scene = scene_in(question, report_on(question));
       EXPECT_EQ(complaints(scene, "scene.schema.json"), "") << file.path();
       for (const json& s : scene.at("shapes")) drawn.insert(s.at("name").get<std::string>());
       if (!scene.at("motion").is_null()) drawn.insert("velocity");
@@ -73,7 +75,7 @@ TEST(Scene, HasTheShapesOfEveryQuery) {
 
 TEST(Scene, KnowsWhatMoves) {
   const Case c = question_of("moving_sphere_sphere", {-4, 0, 0, 1, 2, 0, 0, 3, 0, 0, 2});
-  const json scene = scene_of(c, report_on(c));
+  const json scene = scene_in(c, report_on(c));
   EXPECT_EQ(shape_named(scene, "sphere").at("moves"), true);
   EXPECT_EQ(shape_named(scene, "fixed").at("moves"), false);
   const double unit = std::ldexp(1.0, scene.at("unit_exponent").get<int>());
@@ -89,7 +91,7 @@ TEST(Scene, TellsAnUlp) {
   const double x = 1e6, next = std::nextafter(x, 2e6);
   const Case c = question_of("ray_aabox", {2e6, 0.5, 0.5, -1, 0, 0, 0, 0, 0, x, 1, 1});
   const std::size_t place = index_of(*c.query, "location.x");
-  const json scene = scene_of(c, report_on(c, [&](Answer& a) { a.values[place] = next; }));
+  const json scene = scene_in(c, report_on(c, [&](Answer& a) { a.values[place] = next; }));
   const double unit = std::ldexp(1.0, scene.at("unit_exponent").get<int>());
   EXPECT_EQ(scene.at("anchor")[0], x);
   EXPECT_EQ(scene.at("ulp").get<double>() * unit, next - x);
@@ -103,7 +105,7 @@ TEST(Scene, PrefersTheRightAnswerThatIsNearest) {
   const Case c = question_of("closest_point_rectangle_perimeter", {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 0, 0});
   const std::size_t x = index_of(*c.query, "point.x"), y = index_of(*c.query, "point.y");
   for (const double side : {-1.0, 1.0}) {
-    const json scene = scene_of(c, report_on(c, [&](Answer& a) { a.values[x] = 0, a.values[y] = side; }));
+    const json scene = scene_in(c, report_on(c, [&](Answer& a) { a.values[x] = 0, a.values[y] = side; }));
     EXPECT_EQ(scene.at("anchor"), json({0, side, 0}));
     const json& contacts = scene.at("contacts");
     EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(), [](const json& k) { return k.at("of") == "true"; }), 1);
@@ -116,7 +118,7 @@ TEST(Scene, PrefersTheRightAnswerThatIsNearest) {
 TEST(Scene, HasNoCancellation) {
   const double r = 1e8 + 1;
   const Case c = question_of("sphere_sphere_overlap", {0, 0, 0, 0, r, 1, 0, r});
-  const json scene = scene_of(c, report_on(c));
+  const json scene = scene_in(c, report_on(c));
   const double unit = std::ldexp(1.0, scene.at("unit_exponent").get<int>()),
                gap = 1 / (2 * r);  // of (r, 1, 0) to the origin, but for 1/(8 r^3)
   EXPECT_NEAR(std::hypot(scene.at("anchor")[0].get<double>(), scene.at("anchor")[1].get<double>()), gap, 1e-6 * gap);
@@ -127,7 +129,7 @@ TEST(Scene, HasNoCancellation) {
 /// Of the corners of a box those behind the plane, as the answer lists them.
 TEST(Scene, HasEveryContact) {
   const Case c = question_of("box_plane_penetration", {0, 0, 0, 1, 2, 3, 0, 0, 0, 1, 0, 0, 1, 0});
-  const json scene = scene_of(c, report_on(c));
+  const json scene = scene_in(c, report_on(c));
   std::map<std::string, std::set<json>> places;
   for (const json& contact : scene.at("contacts")) places[contact.at("of")].insert(contact.at("at"));
   EXPECT_EQ(places["true"].size(), 4u);
@@ -138,7 +140,7 @@ TEST(Scene, HasEveryContact) {
 TEST(Scene, HoldsTheLargestNumbers) {
   const double most = largest_finite(Scalar::float64);
   const Case c = question_of("sphere_sphere_overlap", {-most, 0, 0, 1, most, 0, 0, 1});
-  const json scene = scene_of(c, report_on(c));
+  const json scene = scene_in(c, report_on(c));
   EXPECT_EQ(complaints(scene, "scene.schema.json"), "");
 }
 
@@ -284,13 +286,15 @@ TEST_F(Render, HoldsTheTradesOfTheFolder) {
 TEST_F(Render, RefusesFoldersWithoutFindings) {
   expect_refused("it holds neither triage.json nor a run's index.json");
   folder_.file("index.json", "[1");
+  expect_refused("index.json: at [1]: ");
+  folder_.file("index.json", "[1]");
   expect_refused("index.json: it is not a JSON object");
   folder_.file("index.json", R"({"schema": 1})");
-  expect_refused("it is not the index of a run, version 2");
+  expect_refused("schema is 1: it must be 2");
   folder_.file("triage.json", R"({"schema": 7, "signatures": []})");
-  expect_refused("it is not a triage of schema 1");
+  expect_refused("schema is 7: it must be 1");
   folder_.file("triage.json", R"({"schema": 1, "signatures": [3]})");
-  expect_refused("a signature is not an object");
+  expect_refused("signatures[0] is 3: it must be an object");
   EXPECT_EQ(nearmiss({"render", (folder_ / "no such folder").string()}).exit_code, 2);
 }
 

@@ -237,7 +237,7 @@ TEST_F(Triaged, SaysWhyItCannotRun) {
   };
   expect({path("nothing")}, "no such file or folder");
   expect({folder_.file("x.json", "{}")}, "no report could be read; 1 file skipped");
-  expect({of, "--baseline", folder_.file("y.json", "{\"schema\": 7}")}, "its schema is 7");
+  expect({of, "--baseline", folder_.file("y.json", "{\"schema\": 7}")}, "schema is 7: it must be 1");
   expect({of, "--decisions", path("nothing")}, "nothing");
   const Ran without = nearmiss({"triage", of});
   EXPECT_EQ(without.exit_code, 2);

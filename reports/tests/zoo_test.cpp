@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corpus/codec.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -74,8 +75,8 @@ void expect_to_cost_only_itself(const Misdeed& m, bool plugin) {
   EXPECT_TRUE(nothing_is_left(mark)) << "something that it started lives";
   EXPECT_LT(shmget(0x4e4d, 0, 0), 0) << "its shared memory is left";
   for (const std::string* text : {&ran.out, &ran.err}) {
-    EXPECT_EQ(text->find('\033'), std::string::npos) << *text;
-    EXPECT_EQ(text->find("\xe2\x80\xae"), std::string::npos) << *text;
+    EXPECT_EQ(for_terminal(*text), *text);
+    EXPECT_FALSE(text->starts_with("INJECTED") || text->find("\nINJECTED") != std::string::npos) << *text;
   }
   if (m.end == End::refused || m.end == End::differs) {
     EXPECT_EQ(ran.exit_code, 2) << ran.out << ran.err;
@@ -471,6 +472,43 @@ TEST(Zoo, CrowdOfPrograms) {
       },
       false);
 }
+/// Texts that mean something to a terminal, a compiler, a browser, a shell or a reader of files.
+const Misdeed texts_of_plugins[] = {
+    {"text-version-comment", End::judged, ""},
+    {"text-version-lines", End::judged, ""},
+    {"text-version-markdown", End::judged, ""},
+    {"text-version-html", End::judged, ""},
+    {"text-version-escapes", End::judged, ""},
+    {"text-version-not-utf8", End::judged, ""},
+    {"text-version-long", End::refused, "bytes, more than 500"},
+    {"text-equivalence-trigraph", End::judged, ""},
+    {"text-equivalence-json", End::judged, ""},
+    {"text-equivalence-separator", End::judged, ""},
+    {"text-why-shell", End::judged, ""},
+    {"text-why-direction", End::judged, ""},
+    {"text-why-escapes", End::judged, ""},
+    {"text-error-lines", End::broke, "killed by signal 6"},
+    {"text-error-cdata", End::broke, "killed by signal 6"},
+    {"text-error-formula", End::broke, "killed by signal 6"},
+    {"text-error-formats", End::broke, "killed by signal 6"},
+    {"text-error-not-utf8", End::broke, "killed by signal 6"},
+    {"text-error-long", End::broke, "killed by signal 6"},
+    {"text-error-nul", End::broke, "killed by signal 6"},
+    {"text-name-escapes", End::refused, "its name is '\\x1b[2J"},
+};
+
+const Misdeed texts_of_programs[] = {
+    {"text-version-comment", End::judged, ""},
+    {"text-version-separator", End::judged, ""},
+    {"text-version-not-utf8", End::refused, "is no JSON"},
+    {"text-how-html", End::judged, ""},
+    {"text-how-formats", End::judged, ""},
+    {"text-why-json", End::judged, ""},
+    {"text-why-lines", End::judged, ""},
+    {"text-error-escapes", End::broke, "killed by signal 6"},
+    {"text-error-long", End::broke, "killed by signal 6"},
+    {"text-refused-lines", End::refused, "1\\x0a#error INJECTED"},
+};
 
 std::string name_of_test(const testing::TestParamInfo<Misdeed>& info) {
   std::string name = info.param.name;
@@ -484,6 +522,8 @@ INSTANTIATE_TEST_SUITE_P(OfPlugins, Plugin, testing::ValuesIn(of_plugins), name_
 INSTANTIATE_TEST_SUITE_P(AtLoad, Program, testing::ValuesIn(at_load), name_of_test);
 INSTANTIATE_TEST_SUITE_P(WhenAsked, Program, testing::ValuesIn(when_asked), name_of_test);
 INSTANTIATE_TEST_SUITE_P(OfPrograms, Program, testing::ValuesIn(of_programs), name_of_test);
+INSTANTIATE_TEST_SUITE_P(Texts, Plugin, testing::ValuesIn(texts_of_plugins), name_of_test);
+INSTANTIATE_TEST_SUITE_P(Texts, Program, testing::ValuesIn(texts_of_programs), name_of_test);
 
 }  // namespace
 }  // namespace nearmiss

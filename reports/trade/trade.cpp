@@ -51,7 +51,7 @@ Trade::Trade(TradeSettings settings)
       dispatcher_([this] { return tick(0), !interrupted(); }),
       internal_errors_(settings_.folder),
       profile_(settings_.subjects.size()) {
-  make_folder(settings_.folder);
+  make_writable_folder(settings_.folder);
   for (const Query* q : settings_.queries) total_ += offering(*q).size() * settings_.cases;
 }
 

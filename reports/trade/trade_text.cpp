@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/engine/interrupt.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/trade/trade.hpp"
 
@@ -67,8 +68,9 @@ std::string number_or_empty(const std::optional<double>& x) {
 }
 
 std::string line_of_csv(const TradedQuery& t, const TradeSummary& s) {
-  std::string line = fmt::format("{},{},{},{},{},{},{},{},{}", t.query->name, s.subject->name, t.cases, s.compared,
-                                 s.no_answer, s.not_asked, s.broke.count, name_of(s.timed), s.pinned ? "yes" : "no");
+  std::string line =
+      fmt::format("{},{},{},{},{},{},{},{},{}", csv_cell(t.query->name), csv_cell(s.subject->name), t.cases, s.compared,
+                  s.no_answer, s.not_asked, s.broke.count, name_of(s.timed), s.pinned ? "yes" : "no");
   const auto add = [&](const std::optional<double>& x) { line.append(",").append(number_or_empty(x)); };
   for (const auto& q : {s.nanoseconds, s.shift, s.backward, s.ulps, s.distance, s.time}) {
     for (const auto& x : {p50_of(q), p99_of(q), max_of(q)}) add(x);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/replay.hpp"
@@ -84,16 +85,17 @@ bool add_absent(const TriagedSignature& earlier, Triage& now, Workers& workers) 
 void add_right_now(const Triage& t, std::vector<TriagedSignature>& rows) {
   for (const FiledReport& r : t.right_now) {
     const nlohmann::json j = parse_json(read_file(r.file), r.file.string());
+    const FileValue report(j, r.file.string());
     TriagedSignature s;
-    s.kind = kind_in_report(j);
+    s.kind = kind_in_report(report);
     s.id = id_of(s);
     const auto same = std::find_if(rows.begin(), rows.end(), [&](const auto& o) { return o.id == s.id; });
     if (same != rows.end()) {
       same->reports.push_back(r.file.string());
       continue;
     }
-    s.version = j.at("subject").at("version");
-    s.headline = j.at("headline");
+    s.version = report.at("subject").at("version").text();
+    s.headline = report.at("headline").text();
     s.cause.text = "It was not looked for: the subject is right now.";
     s.case_of_simplest = r.question;
     s.reports = {r.file.string()};

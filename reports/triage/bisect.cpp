@@ -10,6 +10,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "corpus/file_value.hpp"
 #include "impl/host/supervisor.hpp"
 #include "reports/findings/text.hpp"
 
@@ -101,10 +102,16 @@ class Checkout {
   fs::path repository_, folder_;
 };
 
-/// "false miss", "broke" or "agrees": what a report of the replay says.
-std::string said_by(const nlohmann::json& finding) {
-  const std::string disagreement = finding.at("disagreement");
-  return disagreement == "none" ? std::string(finding.at("verdict")) : disagreement;
+/// What a report of the replay says, where the revision may be of another version.
+struct Said {
+  std::string verdict, disagreement;
+  /// "false miss", "broke" or "agrees".
+  const std::string& in_a_word() const { return disagreement == "none" ? verdict : disagreement; }
+};
+
+Said said_in(const nlohmann::json& reports) {
+  const FileValue finding = FileValue(reports, "the replay").items().at(0).at("finding");
+  return {finding.at("verdict").text(), finding.at("disagreement").text()};
 }
 
 class Bisector {
@@ -154,10 +161,14 @@ class Bisector {
       step.why = "the case cannot be asked: " + last_words(replayed.output);
       return;
     }
-    const nlohmann::json& finding = reports[0].at("finding");
-    step.why = said_by(finding);
-    const bool same = finding.at("verdict") == b_.verdict && finding.at("disagreement") == b_.disagreement;
-    step.seen = same ? Seen::present : Seen::absent;
+    try {
+      const Said said = said_in(reports);
+      step.why = said.in_a_word();
+      const bool same = said.verdict == b_.verdict && said.disagreement == b_.disagreement;
+      step.seen = same ? Seen::present : Seen::absent;
+    } catch (const BadInput& e) {
+      step.why = fmt::format("the case cannot be asked: {}", e.what());
+    }
   }
   void expect(const std::string& hash, const std::string& revision, Seen seen) {
     checked({"checkout", "--detach", hash});

@@ -4,6 +4,17 @@
 
 namespace nearmiss {
 
+namespace {
+
+CauseKind cause_kind_in(const FileValue& word) {
+  for (int k = 0; k <= int(CauseKind::unexplained); ++k) {
+    if (word.text() == name_of(CauseKind(k))) return CauseKind(k);
+  }
+  word.fail("the kind of a cause");
+}
+
+}  // namespace
+
 nlohmann::ordered_json cause_to_json(const Cause& cause) {
   nlohmann::ordered_json evidence = nlohmann::ordered_json::array();
   for (const Evidence& e : cause.evidence) evidence.push_back({{"test", e.test}, {"result", e.result}});
@@ -14,16 +25,14 @@ nlohmann::ordered_json cause_to_json(const Cause& cause) {
           {"questions", cause.questions}};
 }
 
-Cause cause_from_json(const nlohmann::json& j) {
+Cause cause_from_json(const FileValue& j) {
   Cause cause;
-  const std::string kind = j.at("kind");
-  for (int k = 0; k <= int(CauseKind::unexplained); ++k) {
-    if (kind == name_of(CauseKind(k))) cause.kind = CauseKind(k);
-  }
-  cause.key = j.at("key");
-  cause.text = j.at("text");
-  for (const nlohmann::json& e : j.at("evidence")) cause.evidence.push_back({e.at("test"), e.at("result")});
-  cause.questions = j.value("questions", std::uint64_t(0));
+  cause.kind = cause_kind_in(j.at("kind"));
+  cause.key = j.at("key").text();
+  cause.text = j.at("text").text();
+  for (const FileValue& e : j.at("evidence").items())
+    cause.evidence.push_back({e.at("test").text(), e.at("result").text()});
+  if (const auto questions = j.find("questions")) cause.questions = questions->count();
   return cause;
 }
 

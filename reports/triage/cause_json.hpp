@@ -3,11 +3,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "corpus/file_value.hpp"
 #include "reports/triage/cause.hpp"
 
 namespace nearmiss {
 
-/// The inverse of cause_to_json(); the number of questions may be missing. Throws nlohmann::json::exception.
-Cause cause_from_json(const nlohmann::json& j);
+/// The inverse of cause_to_json(); the number of questions may be missing. Throws BadInput.
+Cause cause_from_json(const FileValue& j);
 
 }  // namespace nearmiss

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/pretty_json.hpp"
@@ -31,14 +32,15 @@ constexpr double share_of_minimising = 0.25;
 std::optional<ExaminedCase> ExaminedCases::earlier(const FiledReport& of) try {
   std::error_code error;
   if (!fs::is_regular_file(file_of(of), error)) return std::nullopt;
-  const json kept = json::parse(read_file(file_of(of)));
+  const json kept = parse_json(read_file(file_of(of)), file_of(of).string());
   if (kept.at("schema") != examined_schema_version || kept.at("version") != of.subject->version ||
       kept.at("nearmiss") != version()) {
     return std::nullopt;
   }
   const fs::path file = folder_ / kept.at("simplest").get<std::string>();
-  const json report = json::parse(read_file(file));
-  ExaminedCase e{case_of(report, file.string()), file, 0, {}, cause_from_json(report.at("cause"))};
+  const json report = parse_json(read_file(file), file.string());
+  ExaminedCase e{
+      case_of(report, file.string()), file, 0, {}, cause_from_json(FileValue(report, file.string()).at("cause"))};
   const Report now = nearmiss::examine(e.simplest, *of.subject, workers_);
   if (!is_bad(now.finding) || json(answer_to_json(*e.simplest.query, now.answer)) != report.at("answer"))
     return std::nullopt;

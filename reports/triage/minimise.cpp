@@ -189,6 +189,18 @@ std::string_view name_of(Minimised::End end) {
   return "?";
 }
 
+namespace {
+
+Minimised::End end_in(const FileValue& words) {
+  for (const auto end :
+       {Minimised::End::simplest, Minimised::End::questions, Minimised::End::time, Minimised::End::interrupted}) {
+    if (words.text() == name_of(end)) return end;
+  }
+  words.fail("what ended the search for a simpler case");
+}
+
+}  // namespace
+
 nlohmann::ordered_json minimised_to_json(const Minimised& m) {
   const Query& query = *m.report.question.query;
   nlohmann::ordered_json j = report_to_json(m.report);
@@ -204,20 +216,18 @@ nlohmann::ordered_json minimised_to_json(const Minimised& m) {
   return j;
 }
 
-Minimised minimised_from_json(const nlohmann::json& minimised, const Report& report) {
+Minimised minimised_from_json(const FileValue& minimised, const Report& report) {
   Minimised m;
   m.report = report;
-  m.questions = minimised.at("questions");
-  for (const auto end : {Minimised::End::questions, Minimised::End::time, Minimised::End::interrupted}) {
-    if (minimised.at("ended_by") == name_of(end)) m.end = end;
-  }
+  m.questions = minimised.at("questions").count();
+  m.end = end_in(minimised.at("ended_by"));
   const std::vector<Field>& inputs = report.question.query->inputs;
-  for (const nlohmann::json& range : minimised.at("same_finding")) {
-    const auto field =
-        std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return range.at("number") == f.name; });
+  for (const FileValue& range : minimised.at("same_finding").items()) {
+    const std::string name = range.at("number").text();
+    const auto field = std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return name == f.name; });
     if (field == inputs.end()) continue;
-    m.ranges.push_back({std::size_t(field - inputs.begin()), range.at("low"), range.at("high"), range.at("to_lowest"),
-                        range.at("to_highest")});
+    m.ranges.push_back({std::size_t(field - inputs.begin()), range.at("low").number(), range.at("high").number(),
+                        range.at("to_lowest").flag(), range.at("to_highest").flag()});
   }
   m.all_ranges = m.ranges.size() == std::size_t(std::count_if(inputs.begin(), inputs.end(), has_range));
   return m;

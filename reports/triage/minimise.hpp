@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corpus/file_value.hpp"
 #include "reports/findings/report.hpp"
 
 namespace nearmiss {
@@ -55,9 +56,9 @@ std::optional<Minimised> minimise(const Case& question, const Subject& subject, 
 std::string_view name_of(Minimised::End end);
 /// The report with the member "minimised" (reports/report.schema.json).
 nlohmann::ordered_json minimised_to_json(const Minimised& m);
-/// The inverse for the member "minimised" of a report. Throws nlohmann::json::exception; a number that the query does
-/// not have is left out.
-Minimised minimised_from_json(const nlohmann::json& minimised, const Report& report);
+/// The inverse for the member "minimised" of a report. A number that the query does not have is left out. Throws
+/// BadInput.
+Minimised minimised_from_json(const FileValue& minimised, const Report& report);
 /// Which numbers matter, as a table.
 std::string ranges_text(const Minimised& m);
 

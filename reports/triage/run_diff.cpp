@@ -6,10 +6,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/engine/run_folder.hpp"
 #include "reports/engine/variant_counts.hpp"
 #include "reports/findings/report.hpp"
@@ -40,9 +40,9 @@ struct RunFindings {
 
 /// Adds a report's bound, and in a run without counts of variants the report itself.
 void add_report(RunFindings& run, const fs::path& folder, const WrittenReport& w, bool has_counts) {
-  const json report = json::parse(read_file(folder / w.file), nullptr, false);
-  if (!report.is_object()) return;
-  KindInRuns::InRun& kind = run.kinds[kind_in_report(report)];
+  const std::string file = (folder / w.file).string();
+  const json report = parse_json(read_file(file), file);
+  KindInRuns::InRun& kind = run.kinds[kind_in_report(FileValue(report, file))];
   if (!has_counts) ++kind.findings;
   if (!kind.file.empty() && w.above.value_or(-1) <= kind.above.value_or(-1)) return;
   kind.above = w.above;
@@ -51,19 +51,19 @@ void add_report(RunFindings& run, const fs::path& folder, const WrittenReport& w
 
 RunFindings findings_of(const fs::path& folder) {
   settle_run(folder);
-  const fs::path file = folder / "index.json";
-  const json index = parse_json(read_file(file), file.string());
+  const std::string file = (folder / "index.json").string();
+  const json j = parse_json(read_file(file), file);
+  const FileValue index(j, file);
+  index.expect_schema(run_schema_version);
   RunFindings run;
-  try {
-    for (const json& t : index.at("tallies")) run.asked[{t.at("query"), t.at("subject")}] = t.at("cases");
-    const bool has_counts = index.contains("variants");
-    for (const CountedVariant& v : variants_in(index)) run.kinds[v.kind].findings += v.count.findings;
-    for (const WrittenReport& w : reports_on_disk(folder)) add_report(run, folder, w, has_counts);
-  } catch (const json::exception&) {
-    throw BadInput(fmt::format("{}: it is no index of a run of this version", file.string()));
-  } catch (const std::logic_error&) {  // of a number in it
-    throw BadInput(fmt::format("{}: it is no index of a run of this version", file.string()));
+  for (const FileValue& t : index.at("tallies").items()) {
+    const auto [at, is_new] =
+        run.asked.try_emplace({t.at("query").text(), t.at("subject").text()}, t.at("cases").count());
+    if (!is_new) t.fail("the only one of its query and subject");
   }
+  const bool has_counts = index.find("variants").has_value();
+  for (const CountedVariant& v : variants_in(index)) run.kinds[v.kind].findings += v.count.findings;
+  for (const WrittenReport& w : reports_on_disk(folder)) add_report(run, folder, w, has_counts);
   for (auto& [kind, in_run] : run.kinds) in_run.asked = run.asked_of(kind);
   // Reports of an earlier run in the same folder may concern what this run did not ask.
   std::erase_if(run.kinds, [](const auto& k) { return k.second.findings == 0; });
@@ -159,7 +159,7 @@ std::string diff_text(const fs::path& after, const std::vector<KindInRuns>& kind
                     rate_text(k.after)});
     const bool shows =
         (k.change == KindInRuns::Change::fresh || k.change == KindInRuns::Change::worse) && !k.after.file.empty();
-    if (shows) files += fmt::format("{}: {}\n", name_of(k.change), (after / k.after.file).string());
+    if (shows) files += fmt::format("{}: {}\n", name_of(k.change), path_text(after / k.after.file));
   }
   return table_text(rows, "", 4) + (files.empty() ? "" : "\n" + files);
 }

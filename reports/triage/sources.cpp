@@ -7,10 +7,12 @@
 #include <set>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
 #include "reports/engine/progress.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/signature.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/workers.hpp"
 
@@ -31,11 +33,19 @@ std::string complaint(const json& j) {
     return fmt::format("its schema is {}; reports of schema {} can be triaged", one_line(version.dump(), 20),
                        report_schema_version);
   }
-  if (j.contains("relation") && j["finding"].is_object() && j["finding"].value("disagreement", "none") == "none" &&
-      j["finding"].value("verdict", "") != name_of(Verdict::broke)) {
+  const auto is = [&](const char* member, std::string_view word) {
+    return j["finding"].is_object() && j["finding"].contains(member) && j["finding"][member] == word;
+  };
+  if (j.contains("relation") && is("disagreement", "none") && !is("verdict", name_of(Verdict::broke))) {
     return "its finding lies in the relation of several cases, and the answer to its own case is right";
   }
   return "";
+}
+
+/// The subject of a report. Throws BadInput where there is none here.
+const Subject* named_subject(const FileValue& report) {
+  (void)report.at("subject").at("name").text();
+  return *subject_of_report(report.json(), report.file());
 }
 
 class Reader {
@@ -84,17 +94,19 @@ class Reader {
   }
   void read_index(const fs::path& file) try {
     const json index = parse_json(read_file(file), file.string());
-    for (CountedVariant& v : variants_in(index)) sources.counts.push_back(std::move(v));
+    const FileValue whole(index, file.string());
+    whole.expect_schema(run_schema_version);
+    for (CountedVariant& v : variants_in(whole)) sources.counts.push_back(std::move(v));
   } catch (const BadInput& e) {
     skip(file, without_name(file, e.what()));
-  } catch (const std::exception&) {  // of JSON, or of a number in it
-    skip(file, "it is no index of a run of this version");
   }
   void read_file_of_report(const fs::path& file) try {
     const json j = parse_json(read_file(file), file.string());
     if (const std::string why = complaint(j); !why.empty()) return skip(file, why);
-    FiledReport r{file, j.at("id"), case_of(j, file.string()), nullptr, measure_of(j, file.string())};
-    r.subject = *subject_of_report(j, file.string());
+    const FileValue report(j, file.string());
+    (void)kind_in_report(report);  // refuses what a baseline could not read
+    FiledReport r{file, report.at("id").text(), case_of(j, file.string()), nullptr, measure_of(j, file.string())};
+    r.subject = named_subject(report);
     const std::optional<Case> same = in_scalar(r.question, r.subject->scalar);
     if (!same || r.subject->offering(r.question.query->name).answer == nullptr)
       return skip(file, fmt::format("{} cannot be asked this case", r.subject->name));
@@ -102,8 +114,6 @@ class Reader {
     if (ids_.insert(r.id).second) sources.reports.push_back(std::move(r));
   } catch (const BadInput& e) {
     skip(file, without_name(file, e.what()));
-  } catch (const json::exception&) {
-    skip(file, "it is no report");
   }
   /// Errors of codecs begin with the file.
   static std::string without_name(const fs::path& file, const std::string& what) {
@@ -126,7 +136,7 @@ void name_skipped(const Sources& sources) {
   constexpr std::size_t named = 10;
   for (std::size_t i = 0; i < sources.skipped.size() && i < named; ++i) {
     const auto& [file, why] = sources.skipped[i];
-    say_on_stderr(fmt::format("nearmiss: skipped {}: {}\n", file, one_line(why)));
+    say_on_stderr(fmt::format("nearmiss: skipped {}: {}\n", one_line(file), one_line(why)));
   }
   if (sources.skipped.size() > named) {
     say_on_stderr(fmt::format("nearmiss: and {} more\n", sources.skipped.size() - named));

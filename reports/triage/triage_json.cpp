@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/codec.hpp"
+#include "corpus/file_value.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/cause_json.hpp"
 #include "reports/triage/triage_text.hpp"
@@ -93,27 +95,51 @@ Json totals(const Triage& t) {
           {"right_now", t.right_now.size()}};
 }
 
-TriagedSignature signature_from_json(const nlohmann::json& j, const std::string& where) {
+/// The case of a signature, of the signature's query.
+Case case_in(const FileValue& j) {
+  try {
+    return case_from_json(j.json(), j.file());
+  } catch (const BadInput& e) {
+    throw BadInput(fmt::format("{}, in the case of a signature", e.what()));
+  }
+}
+
+double number_up_to(double most, const FileValue& j) {
+  if (!j.json().is_number() || j.number() < 0 || j.number() > most) j.fail(fmt::format("a number from 0 to {}", most));
+  return j.number();
+}
+
+std::optional<SignatureChange> change_in(const FileValue& word) {
+  if (word.is_null()) return std::nullopt;
+  for (const SignatureChange c :
+       {SignatureChange::fresh, SignatureChange::worse, SignatureChange::known, SignatureChange::fixed}) {
+    if (word.json() == name_of(c)) return c;
+  }
+  word.fail("\"new\", \"worse\", \"known\", \"fixed\" or null");
+}
+
+TriagedSignature signature_from_json(const FileValue& j) {
   TriagedSignature s;
-  s.id = j.at("id");
-  s.kind = {j.at("query"), j.at("subject"), j.at("fault"), j.at("member"), j.at("clause")};
+  s.id = j.at("id").text();
+  s.kind = {j.at("query").text(), j.at("subject").text(), j.at("fault").text(), j.at("member").text(),
+            j.at("clause").text()};
   s.cause = cause_from_json(j.at("cause"));
-  s.branches = std::stoull(j.at("branches").get<std::string>(), nullptr, 16);
-  s.regions = feature_regions_named(j.at("regions"));
-  s.version = j.at("version");
-  s.examined = j.at("examined");
-  s.size.relative = j.at("relative");
-  if (!j.at("above_epsilon").is_null()) s.size.above_epsilon = j.at("above_epsilon").get<double>();
-  s.size.amount = j.at("amount"), s.size.unit = j.at("unit");
-  s.severity = j.at("severity");
-  s.headline = j.at("headline");
-  s.findings = j.at("findings");
-  s.ordinary_share = j.at("ordinary_share");
-  s.worst = j.at("worst"), s.simplest = j.at("simplest");
-  s.case_of_simplest = case_from_json(j.at("case"), where);
-  s.reports = j.at("reports").get<std::vector<std::string>>();
-  s.ids = j.at("ids").get<std::vector<std::string>>();
-  if (j.at("change") == name_of(SignatureChange::fixed)) s.change = SignatureChange::fixed;
+  s.branches = j.at("branches").hexadecimal();
+  s.regions = feature_regions_named(j.at("regions").texts());
+  s.version = j.at("version").text();
+  s.examined = j.at("examined").flag();
+  s.size.relative = j.at("relative").not_negative();
+  s.size.above_epsilon = j.at("above_epsilon").number_or_null();
+  s.size.amount = j.at("amount").not_negative(), s.size.unit = j.at("unit").text();
+  s.severity = number_up_to(100, j.at("severity"));
+  s.headline = j.at("headline").text();
+  s.findings = j.at("findings").count();
+  s.ordinary_share = number_up_to(1, j.at("ordinary_share"));
+  s.worst = j.at("worst").text(), s.simplest = j.at("simplest").text();
+  s.case_of_simplest = case_in(j.at("case"));
+  s.reports = j.at("reports").texts();
+  s.ids = j.at("ids").texts();
+  if (change_in(j.at("change")) == SignatureChange::fixed) s.change = SignatureChange::fixed;
   return s;
 }
 
@@ -169,30 +195,15 @@ Json sarif_result(const TriagedSignature& s) {
 
 // JUnit.
 
-/// Text of XML 1.0: escaped, and without the control characters that it forbids.
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += std::uint8_t(c) < 0x20 && c != '\n' ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::string junit_outcome(const TriagedSignature& s) {
   if (s.change == SignatureChange::fixed) return "";
   const std::string_view change = s.change ? name_of(*s.change) : "stands";
   if (s.stands()) {
-    return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n", xml(s.kind.fault),
-                       xml(fmt::format("{}: {}", change, s.headline)), xml(signature_text(s)));
+    return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n", in_xml(s.kind.fault),
+                       in_xml(fmt::format("{}: {}", change, s.headline)), in_xml(signature_text(s)));
   }
   const std::string why = s.decision ? std::string(name_of(s.decision->kind)) : std::string(change);
-  return fmt::format("      <skipped message=\"{}\"/>\n", xml(why));
+  return fmt::format("      <skipped message=\"{}\"/>\n", in_xml(why));
 }
 
 }  // namespace
@@ -210,18 +221,11 @@ Json triage_to_json(const Triage& t) {
 }
 
 std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, const std::string& where) {
-  try {
-    if (j.at("schema") != triage_schema_version)
-      throw BadInput(fmt::format("{}: its schema is {}; this build reads the result of a triage of schema {}", where,
-                                 one_line(j.at("schema").dump(), 20), triage_schema_version));
-    std::vector<TriagedSignature> all;
-    for (const nlohmann::json& s : j.at("signatures")) all.push_back(signature_from_json(s, where));
-    return all;
-  } catch (const nlohmann::json::exception&) {
-    throw BadInput(fmt::format("{}: it is no result of a triage", where));
-  } catch (const std::logic_error&) {  // of std::stoull
-    throw BadInput(fmt::format("{}: it is no result of a triage", where));
-  }
+  const FileValue whole(j, where);
+  whole.expect_schema(triage_schema_version);
+  std::vector<TriagedSignature> all;
+  for (const FileValue& s : whole.at("signatures").items()) all.push_back(signature_from_json(s));
+  return all;
 }
 
 Json triage_to_sarif(const Triage& t) {
@@ -250,8 +254,8 @@ std::string triage_to_junit(const Triage& t) {
     failures += s.stands();
     skipped += !s.stands() && s.change != SignatureChange::fixed;
     const std::string outcome = junit_outcome(s);
-    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{} {}\"", xml(s.kind.subject), xml(s.kind.query),
-                         xml(s.kind.fault), s.id);
+    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{} {}\"", in_xml(s.kind.subject),
+                         in_xml(s.kind.query), in_xml(s.kind.fault), s.id);
     cases += outcome.empty() ? "/>\n" : ">\n" + outcome + "    </testcase>\n";
   }
   const std::string counts =

@@ -76,7 +76,7 @@ std::string signature_text(const TriagedSignature& s) {
   const std::string findings = findings_text(s);
   text += wrapped_text(size_text(s.size) + (findings.empty() ? "" : "; " + findings), "     ");
   text += wrapped_text(s.cause.text + needs_text(s), "     ");
-  if (!s.simplest.empty()) text += fmt::format("     {}\n", s.simplest);
+  if (!s.simplest.empty()) text += fmt::format("     {}\n", path_text(s.simplest));
   return text;
 }
 

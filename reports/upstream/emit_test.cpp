@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "corpus/errors.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/version.hpp"
@@ -217,7 +218,9 @@ int main(int argc, char** argv) {
     return asking_.style == Asking::Style::googletest || asking_.style == Asking::Style::googletest_with_main;
   }
   bool late() const { return r_.finding.verdict == Verdict::broke && r_.answer.late(); }
-  std::string paragraph(const std::string& text) const { return wrapped_text(text, in_c_ ? " * " : "// ", 100); }
+  std::string paragraph(const std::string& text) const {
+    return wrapped_text(in_c_comment(text), in_c_ ? " * " : "// ", 100);
+  }
   std::string heading() const {
     const std::string empty = in_c_ ? " *\n" : "//\n";
     return (in_c_ ? "/*\n" : "") + paragraph(headline(r_) + ".") + empty + paragraph(explanation(r_)) +
@@ -244,7 +247,7 @@ int main(int argc, char** argv) {
     if (late()) text += fmt::format("alarm({});{}\n", patience, in_c_ ? "" : "  // the library does not return");
     if (decides(r_.question.query->kind)) text += in_c_ ? "int got_yes = 0;\n" : "bool got_yes = false;\n";
     text += conditions_.declarations() + asking_.statements + "\n";
-    const std::string truth = "Exactly, " + truth_text(*r_.question.query, r_.truth) + ".";
+    const std::string truth = in_c_comment("Exactly, " + truth_text(*r_.question.query, r_.truth) + ".");
     return text + (in_c_ ? "/* " + truth + " */\n" : "// " + truth + "\n") + conditions_.test() + verdict();
   }
   std::string verdict() const {

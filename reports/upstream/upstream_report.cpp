@@ -9,6 +9,7 @@
 
 #include "corpus/codec.hpp"
 #include "corpus/errors.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
@@ -28,22 +29,23 @@ std::string without_folders(const std::string& text) {
 
 std::string title(const Report& r) {
   const std::string line = headline(r);
-  return fmt::format("{}: {}", r.version, without_folders(line.substr(0, line.find(", by more than"))));
+  return in_markdown(fmt::format("{}: {}", r.version, without_folders(line.substr(0, line.find(", by more than")))));
 }
 
 std::string environment(const Report& r, const Subject& subject) {
   const std::string& how = subject.offering(r.question.query->name).how;
   std::string text = "| | |\n|---|---|\n";
-  text += fmt::format("| library | {} |\n| asked as | `{}`{} |\n", r.version, r.subject, how.empty() ? "" : ": " + how);
+  text += fmt::format("| library | {} |\n| asked as | `{}`{} |\n", in_markdown(r.version), r.subject,
+                      how.empty() ? "" : ": " + in_markdown(how));
   text += fmt::format("| numbers | {} |\n| compiler | {} |\n| platform | {} |\n", name_of(r.question.scalar),
-                      compiler(), platform());
+                      in_markdown(compiler()), in_markdown(platform()));
   return text + fmt::format("| found by | Nearmiss {} |\n", version());
 }
 
 std::string scene(const Report& r) {
-  std::string text = fmt::format("```json\n{}```\n", pretty_json(case_to_json(r.question)["inputs"]));
+  std::string text = markdown_block(pretty_json(case_to_json(r.question)["inputs"]), "json");
   const std::string picture = scene_picture(r);
-  return picture.empty() ? text : text + "\n```text\n" + picture + "```\n";
+  return picture.empty() ? text : text + "\n" + markdown_block(picture, "text");
 }
 
 /// The largest position or size of the scene.
@@ -94,15 +96,17 @@ std::string referees(const Report& r) {
   const double allowed = allowed_backward_error(r.standard, r.question.scalar);
   std::string text = "## Other libraries\n\n| library | answer | |\n|---|---|---|\n";
   for (const Opinion& o : r.referees) {
-    text += fmt::format("| {} (`{}`) | {} | {} |\n", o.version, o.referee,
-                        answer_text(*r.question.query, o.answer, r.question.scalar), verdict_on(o, allowed));
+    text +=
+        fmt::format("| {} (`{}`) | {} | {} |\n", in_markdown(o.version), o.referee,
+                    in_markdown(answer_text(*r.question.query, o.answer, r.question.scalar)), verdict_on(o, allowed));
   }
   return text + "\n";
 }
 
 std::string answer(const Report& r) {
-  if (r.finding.verdict == Verdict::broke) return "None: " + without_folders(one_line(r.finding.clause)) + ".\n";
-  std::string text = answer_text(*r.question.query, r.answer, r.question.scalar);
+  if (r.finding.verdict == Verdict::broke)
+    return "None: " + in_markdown(without_folders(one_line(r.finding.clause))) + ".\n";
+  std::string text = in_markdown(answer_text(*r.question.query, r.answer, r.question.scalar));
   for (std::size_t i = 0; i < r.question.query->outputs.size(); ++i) {
     if (!is_part(*r.question.query, r.answer, i)) continue;
     text += fmt::format("\n* `{}` = {}", r.question.query->outputs[i].name,
@@ -116,13 +120,13 @@ std::string answer(const Report& r) {
 std::string upstream_report(const Report& r, const Subject& subject) {
   if (!is_bad(r.finding)) throw BadInput(fmt::format("{}: nothing is to be reported of its answer", subject.name));
   const EmittedTest test = emit_test(r, subject);
-  std::string text = fmt::format("# {}\n\n{}\n\n", title(r), without_folders(explanation(r)));
+  std::string text = fmt::format("# {}\n\n{}\n\n", title(r), in_markdown(without_folders(explanation(r))));
   text += environment(r, subject) + "\n";
   text += "## The scene\n\n" + scene(r) + "\n";
   text += "## The answer\n\n" + answer(r) + "\n";
   text += "## What is right\n\n" + truth(r) + amount(r) + "\n";
-  text += fmt::format("## A program that shows it\n\n```sh\n{}\n```\n\n```{}\n{}```\n\n", test.build, test.extension,
-                      without_folders(test.text));
+  text += fmt::format("## A program that shows it\n\n{}\n{}\n", markdown_block(test.build, "sh"),
+                      markdown_block(without_folders(test.text), test.extension));
   return text + referees(r);
 }
 

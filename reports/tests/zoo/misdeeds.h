@@ -454,4 +454,66 @@ static void do_misdeed_of_case(unsigned number) {
   do_misdeed("always-");
 }
 
+/* --- hostile texts: NEARMISS_ZOO=text-PLACE-NAME puts the text of that name into that place --- */
+
+static const struct {
+  const char *name, *text;
+} hostile_texts[] = {
+    {"comment", "1 */ __attribute__((constructor)) static void injected(void) { puts(\"INJECTED\"); } /* 2"},
+    {"lines", "1\n#error INJECTED\n// \\\nINJECTED\r\n2 \\"},
+    {"trigraph", "1 ?\?/\nINJECTED ?\?= ?\?/"},
+    {"markdown", "1 | INJECTED | `x` **b** [l](http://x) ![i](x) \n```\n# INJECTED"},
+    {"html", "</script><script>alert('INJECTED')</script><img src=x onerror=alert(1)>&amp;<!--"},
+    {"cdata", "]]>&lt;INJECTED/>\" a='b"},
+    {"json", "\"}, \"verdict\": \"agrees\", {\"INJECTED\": \"\\u0000"},
+    {"shell", "$(touch INJECTED) `touch INJECTED`; touch INJECTED & '\"'"},
+    {"formula", "=cmd|' /C INJECTED'!A0,\"1\""},
+    {"escapes", "\033[2J\033]0;INJECTED\007\033[1;31m\b\b\x7f\xc2\x9b"},
+    {"direction", "\xe2\x80\xae INJECTED \xe2\x81\xa6\xef\xbb\xbf"},
+    {"separator", "1\xe2\x80\xa8INJECTED\xe2\x80\xa9\xc2\x85"},
+    {"not-utf8", "1\xff\xfe\xc0\xaf\xed\xa0\x80\xf4\x90\x80\x80 INJECTED \xe2\x80"},
+    {"formats", "%s%n%d {} {0} ${HOME} %INJECTED%"},
+    {"mixed",
+     "=1 */ __attribute__((constructor)) static void injected(void) { puts(\"INJECTED\"); } /* | `x` **b** "
+     "[l](http://x)"
+     "\n#error INJECTED\n```\n# INJECTED\n</script><script>alert('INJECTED')</script> ]]>&lt; \", 'a {} %s $(touch "
+     "INJECTED)"
+     "\033[2J\033]0;INJECTED\007\b\x7f\xc2\x9b\xe2\x80\xae\xe2\x80\xa8INJECTED\xff ?\?/\nINJECTED \\"},
+};
+
+/* The text for the place; NULL where none is chosen for it. "all" chooses each place that ends no process and refuses
+ * nothing. */
+static const char* hostile_text(const char* place) {
+  static char longest[100000];
+  static const char* const of_all[] = {"all", "version", "equivalence", "how"};
+  const char* chosen = the_chosen();
+  if (chosen == NULL || strncmp(chosen, "text-", 5) != 0) return NULL;
+  const char* name = strchr(chosen + 5, '-');
+  if (name == NULL) return NULL;
+  const size_t length = (size_t)(name - chosen - 5);
+  int is_meant = strlen(place) == length && strncmp(chosen + 5, place, length) == 0;
+  for (size_t i = 0; i < sizeof of_all / sizeof *of_all; ++i) {
+    if (strncmp(chosen + 5, "all-", 4) == 0 && strcmp(of_all[i], place) == 0) is_meant = 1;
+  }
+  if (!is_meant) return NULL;
+  if (strcmp(name + 1, "long") == 0) return memset(longest, 'x', sizeof longest - 1);
+  for (size_t i = 0; i < sizeof hostile_texts / sizeof *hostile_texts; ++i) {
+    if (strcmp(hostile_texts[i].name, name + 1) == 0) return hostile_texts[i].text;
+  }
+  return NULL;
+}
+
+/* Ends with the text on standard error, where it is chosen. */
+static void end_with_hostile_text(void) {
+  if (is_chosen("text-error-nul")) {
+    static const char text[] = "1\0\0INJECTED\0";
+    fwrite(text, 1, sizeof text, stderr);
+    abort();
+  }
+  const char* text = hostile_text("error");
+  if (text == NULL) return;
+  fputs(text, stderr);
+  abort();
+}
+
 #endif

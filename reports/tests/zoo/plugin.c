@@ -26,8 +26,14 @@ static int ball_ball(const double* q, nearmiss_answer* answer) {
   static unsigned asked;
   const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
   answer->yes = x * x + y * y + z * z <= reach * reach;
+  if (hostile_text("all") != NULL) answer->yes = !answer->yes; /* a finding, whose report has the texts */
   do_misdeed_of_case(++asked);
   if (asked % 40 != 0) return NEARMISS_ANSWERED;
+  end_with_hostile_text();
+  if (hostile_text("why") != NULL) {
+    strncpy(answer->why, hostile_text("why"), sizeof answer->why);
+    return NEARMISS_CANNOT_ANSWER;
+  }
   if (is_chosen("answer-status")) return 7;
   if (is_chosen("answer-yes")) answer->yes = 99;
   if (is_chosen("answer-reason-without-end")) {
@@ -85,5 +91,8 @@ const nearmiss_plugin* nearmiss_plugin_entry(void) {
   if (is_chosen("told-otherwise") && !is_first_time()) plugin.library_version = "2";
   if (is_chosen("told-crash-later") && !is_first_time()) abort();
   if (is_chosen("told-hang-later") && !is_first_time()) sleep_for_ever();
+  if (hostile_text("version") != NULL) plugin.library_version = hostile_text("version");
+  if (hostile_text("equivalence") != NULL) offers[0].equivalence = hostile_text("equivalence");
+  if (hostile_text("name") != NULL) plugin.name = hostile_text("name");
   return &plugin;
 }

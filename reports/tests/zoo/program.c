@@ -82,12 +82,47 @@ static const struct {
     {"reply-twice", "{\"case\": %u, \"yes\": true}\n{\"case\": %u, \"yes\": true}\n"},
 };
 
+/* A string of JSON. */
+static void put_text(FILE* judge, const char* text) {
+  fputc('"', judge);
+  for (; *text != 0; ++text) {
+    const unsigned char c = (unsigned char)*text;
+    if (c < 0x20 || c == '"' || c == '\\') {
+      fprintf(judge, "\\u%04x", c);
+    } else {
+      fputc(c, judge);
+    }
+  }
+  fputc('"', judge);
+}
+
+/* The usual hello with a hostile text; 0 where none is chosen. */
+static int say_hostile_hello(FILE* judge) {
+  const char *version = hostile_text("version"), *how = hostile_text("how"), *refused = hostile_text("refused");
+  if (version == NULL && how == NULL && refused == NULL) return 0;
+  fputs("{\"nearmiss\": 1, ", judge);
+  if (refused != NULL) {
+    fputs("\"refused\": ", judge);
+    put_text(judge, refused);
+  } else {
+    fputs("\"name\": \"zoo\", \"scalar\": \"double\", \"batches\": \"json\", \"version\": ", judge);
+    put_text(judge, version != NULL ? version : "1");
+    fputs(", \"offers\": [{\"query\": \"sphere_sphere_overlap\", \"how\": ", judge);
+    put_text(judge, how != NULL ? how : "as it is");
+    fputs("}]", judge);
+  }
+  fputs("}\n", judge);
+  fflush(judge);
+  return 1;
+}
+
 static void say(FILE* judge, const char* text) {
   fputs(text, judge);
   fflush(judge);
 }
 
 static void say_hello(FILE* judge) {
+  if (say_hostile_hello(judge)) return;
   if (is_chosen("hello-deep")) {
     for (int i = 0; i < 500000; ++i) fputc('[', judge);
     say(judge, "\n");
@@ -206,6 +241,13 @@ int main(int argc, char** argv) {
       const unsigned number = asked;
       do_misdeed_of_case(++asked);
       if (asked % 40 == 0) {
+        end_with_hostile_text();
+        if (hostile_text("why") != NULL) {
+          fprintf(judge, "{\"case\": %u, \"cannot\": ", number);
+          put_text(judge, hostile_text("why"));
+          fputs("}\n", judge);
+          continue;
+        }
         for (size_t i = 0; i < sizeof replies / sizeof *replies; ++i) {
           if (is_chosen(replies[i].name)) reply = replies[i].text;
         }
