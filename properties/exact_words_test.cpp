@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "corpus/generator.hpp"
@@ -368,14 +369,13 @@ TEST(RightNormals, OfAConeThatIsOneDirectionAreThatDirection) {
     return all;
   };
   using All = std::vector<std::string>;
-  const auto box = [](std::vector<double> point, std::vector<double> velocity, std::vector<double> half,
-                      std::vector<double> turned = {0, 0, 0, 1}) {
-    std::vector<double> values = point;
+  const auto box = [](std::vector<double> values, const std::vector<double>& velocity, const std::vector<double>& half,
+                      const std::vector<double>& turned = {0, 0, 0, 1}) {
     values.insert(values.end(), velocity.begin(), velocity.end());
     values.insert(values.end(), {0, 0, 0});
     values.insert(values.end(), half.begin(), half.end());
     values.insert(values.end(), turned.begin(), turned.end());
-    return asked("moving_point_box", values);
+    return asked("moving_point_box", std::move(values));
   };
   EXPECT_EQ(normals(box({3, 0.5, 0}, {-1, 0, 0}, {1, 1, 1})), All{"1 0 0"});
   EXPECT_EQ(normals(box({0, -3, 0}, {0, 1, 0}, {1, 1, 1})), All{"0 -1 0"});
