@@ -588,6 +588,9 @@ Worker::Event Worker::await() {
         end();
         return {Event::not_asked};
       }
+      if (is_shared()) {  // a host that has only closed its pipe goes on to answer
+        if (auto event = read_shared_answers()) return *event;
+      }
       return event_of_end();
     }
     if (late) {
@@ -706,8 +709,8 @@ void Worker::take(Event event) {
   refused_since_.reset();
   if (event.what == Event::all_answered) return take_answered();
   if (got_ == requested_ && !event.is_of_any_case) {
-    event.reason += ", after its last answer";
-    event.is_of_any_case = true;
+    event.reason += ", after its last answer";  // which are all good: none is asked again
+    return mark_broken(got_ - 1, event);
   }
   if (event.is_of_any_case) got_ = first_requested_;
   if (!event.is_of_next_case && requested_ - got_ > 1) {
