@@ -193,7 +193,14 @@ void check_can_write(const fs::path& file) {
 
 void make_writable_folder(const fs::path& folder) {
   make_folder(folder);
-  if (const std::string why = why_no_file(folder / "file"); !why.empty())
+  check_can_write_in(folder);
+}
+
+void check_can_write_in(const fs::path& folder) {
+  fs::path existing = fs::absolute(folder);
+  std::error_code ignored;
+  while (existing.has_relative_path() && !fs::exists(existing, ignored)) existing = existing.parent_path();
+  if (const std::string why = why_no_file(existing / "file"); !why.empty())
     throw IoError(fmt::format("{}: no file can be made in this folder: {}", folder.string(), why));
 }
 

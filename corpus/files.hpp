@@ -28,4 +28,8 @@ void check_can_write(const std::filesystem::path& file);
 /// whose results go into the folder.
 void make_writable_folder(const std::filesystem::path& folder);
 
+/// Throws IoError where no file can be made in the folder or, if the folder does not exist yet, in the nearest folder
+/// above it. Changes nothing. Call it before long work that may have nothing to write.
+void check_can_write_in(const std::filesystem::path& folder);
+
 }  // namespace nearmiss

@@ -57,7 +57,7 @@ class MinimiseCommand : public Command {
     for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "minimised"));
     catch_interrupts();
     folder_ = folder_or_usual(out_, "minimised");
-    make_writable_folder(folder_);
+    check_can_write_in(folder_);
     InternalErrors errors(folder_);
     for_each_subject(tasks, errors, [this](const Task& t, const Subject& s) { minimise_for(t, s); });
     if (json_) say("{}", pretty_json(reports_));

@@ -278,7 +278,7 @@ Answer center_for_contact(Values q) {
   return a;
 }
 std::string convention_of(Answer (*answer)(Values)) {
-  const Subject s = planted("moving_sphere_box", answer);
+  const Subject s = planted("moving_sphere_box", answer, Scalar::float64, {.backward = 0x1p20, .unit = 0x1p20});
   const Cause c = cause(s, first_finding(s));
   EXPECT_EQ(c.kind, CauseKind::convention) << text_of(c);
   return c.key;

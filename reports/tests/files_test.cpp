@@ -101,6 +101,7 @@ TEST(Files, SaysBeforehandWhatCannotBeWritten) {
   }
   EXPECT_THROW(make_writable_folder(file), IoError);
   EXPECT_THROW(make_writable_folder("/dev/null/x"), IoError);
+  EXPECT_THROW(check_can_write_in("/dev/null/x/y"), IoError);
   EXPECT_NO_THROW(check_can_write(file));
   EXPECT_NO_THROW(check_can_write(folder / "new"));
   EXPECT_EQ(read_file(file), "one");
