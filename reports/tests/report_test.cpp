@@ -527,7 +527,7 @@ TEST(ReplayText, HasTheVerdictFirstAndOfManyRightAnswersTheNearest) {
       std::string::npos)
       << text;
   const std::string first = text.substr(exact, text.find("  or\n", exact) - exact);
-  const std::string alone = replay_text({question, "file", {true, truth.decided_by, {last}, 1}, {}, {}});
+  const std::string alone = replay_text({question, "file", {true, truth.decided_by, {last}, 1, ""}, {}, {}});
   const std::size_t begin = alone.find("  depth");
   EXPECT_NE(first.find(alone.substr(begin, alone.find("  The decision", begin) - begin)), std::string::npos) << text;
 }
