@@ -437,7 +437,7 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
     if (is_searching()) {
       poison();
       // Elsewhere at each try: a wild write that hits the place of its own answer would show nothing.
-      numbers_begin_ = numbers_got_ = 97 * requests_ % wire::most_shift;
+      numbers_begin_ = numbers_got_ = std::size_t{97} * requests_ % wire::most_shift;
     }
     asked_->numbers_at = std::uint32_t(numbers_begin_);
     asked_->first = std::uint32_t(first);
