@@ -56,7 +56,7 @@ unsigned char* memory_of_answers() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     if (line.find("nearmiss-answered") != std::string::npos)
-      return reinterpret_cast<unsigned char*>(std::stoul(line, nullptr, 16));
+      return reinterpret_cast<unsigned char*>(std::stoul(line, nullptr, 16));  // NOLINT(performance-no-int-to-ptr)
   }
   throw std::runtime_error("no memory of answers");
 }
@@ -498,7 +498,7 @@ Answer feed_children(std::span<const double> inputs) {
   for (int i = 0; i < int(inputs[0]); ++i) {
     if (fork() == 0) {
       std::vector<char> kept(std::size_t{60} << 20, 'x');
-      for (;;) kept[std::size_t(pause() + 2)] = 'y';
+      for (;;) kept[std::size_t(pause() + 2)] = 'y';  // NOLINT(bugprone-misplaced-widening-cast)
     }
   }
   if (inputs[0] > 0) sleep(60);

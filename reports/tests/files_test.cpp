@@ -72,7 +72,7 @@ TEST(Files, WritesIntoPipesAndDevices) {
   if (mknod(device.c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) GTEST_SKIP() << "no device can be made here";
   if (const int opened = open(device.c_str(), O_WRONLY); opened < 0) {
     GTEST_SKIP() << "devices have no effect here";
-  } else {
+  } else {  // NOLINT(readability-else-after-return)
     close(opened);
   }
   write_file(device, "text");

@@ -196,7 +196,8 @@ TEST_F(JsonFiles, IndexForTriage) {
   const auto read = [&] {
     const Sources sources = read_sources({in("sources")});
     for (const auto& [skipped, why] : sources.skipped) {
-      if (skipped == file) throw BadInput(skipped + ": " + why);
+      if (skipped == file)
+        throw BadInput(skipped + ": " + why);  // NOLINT(performance-inefficient-string-concatenation)
     }
   };
   EXPECT_GT(read_all_changes(document(file), file, read), 10u);
