@@ -84,8 +84,8 @@ class PublishedAnswers {
   /// tells which one did it.
   bool is_end_overwritten() const {
     if (shared_.done.load(std::memory_order_relaxed) != first_ + heads_.size()) return true;
-    // Bits as they were written. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return !heads_.empty() &&
+           // The bits as they were written. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
            std::memcmp(&heads_.back(), &shared_.heads[first_ + heads_.size() - 1], sizeof heads_.back()) != 0;
   }
   /// True where an answer is not as add() has written it.
