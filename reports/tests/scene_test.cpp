@@ -176,7 +176,9 @@ TEST(SceneRequirement, TakesThePlaceOfThePromisesOfLibraries) {
   const Ran ran = nearmiss({"run", "--scene", "game-world", "-q", "moving_sphere_box", "-s", "fcl", "-s",
                             "collide-fast-float", "--cases", "300", "--seed", "1", "--out", (folder / "r").string()});
   EXPECT_EQ(ran.exit_code, 1) << ran.out << ran.err;
-  for (const json& report : json::parse(read_file(folder / "r" / "index.json")).at("reports")) {
+  const json index = json::parse(read_file(folder / "r" / "index.json"));
+  EXPECT_FALSE(index.at("reports").empty());
+  for (const json& report : index.at("reports")) {
     EXPECT_EQ(report.at("subject"), "fcl");
     EXPECT_TRUE(report.at("headline").is_string());
   }
