@@ -1,12 +1,14 @@
 /// The number types below the tiers keep their error bounds, compared with rationals and 512-bit numbers.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
-#include <collide/certified.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+
+#include "impl/collide/source/expression.hpp"
+#include "impl/collide/source/stages.hpp"
 
 namespace collide {
 namespace {
@@ -177,7 +179,7 @@ TEST(CompensatedSums, LoseOnlyWhatTwiceThePrecisionLoses) {
 class RealNumbers : public testing::Test {
  protected:
   using R = Real<double>;
-  ~RealNumbers() override { detail::Expressions::of_this_thread().clear(); }
+  ~RealNumbers() override { detail::clear_expressions(); }
 };
 
 TEST_F(RealNumbers, KnowWhenNestedRootsAreEqual) {
@@ -227,7 +229,7 @@ TEST_F(RealNumbers, StartAnewInMemoryThatWasUsedBefore) {
     ASSERT_TRUE(sqrt(R(n + 1)) + sqrt(R(n - 1)) < R(2) * sqrt(R(n))) << n;
     ASSERT_TRUE((R(0x1p1023) + R(n)) - R(0x1p1023) == R(n));
     ASSERT_TRUE(sqrt(R(n)) * sqrt(R(n)) == R(n));
-    detail::Expressions::of_this_thread().clear();
+    detail::clear_expressions();
   }
 }
 

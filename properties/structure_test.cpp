@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "corpus/source_folder.hpp"
+#include "impl/catalogue/query.hpp"
 #include "reports/findings/encoded.hpp"
 
 namespace nearmiss {
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path root = source_folder();
-constexpr std::string_view collide_headers = "impl/collide/include/";
+constexpr std::string_view collide_headers = "impl/collide/include/", collide_sources = "impl/collide/source/";
 
 /// Folders of the same rank do not include each other.
 struct Room {
@@ -190,7 +191,10 @@ TEST(Structure, DetailsOfTheLibraryStayInside) {
   const std::set<std::string> tests_of_details{"properties/numbers_test.cpp"};
   for (const std::string& file : sources()) {
     if (file.starts_with("impl/collide/") || tests_of_details.contains(file)) continue;
-    for (const std::string& other : includes_of(file)) EXPECT_EQ(other.find("/detail/"), std::string::npos) << file;
+    for (const std::string& other : includes_of(file)) {
+      EXPECT_EQ(other.find("/detail/"), std::string::npos) << file;
+      EXPECT_FALSE(other.starts_with(collide_sources)) << file;
+    }
   }
 }
 
@@ -199,7 +203,8 @@ TEST(Structure, EveryKernelIsCompiledStrictly) {
   const std::string detail = std::string(collide_headers) + "collide/detail/";
   std::size_t kernels = 0;
   for (const std::string& file : sources()) {
-    if (!file.starts_with(detail) || file.find("/strict_") != std::string::npos) continue;
+    const bool of_library = file.starts_with(collide_sources) && file.ends_with(".hpp");
+    if (!(file.starts_with(detail) || of_library) || file.find("/strict_") != std::string::npos) continue;
     if (file == detail + "refuse_argument.hpp") continue;  // it computes nothing
     const std::vector<std::string> included = includes_of(file);
     EXPECT_EQ(std::count(included.begin(), included.end(), detail + "strict_begin.hpp"), 1) << file;
@@ -208,6 +213,42 @@ TEST(Structure, EveryKernelIsCompiledStrictly) {
     ++kernels;
   }
   EXPECT_GT(kernels, 43u);
+}
+
+/// A program that calls a compiled tier reads nothing that the library alone needs: numbers with bounds, exact numbers,
+/// GMP, MPFR, and the intrinsics of all processors.
+TEST(Structure, NoHeaderReadsWhatTheLibraryCompiles) {
+  std::size_t headers = 0;
+  for (const std::string& file : sources()) {
+    if (!file.starts_with(collide_headers)) continue;
+    ++headers;
+    std::ifstream in(root / file);
+    std::stringstream text;
+    text << in.rdbuf();
+    for (const char* heavy : {"gmp.h", "mpfr.h", "immintrin.h"}) {
+      if (file.ends_with("/batch_avx2.hpp")) continue;  // only batch.hpp includes it
+      EXPECT_EQ(text.str().find("#include <" + std::string(heavy)), std::string::npos) << file << ": " << heavy;
+    }
+    for (const std::string& other : includes_of(file)) EXPECT_TRUE(other.starts_with(collide_headers)) << file;
+  }
+  EXPECT_GT(headers, 86u);
+}
+
+/// The library has one source for each query, and those that all queries share.
+TEST(Structure, EveryQueryHasASourceInTheLibrary) {
+  const std::string folder(collide_sources);
+  std::set<std::string> expected{folder + "certified.cpp", folder + "real.cpp"}, found;
+  for (const Query& q : catalogue()) {
+    const std::string source = folder + q.name.data() + ".cpp";
+    expected.insert(source);
+    const std::vector<std::string> included = includes_of(source);
+    ASSERT_FALSE(included.empty()) << source;
+    EXPECT_EQ(included.front(), std::string(collide_headers) + "collide/" + q.name.data() + ".hpp");
+  }
+  for (const std::string& file : sources()) {
+    if (file.starts_with(collide_sources) && file.ends_with(".cpp")) found.insert(file);
+  }
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <mpfr.h>
 
 #if defined(__SSE2__)
-#include <immintrin.h>
+#include <xmmintrin.h>
 #endif
 
 #include <bit>

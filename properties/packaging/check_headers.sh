@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles every header of collide by itself, without a warning: each includes all that it needs.
+# Compiles every header of collide by itself, without a warning: each includes all that it needs. Those of its library too.
 # Usage: check_headers.sh INCLUDE_FOLDER COMPILER [OPTION ...]
 set -euo pipefail
 
@@ -7,8 +7,8 @@ include_folder=$1
 compiler=$2
 shift 2
 failed=0 count=0
-for header in "$include_folder"/collide/*.hpp "$include_folder"/collide/detail/*.hpp; do
-  name=collide/${header##*/collide/}
+for header in "$include_folder"/collide/*.hpp "$include_folder"/collide/detail/*.hpp "$include_folder"/../source/*.hpp; do
+  name=${header#"$include_folder"/}
   case $name in collide/detail/strict_begin.hpp | collide/detail/strict_end.hpp) continue ;; esac # no headers by themselves: a pair around functions
   # Included twice: a header guards itself.
   printf '#include <%s>\n#include <%s>\n' "$name" "$name" |

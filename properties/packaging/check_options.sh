@@ -25,10 +25,12 @@ aborts_with() { # PROGRAM ARGUMENT LINE
   [[ $(<"$scratch/said") == "$3" ]] || fail "'$2' says: $(<"$scratch/said")"
 }
 
-# Every header, and every query in every tier. Headers alone are compiled by check_headers.sh.
+# Every header, every query in every tier, and the sources of the library. Headers alone are compiled by check_headers.sh.
+library=$include_folder/../source
 {
   for header in "$include_folder"/collide/*.hpp; do echo "#include <collide/${header##*/}>"; done
   bash "$here/every_query.sh" "$include_folder" "Fast Accurate Decisive Certified" "$@"
+  for source in "$library"/*.cpp; do echo "#include \"$source\""; done
 } >"$scratch/all.cpp"
 compile -fsyntax-only -fno-exceptions -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Werror "$scratch/all.cpp" ||
   fail "the queries do not compile without exceptions, or not without a warning"
@@ -39,7 +41,9 @@ if compile -fsyntax-only -Wsign-conversion -Werror "$scratch/caller.cpp" 2>"$scr
   fail "a conversion in the calling program is not reported"
 fi
 
-compile -fno-exceptions "$here/without_exceptions.cpp" -o "$scratch/without" -lmpfr -lgmp || fail "a program does not compile"
+asked=(certified.cpp real.cpp sphere_sphere_overlap.cpp sphere_sphere_penetration.cpp moving_point_triangle.cpp)
+compile -fno-exceptions "$here/without_exceptions.cpp" "${asked[@]/#/$library/}" -o "$scratch/without" -lmpfr -lgmp ||
+  fail "a program does not compile"
 "$scratch/without" answers || fail "the answers without exceptions are wrong"
 aborts_with "$scratch/without" batch "collide: a batch has arguments and answers of different sizes"
 aborts_with "$scratch/without" shape "collide: sphere.radius is -1: it must be not negative"

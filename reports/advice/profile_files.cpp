@@ -80,12 +80,14 @@ std::string why_absent(const Profile& p, const Query& query) {
                      p.scene.name);
 }
 
-/// Whether a tier of the profile needs GMP and MPFR.
-bool needs_certified(const Profile& p) {
-  return std::any_of(p.queries.begin(), p.queries.end(), [](const ProfiledQuery& q) {
+/// The queries of the profile that the library collide::certified answers, separated by spaces.
+std::string certified_queries(const Profile& p) {
+  std::string names;
+  for (const ProfiledQuery& q : p.queries) {
     const std::string tier = tier_of(q.subject).tier;
-    return tier == "Certified" || tier == "Decisive";
-  });
+    if (tier == "Certified" || tier == "Decisive") names += (names.empty() ? "" : " ") + std::string(q.query->name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -105,8 +107,10 @@ std::string profile_header(const Profile& p) {
 }
 
 std::string profile_cmake(const Profile& p) {
-  const bool certified = needs_certified(p);
+  const std::string queries = certified_queries(p);
+  const bool certified = !queries.empty();
   const std::string_view target = certified ? "collide::certified" : "collide::collide";
+  const std::string of_library = certified ? fmt::format("    set(COLLIDE_CERTIFIED_QUERIES {})\n", queries) : "";
   return fmt::format(
       R"(# The interface library collide_profile: the header collide_profile.hpp beside this file, for the scene {0}.
 # 'nearmiss scene advise' wrote this file. It uses the target collide::collide of this build where there is one, else
@@ -114,7 +118,7 @@ std::string profile_cmake(const Profile& p) {
 if(NOT TARGET collide::collide)
   if(COLLIDE_SOURCE)
     include(FetchContent)
-    FetchContent_Declare(collide SOURCE_DIR ${{COLLIDE_SOURCE}})
+{5}    FetchContent_Declare(collide SOURCE_DIR ${{COLLIDE_SOURCE}})
     FetchContent_MakeAvailable(collide)
   else()
     find_package(collide {1}.{2} REQUIRED{3})
@@ -127,7 +131,8 @@ add_library(collide_profile INTERFACE)
 target_include_directories(collide_profile INTERFACE ${{CMAKE_CURRENT_LIST_DIR}})
 target_link_libraries(collide_profile INTERFACE {4})
 )",
-      p.scene.name, COLLIDE_VERSION_MAJOR, COLLIDE_VERSION_MINOR, certified ? " COMPONENTS certified" : "", target);
+      p.scene.name, COLLIDE_VERSION_MAJOR, COLLIDE_VERSION_MINOR, certified ? " COMPONENTS certified" : "", target,
+      of_library);
 }
 
 }  // namespace nearmiss

@@ -138,6 +138,19 @@ TEST(EmitTest, CollidePassesUnlessItsAnswerIsChanged) {
   }
 }
 
+/// The compiled tiers are linked as the emitted command line says.
+TEST(EmitTest, CollideLinksItsLibrary) {
+  const std::string flags =
+      " -I" + (fs::path(source_folder()) / "impl/collide/include").string() + " " + certified_library();
+  const TemporaryFolder folder;
+  for (const char* subject : {"collide-certified-float", "collide-decisive-double"}) {
+    const Ran emitted = nearmiss({"emit-test", "--for", subject, in_corpus("seeds/ray_aabox/hit-face.json").string()});
+    ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
+    const Ran ran = compiled_and_run(folder, "linked", emitted.out, "cpp", flags);
+    EXPECT_EQ(ran.exit_code, 0) << subject << ran.out << ran.err;
+  }
+}
+
 /// A plugin's test is in C and is linked with the plugin's sources: it fails with a mistake, and passes without it,
 /// also where the plugin gives fewer members than the query has.
 TEST(EmitTest, PluginFailsAndPassesAsSaid) {

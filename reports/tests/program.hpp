@@ -30,6 +30,8 @@ std::string properties_program();
 std::string contradicting_program();
 std::string in_a_way();
 std::string zoo_program();
+/// The linker's options that find the library collide::certified of this build.
+std::string certified_library();
 std::string plugin_file(const std::string& name);
 std::string record_example();
 std::string example_c();

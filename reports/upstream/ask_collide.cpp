@@ -121,7 +121,7 @@ std::string expression_of(const std::string& field) {
   return text;
 }
 
-/// The header of a tier that needs GMP and MPFR; empty for another tier.
+/// The header of a tier that needs the library collide::certified; empty for another tier.
 std::string header_of(const std::string& tier) {
   if (tier == "collide::Decisive") return "decisive.hpp";
   return tier == "collide::Certified" ? "certified.hpp" : "";
@@ -162,8 +162,8 @@ Asking ask_collide(const Case& question, const Subject& subject) {
                                        expression_of(query.outputs[i].name));
     }
   }
-  asking.build =
-      std::string("g++ -std=c++20 test.cpp -lgtest -lgtest_main -lpthread") + (header.empty() ? "" : " -lmpfr -lgmp");
+  asking.build = std::string("g++ -std=c++20 test.cpp -lgtest -lgtest_main -lpthread") +
+                 (header.empty() ? "" : " -lcollide_certified -lmpfr -lgmp");
   return asking;
 }
 

@@ -1,11 +1,11 @@
-# Defines the target collide::certified: collide::collide with GMP and MPFR. If one of them is missing, the target is not
-# defined and collide_certified_MISSING gives the reason.
+# Defines the target collide::mpfr: MPFR with GMP, which the library collide::certified needs. If one of them is missing, the
+# target is not defined and collide_certified_MISSING gives the reason.
 
-if(TARGET collide::certified)
+set(collide_certified_MISSING "")
+if(TARGET collide::mpfr)
   return()
 endif()
 
-set(collide_certified_MISSING "")
 foreach(library gmp mpfr)
   find_path(COLLIDE_${library}_INCLUDE_DIR ${library}.h)
   find_library(COLLIDE_${library}_LIBRARY ${library})
@@ -19,12 +19,10 @@ string(REGEX REPLACE "; $" "" collide_certified_MISSING "${collide_certified_MIS
 if(collide_certified_MISSING STREQUAL "")
   get_target_property(imported collide::collide IMPORTED)
   if(imported)  # by find_package: visible in the same scope as collide::collide
-    add_library(collide::certified INTERFACE IMPORTED)
+    add_library(collide::mpfr INTERFACE IMPORTED)
   else()
-    add_library(collide::certified INTERFACE IMPORTED GLOBAL)
+    add_library(collide::mpfr INTERFACE IMPORTED GLOBAL)
   endif()
-  target_include_directories(collide::certified SYSTEM INTERFACE
-    ${COLLIDE_gmp_INCLUDE_DIR} ${COLLIDE_mpfr_INCLUDE_DIR})
-  target_link_libraries(collide::certified INTERFACE
-    collide::collide ${COLLIDE_mpfr_LIBRARY} ${COLLIDE_gmp_LIBRARY})
+  target_include_directories(collide::mpfr SYSTEM INTERFACE ${COLLIDE_gmp_INCLUDE_DIR} ${COLLIDE_mpfr_INCLUDE_DIR})
+  target_link_libraries(collide::mpfr INTERFACE ${COLLIDE_mpfr_LIBRARY} ${COLLIDE_gmp_LIBRARY})
 endif()

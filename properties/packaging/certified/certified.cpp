@@ -1,21 +1,16 @@
-/// Compiles and links only where collide::certified brings the headers and libraries of GMP and MPFR.
-#include <gmp.h>
-#include <mpfr.h>
-
-#include <collide/closest_point_segment.hpp>
-#if __has_include(<collide/certified.hpp>)
+/// Links only with the library collide::certified, GMP and MPFR.
 #include <collide/certified.hpp>
-#endif
+#include <collide/decisive.hpp>
+#include <collide/sphere_sphere_overlap.hpp>
+#include <collide/sphere_sphere_penetration.hpp>
 
 int main() {
-  mpq_t third;
-  mpq_init(third);
-  mpq_set_ui(third, 1, 3);
-  mpfr_t rounded;
-  mpfr_init2(rounded, 53);
-  mpfr_set_q(rounded, third, MPFR_RNDN);
-  const bool right = mpfr_get_d(rounded, MPFR_RNDN) == 1.0 / 3;
-  mpfr_clear(rounded);
-  mpq_clear(third);
-  return right ? 0 : 1;
+  using collide::Certified, collide::Decisive;
+  // The centers are sqrt(3) apart. The radii add up to 10^-16 less, so a double cannot decide.
+  const collide::Sphere<double> one{.center = {0, 0, 0}, .radius = 0.5};
+  const collide::Sphere<double> other{.center = {1, 1, 1}, .radius = 1.2320508075688772};
+  const bool apart = !collide::sphere_sphere_overlap<Certified>(one, other).yes();
+  const bool decided = !collide::sphere_sphere_penetration<Decisive>(one, other).yes();
+  const collide::StageCounts& counts = Certified::counts();
+  return apart && decided && counts.filter + counts.extended + counts.exact >= 2 ? 0 : 1;
 }

@@ -22,7 +22,12 @@ template <class Tier = Fast, class T>
 [[nodiscard]] inline Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
                                                    const Vec3<T>& location,
                                                    const Vec3<T>& normal) noexcept(Tier::never_throws) {
-  return kernels::bounce_direction<TierOfNumbers<Tier>>(sphere, velocity, time, location, normal);
+  using Answering = TierOfNumbers<Tier>;
+  if constexpr (is_compiled<Answering, T>) {
+    return compiled::bounce_direction<Answering>(sphere, velocity, time, location, normal);
+  } else {
+    return kernels::bounce_direction<Answering>(sphere, velocity, time, location, normal);
+  }
 }
 
 namespace contracts {

@@ -30,7 +30,11 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2,
                                                            int hint = -1) noexcept(Tier::never_throws) {
-  return kernels::box_box_penetration<Tier>(box1, box2, hint);
+  if constexpr (is_compiled<Tier, T>) {
+    return compiled::box_box_penetration<Tier>(box1, box2, hint);
+  } else {
+    return kernels::box_box_penetration<Tier>(box1, box2, hint);
+  }
 }
 
 namespace contracts {

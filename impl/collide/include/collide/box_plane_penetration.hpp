@@ -23,7 +23,11 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline CornerContacts<T> box_plane_penetration(const Box<T>& box,
                                                              const Plane<T>& plane) noexcept(Tier::never_throws) {
-  return kernels::box_plane_penetration<Tier>(box, plane);
+  if constexpr (is_compiled<Tier, T>) {
+    return compiled::box_plane_penetration<Tier>(box, plane);
+  } else {
+    return kernels::box_plane_penetration<Tier>(box, plane);
+  }
 }
 
 namespace contracts {

@@ -20,7 +20,12 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle,
                                                              const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_rectangle<TierOfNumbers<Tier>>(rectangle, point);
+  using Answering = TierOfNumbers<Tier>;
+  if constexpr (is_compiled<Answering, T>) {
+    return compiled::closest_point_rectangle<Answering>(rectangle, point);
+  } else {
+    return kernels::closest_point_rectangle<Answering>(rectangle, point);
+  }
 }
 
 namespace contracts {

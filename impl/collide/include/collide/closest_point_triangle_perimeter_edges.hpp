@@ -22,7 +22,12 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline EdgePoint<T> closest_point_triangle_perimeter_edges(
     const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point) noexcept(Tier::never_throws) {
-  return kernels::closest_point_triangle_perimeter_edges<TierOfNumbers<Tier>>(prepared, point);
+  using Answering = TierOfNumbers<Tier>;
+  if constexpr (is_compiled<Answering, T>) {
+    return compiled::closest_point_triangle_perimeter_edges<Answering>(prepared, point);
+  } else {
+    return kernels::closest_point_triangle_perimeter_edges<Answering>(prepared, point);
+  }
 }
 
 namespace contracts {

@@ -21,7 +21,12 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoints<T> closest_points_lines(const Line<T>& line1,
                                                            const Line<T>& line2) noexcept(Tier::never_throws) {
-  return kernels::closest_points_lines<TierOfNumbers<Tier>>(line1, line2);
+  using Answering = TierOfNumbers<Tier>;
+  if constexpr (is_compiled<Answering, T>) {
+    return compiled::closest_points_lines<Answering>(line1, line2);
+  } else {
+    return kernels::closest_points_lines<Answering>(line1, line2);
+  }
 }
 
 namespace contracts {

@@ -1,5 +1,5 @@
 /// The tier `Decisive`: every decision is exact for all finite inputs, as in `Certified`; the other numbers of an
-/// answer have at most the errors of `Fast`. Needs MPFR and GMP (target collide::certified).
+/// answer have at most the errors of `Fast`. Needs the library collide::certified.
 ///
 /// It is for programs whose logic depends on decisions (exact predicates, inexact constructions): the numbers of
 /// `Certified` within two units in the last place need more digits than the machine's numbers have, and most of its

@@ -23,7 +23,11 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity,
                                                  const AABox<T>& aabox) noexcept(Tier::never_throws) {
-  return kernels::moving_point_aabox<Tier>(point, velocity, aabox);
+  if constexpr (is_compiled<Tier, T>) {
+    return compiled::moving_point_aabox<Tier>(point, velocity, aabox);
+  } else {
+    return kernels::moving_point_aabox<Tier>(point, velocity, aabox);
+  }
 }
 
 namespace contracts {

@@ -25,7 +25,12 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity,
                                                     const Capsule<T>& capsule) noexcept(Tier::never_throws) {
-  return kernels::moving_point_capsule<TierOfDecisions<Tier>>(point, velocity, capsule);
+  using Answering = TierOfDecisions<Tier>;
+  if constexpr (is_compiled<Answering, T>) {
+    return compiled::moving_point_capsule<Answering>(point, velocity, capsule);
+  } else {
+    return kernels::moving_point_capsule<Answering>(point, velocity, capsule);
+  }
 }
 
 namespace contracts {

@@ -25,7 +25,11 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                                      const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  return kernels::moving_point_triangle<Tier>(point, velocity, triangle);
+  if constexpr (is_compiled<Tier, T>) {
+    return compiled::moving_point_triangle<Tier>(point, velocity, triangle);
+  } else {
+    return kernels::moving_point_triangle<Tier>(point, velocity, triangle);
+  }
 }
 
 namespace contracts {

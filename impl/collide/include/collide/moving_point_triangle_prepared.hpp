@@ -22,7 +22,11 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_triangle_prepared(
     const Vec3<T>& point, const Vec3<T>& velocity, const PreparedTriangle<T>& prepared) noexcept(Tier::never_throws) {
-  return kernels::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
+  if constexpr (is_compiled<Tier, T>) {
+    return compiled::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
+  } else {
+    return kernels::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
+  }
 }
 
 namespace contracts {

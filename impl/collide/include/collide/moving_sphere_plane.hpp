@@ -23,7 +23,11 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                    const Plane<T>& plane) noexcept(Tier::never_throws) {
-  return kernels::moving_sphere_plane<Tier>(sphere, velocity, plane);
+  if constexpr (is_compiled<Tier, T>) {
+    return compiled::moving_sphere_plane<Tier>(sphere, velocity, plane);
+  } else {
+    return kernels::moving_sphere_plane<Tier>(sphere, velocity, plane);
+  }
 }
 
 namespace contracts {

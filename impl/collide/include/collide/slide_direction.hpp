@@ -22,7 +22,12 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
                                                   const Vec3<T>& location) noexcept(Tier::never_throws) {
-  return kernels::slide_direction<TierOfNumbers<Tier>>(sphere, velocity, time, location);
+  using Answering = TierOfNumbers<Tier>;
+  if constexpr (is_compiled<Answering, T>) {
+    return compiled::slide_direction<Answering>(sphere, velocity, time, location);
+  } else {
+    return kernels::slide_direction<Answering>(sphere, velocity, time, location);
+  }
 }
 
 namespace contracts {

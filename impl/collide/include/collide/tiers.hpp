@@ -9,7 +9,7 @@
 ///   Decisive   where every decision must be exact, and numbers may have the rounding errors of Fast.
 ///   Certified  where numbers must be accurate to the last place too: tests, geometry kernels,
 ///              reference results.
-/// Decisive and Certified need GMP and MPFR.
+/// Decisive and Certified need the compiled library collide::certified, and it needs GMP and MPFR.
 /// README.md of collide compares the tiers.
 ///
 /// Each query has one kernel (detail/QUERY.hpp), which all tiers use. A tier converts the arguments to a number type,
@@ -116,6 +116,11 @@ struct Fast : Plain {
     return fast;
   }
 };
+
+/// True if the library collide::certified answers queries in the tier. Beside each kernel, namespace compiled declares
+/// the function that the library has for float and for double (source/QUERY.cpp).
+template <class Tier, class T>
+inline constexpr bool is_compiled = MachineNumber<T> && requires { requires Tier::in_library; };
 
 /// True if the tier uses the kernel in SIMD lanes of queries that have one.
 template <class Tier, class T>

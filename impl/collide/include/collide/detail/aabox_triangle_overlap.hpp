@@ -58,6 +58,13 @@ std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& tri
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& triangle);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

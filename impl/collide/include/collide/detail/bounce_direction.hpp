@@ -10,6 +10,14 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
+                              const Vec3<T>& normal);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -64,6 +64,15 @@ std::optional<Decision<T>> certain_reach(const Vec3<double>& half1, const Vec3<d
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2);
+template <class Tier, class T>
+Decision<T> box_box_conservative(const BoxBoxInfo<T>& info);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

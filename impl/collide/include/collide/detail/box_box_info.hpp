@@ -39,6 +39,13 @@ inline BoxBoxInfo<T> info_of_boxes(const Box<T>& box1, const Box<T>& box2) {
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -50,6 +50,13 @@ std::optional<BoxOverlap<T>> filtered_overlap(const Box<T>& box1, const Box<T>& 
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -10,6 +10,15 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon);
+template <class Tier, class T>
+ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -177,6 +177,13 @@ bool is_certain(const BoxPenetration<T>& answer, const Box<T>& box1, const Box<T
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, int hint);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -12,6 +12,15 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, int axis);
+template <class Tier, class T>
+Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

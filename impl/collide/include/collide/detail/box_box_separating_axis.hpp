@@ -12,6 +12,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -75,6 +75,13 @@ bool is_certain(const CornerContacts<T>& answer, const Box<T>& box, const Plane<
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -11,6 +11,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

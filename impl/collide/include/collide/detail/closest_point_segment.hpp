@@ -10,6 +10,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -12,6 +12,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

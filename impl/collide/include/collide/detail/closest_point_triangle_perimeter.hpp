@@ -98,6 +98,13 @@ CertainEdge<T> filtered_edge(const Triangle<T>& triangle, const Vec3<T>& point) 
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -13,6 +13,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

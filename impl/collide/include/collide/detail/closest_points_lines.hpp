@@ -12,6 +12,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

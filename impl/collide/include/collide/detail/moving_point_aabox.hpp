@@ -72,6 +72,13 @@ inline std::optional<Entry<T>> decided_entry(const Vec3<T>& point, const Vec3<T>
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

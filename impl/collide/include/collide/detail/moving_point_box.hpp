@@ -10,6 +10,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -42,6 +42,13 @@ inline bool certainly_misses_capsule(const Vec3<double>& point, const Vec3<doubl
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

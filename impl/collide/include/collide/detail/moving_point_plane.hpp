@@ -49,6 +49,13 @@ CertainDecision certain_decision(const Vec3<T>& point, const Vec3<T>& velocity, 
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

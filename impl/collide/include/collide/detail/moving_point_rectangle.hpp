@@ -37,6 +37,13 @@ std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& ve
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity, const Rectangle<T>& rectangle);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

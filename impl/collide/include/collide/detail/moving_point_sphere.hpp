@@ -11,6 +11,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere, bool solid);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -219,6 +219,13 @@ std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& ve
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -28,6 +28,14 @@ bool weights_are_certain(const Vec3<T>& from_v0, const Vec3<T>& velocity, const 
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
+                                         const PreparedTriangle<T>& prepared);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

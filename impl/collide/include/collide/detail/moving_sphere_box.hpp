@@ -141,6 +141,13 @@ struct PointPastBox {
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -10,6 +10,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box, T limit);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

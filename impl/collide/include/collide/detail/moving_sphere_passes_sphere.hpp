@@ -11,6 +11,14 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
+                                        const T& limit);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

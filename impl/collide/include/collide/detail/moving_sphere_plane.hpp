@@ -52,6 +52,13 @@ CertainDecision certain_decision(const Sphere<T>& sphere, const Vec3<T>& velocit
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -10,6 +10,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity, const Rectangle<T>& rectangle);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -11,6 +11,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -504,6 +504,13 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity, const Triangle<T>& triangle);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -51,6 +51,13 @@ std::optional<bool> certainly_inside(const Rectangle<T>& rectangle, int axis, co
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -99,6 +99,13 @@ std::optional<Containment<T>> filtered_containment(const Triangle<T>& triangle, 
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -111,6 +111,13 @@ bool is_certain_order(const Lanes<T>& inverse, const Pair<T>& entry, const Pair<
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

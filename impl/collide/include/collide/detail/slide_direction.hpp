@@ -10,6 +10,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

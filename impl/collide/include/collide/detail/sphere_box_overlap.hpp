@@ -49,6 +49,13 @@ std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Box<T>& box)
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -80,6 +80,13 @@ bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere, const Box
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

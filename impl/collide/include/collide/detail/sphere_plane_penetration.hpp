@@ -28,6 +28,13 @@ bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere, const Pla
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

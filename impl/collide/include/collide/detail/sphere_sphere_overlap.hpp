@@ -9,6 +9,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

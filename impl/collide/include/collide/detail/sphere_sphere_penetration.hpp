@@ -24,6 +24,13 @@ bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere1, const Sp
 
 }  // namespace detail
 
+namespace compiled {
+
+template <class Tier, class T>
+Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -85,6 +85,13 @@ std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Triangle<T>&
 
 #endif
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>

@@ -9,6 +9,13 @@
 
 namespace collide {
 
+namespace compiled {
+
+template <class Tier, class T>
+Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point);
+
+}  // namespace compiled
+
 namespace kernels {
 
 template <class Tier, class T>
