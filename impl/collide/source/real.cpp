@@ -47,6 +47,7 @@ void evaluate(Expression& e, mpfr_prec_t precision) {
   if (e.a != nullptr) evaluate(*e.a, precision);
   if (e.b != nullptr) evaluate(*e.b, precision);
   if (e.kind == ExpressionKind::quotient) {  // b is not zero: at some precision its interval excludes 0
+    // A quotient has two operands. NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage)
     for (mpfr_prec_t p = precision; e.b->value.sign() == 2;) evaluate(*e.b, p *= 2);
   }
   e.value.set_precision(precision);
