@@ -24,8 +24,10 @@ struct Collide {
   using Number = T;
   static std::string version() { return collide_version(); }
 
+  /// Contains the kernel, as in a program that inlines it: what is timed does not depend on the other queries in a
+  /// source.
   template <class Q>
-  static typename Q::Answer answer(const Q& q) {
+  [[gnu::flatten]] static typename Q::Answer answer(const Q& q) {
     return ask_collide<Tier>(q);
   }
   template <class Q>
