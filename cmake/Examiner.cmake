@@ -12,7 +12,7 @@ if(NOT EXISTS ${NEARMISS_EXAMINER}/build.ninja)
 endif()
 set(archives libnearmiss_catalogue.a corpus/libnearmiss_corpus.a oracles/libnearmiss_oracles.a libnearmiss_subjects.a)
 list(TRANSFORM archives PREPEND ${NEARMISS_EXAMINER}/)
-add_custom_target(nearmiss_examiner COMMAND ${CMAKE_COMMAND} --build ${NEARMISS_EXAMINER} --target nearmiss_corpus
+add_custom_target(nearmiss_examiner COMMAND ${CMAKE_COMMAND} --build ${NEARMISS_EXAMINER} --target nearmiss_corpus nearmiss_subjects
   BYPRODUCTS ${archives} COMMENT "Bringing ${NEARMISS_EXAMINER} up to date")
 
 function(nearmiss_import name file)  # LIBRARY ...
@@ -27,7 +27,7 @@ endfunction()
 function(nearmiss_import_examiner)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
-  nearmiss_import(nearmiss_oracles oracles/libnearmiss_oracles.a nearmiss_subjects fmt::fmt gmp mpfr)
+  nearmiss_import(nearmiss_oracles oracles/libnearmiss_oracles.a nearmiss_wall fmt::fmt gmp mpfr)
   nearmiss_import(nearmiss_corpus corpus/libnearmiss_corpus.a nearmiss_oracles gmpxx gmp)
   get_property(libraries GLOBAL PROPERTY NEARMISS_FOREIGN_LIBRARIES)
   nearmiss_import(nearmiss_foreign_subjects libnearmiss_subjects.a nearmiss_catalogue nearmiss_host ${libraries})

@@ -1,10 +1,11 @@
-# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [ISOLATED] [WITH SUBJECT] [PER_QUERY FOLDER] [STAGES HEADER FUNCTION] [LIBRARIES ...])
+# nearmiss_add_subject(NAME HEADER ADAPTER [OWN] [REFEREE] [ISOLATED] [WITH SUBJECT] [PER_QUERY FOLDER] [STAGES HEADER FUNCTION] [LIBRARIES ...])
 #   NAME      its name on the command line
 #   HEADER    the adapter's header: relative to the calling file, or to the top of this project
 #   ADAPTER   the qualified name of the adapter's type
 #   LIBRARIES the libraries that the header needs. Their compile options and definitions apply only to this adapter
 #   OWN       a subject of this project: fuzz targets and property tests check its contracts, and relations require the
 #             same bits of it
+#   REFEREE   gives second opinions on the findings of other subjects; a referee never decides
 #   STAGES    the header and the qualified name of a StageTallyFunction (impl/subject/stages.hpp), for a subject that answers
 #             in stages: 'nearmiss trade' shows what each stage costs
 #   ISOLATED  never linked into a program with other subjects: for a library that defines the same symbols as another
@@ -21,7 +22,7 @@
 # it.
 
 function(nearmiss_add_subject name header adapter)
-  cmake_parse_arguments(arg "OWN;ISOLATED" "WITH;PER_QUERY" "STAGES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OWN;REFEREE;ISOLATED" "WITH;PER_QUERY" "STAGES;LIBRARIES" ${ARGN})
   string(MAKE_C_IDENTIFIER ${name} identifier)
   get_property(known GLOBAL PROPERTY NEARMISS_SUBJECTS)
   if(identifier IN_LIST known)
@@ -65,6 +66,9 @@ function(nearmiss_add_subject name header adapter)
   if(arg_OWN)
     set_property(GLOBAL APPEND PROPERTY NEARMISS_OWN_SUBJECTS ${name})
   endif()
+  if(arg_REFEREE)
+    set_property(GLOBAL APPEND PROPERTY NEARMISS_REFEREES ${name})
+  endif()
   if(NEARMISS_READS_ADDED)
     set_property(GLOBAL APPEND PROPERTY NEARMISS_ADDED_SUBJECTS ${name})
   endif()
@@ -73,53 +77,108 @@ function(nearmiss_add_subject name header adapter)
   endif()
 endfunction()
 
-# Sets `variable` to the C++ functions of impl/subject/provenance.hpp.
-function(nearmiss_provenance variable)
-  set(text "")
-  foreach(kind own added)
-    string(TOUPPER ${kind} property)
-    get_property(names GLOBAL PROPERTY NEARMISS_${property}_SUBJECTS)
-    list(TRANSFORM names REPLACE "(.+)" "\"\\1\"")
-    list(JOIN names ", " names)
-    string(APPEND text "std::vector<std::string> ${kind}_subjects() { return {${names}}; }\n")
+# Sets `variable` to the C++ function `function` that returns names.
+function(nearmiss_names_function function variable)  # NAME ...
+  list(TRANSFORM ARGN REPLACE "(.+)" "\"\\1\"")
+  list(JOIN ARGN ", " names)
+  set(${variable} "std::vector<std::string> ${function}() { return {${names}}; }\n" PARENT_SCOPE)
+endfunction()
+
+# Sets `variable` to those C++ functions of impl/subject/provenance.hpp that do not depend on how subjects are started.
+function(nearmiss_provenance variable)  # SUBJECT ...
+  set(names "")
+  foreach(s IN LISTS ARGN)
+    get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_NAME)
+    list(APPEND names ${name})
   endforeach()
+  nearmiss_names_function(built_in_subjects text ${names})
+  foreach(kind "own_subjects OWN_SUBJECTS" "added_subjects ADDED_SUBJECTS" "names_of_referees REFEREES")
+    separate_arguments(kind)
+    list(GET kind 0 function)
+    list(GET kind 1 property)
+    get_property(names GLOBAL PROPERTY NEARMISS_${property})
+    nearmiss_names_function(${function} one ${names})
+    string(APPEND text "${one}")
+  endforeach()
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Writes the source `file` with own_subjects_in_process().
+function(nearmiss_write_own_subjects file)
   get_property(names GLOBAL PROPERTY NEARMISS_OWN_SUBJECTS)
+  set(declared "")
   set(calls "")
   foreach(name IN LISTS names)
     string(MAKE_C_IDENTIFIER ${name} identifier)
     get_property(isolated GLOBAL PROPERTY NEARMISS_SUBJECT_${identifier}_ISOLATED)
     if(NOT isolated)
-      string(APPEND text "Subject subject_${identifier}();\n")
+      string(APPEND declared "Subject subject_${identifier}();\n")
       string(APPEND calls "subject_${identifier}(), ")
     endif()
   endforeach()
-  string(APPEND text "std::vector<Subject> own_subjects_in_process() {\n  std::vector<Subject> all{${calls}};\n  for (Subject& s : all) s.own = true;\n  return all;\n}\n")
-  set(${variable} "${text}" PARENT_SCOPE)
+  file(GENERATE OUTPUT ${file} CONTENT
+"// Written by CMake.
+#include \"impl/subject/provenance.hpp\"
+namespace nearmiss {
+${declared}std::vector<Subject> own_subjects_in_process() {
+  std::vector<Subject> all{${calls}};
+  for (Subject& s : all) s.own = true;
+  return all;
+}
+}
+")
 endfunction()
 
 # Writes the source `file` that lists subjects whose functions are linked into the program.
 function(nearmiss_write_subjects file)  # SUBJECT ...
-  set(text "// Written by CMake.\n#include \"impl/subject/provenance.hpp\"\n#include \"impl/subject/subject.hpp\"\nnamespace nearmiss {\n")
+  set(declared "")
+  set(calls "")
   foreach(s IN LISTS ARGN)
-    string(APPEND text "Subject subject_${s}();\n")
+    get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_NAME)
+    string(APPEND declared "Subject subject_${s}();\n")
+    string(APPEND calls "    if (name == \"${name}\") all.push_back(subject_${s}());\n")
   endforeach()
-  string(APPEND text "std::vector<Subject> built_in_subjects() {\n  return {\n")
-  foreach(s IN LISTS ARGN)
-    string(APPEND text "      subject_${s}(),\n")
-  endforeach()
-  nearmiss_provenance(provenance)
-  file(GENERATE OUTPUT ${file} CONTENT "${text}  };\n}\n${provenance}}\n")
+  nearmiss_provenance(provenance ${ARGN})
+  file(GENERATE OUTPUT ${file} CONTENT
+"// Written by CMake.
+#include \"impl/subject/provenance.hpp\"
+namespace nearmiss {
+${declared}std::vector<Subject> start_built_in(const std::vector<std::string>& names) {
+  std::vector<Subject> all;
+  for (const std::string& name : names) {
+${calls}  }
+  return all;
+}
+std::vector<Subject> start_at_hand(const std::vector<std::string>& names) { return start_built_in(names); }
+${provenance}}
+")
 endfunction()
 
 # Writes the source `file` that lists subjects with the programs that are their hosts.
 function(nearmiss_write_hosts file)  # SUBJECT ...
-  set(text "// Written by CMake.\n#include \"impl/subject/provenance.hpp\"\n#include \"impl/host/hosts.hpp\"\nnamespace nearmiss {\nstd::vector<Subject> built_in_subjects() {\n  return hosted({\n")
+  set(hosts "")
   foreach(s IN LISTS ARGN)
     get_property(name GLOBAL PROPERTY NEARMISS_SUBJECT_${s}_NAME)
-    string(APPEND text "      {\"${name}\", \"$<TARGET_FILE:nearmiss_host_${s}>\"},\n")
+    string(APPEND hosts "    if (name == \"${name}\") all.push_back({name, \"$<TARGET_FILE:nearmiss_host_${s}>\"});\n")
   endforeach()
-  nearmiss_provenance(provenance)
-  file(GENERATE OUTPUT ${file} CONTENT "${text}  });\n}\n${provenance}}\n")
+  nearmiss_provenance(provenance ${ARGN})
+  file(GENERATE OUTPUT ${file} CONTENT
+"// Written by CMake.
+#include \"impl/host/hosts.hpp\"
+#include \"impl/subject/provenance.hpp\"
+namespace nearmiss {
+namespace {
+std::vector<HostOfBuild> hosts_of(const std::vector<std::string>& names) {
+  std::vector<HostOfBuild> all;
+  for (const std::string& name : names) {
+${hosts}  }
+  return all;
+}
+}
+std::vector<Subject> start_built_in(const std::vector<std::string>& names) { return built_and_hosted(hosts_of(names)); }
+std::vector<Subject> start_at_hand(const std::vector<std::string>& names) { return hosted_at_hand(hosts_of(names)); }
+${provenance}}
+")
 endfunction()
 
 # Writes the sources of a subject that is compiled PER_QUERY, apart from its main source: each holds the functions of a
@@ -244,7 +303,11 @@ int main() { _exit(nearmiss::run_built_in_host(nearmiss::subject_${identifier}${
     OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${NEARMISS_HOSTS})
 endfunction()
 
-# Makes the hosts of all subjects, the library nearmiss_subjects, and nearmiss_hosts for the programs that ask hosts.
+# Makes the hosts of all subjects, and these libraries:
+#   nearmiss_wall        the judge's side of the wall between processes. It needs a list of the subjects: one of these two
+#   nearmiss_hosts       lists all subjects as programs
+#   nearmiss_in_process  lists those that are not isolated as functions; with nearmiss_subjects
+#   nearmiss_subjects    the functions of these subjects
 function(nearmiss_finish_subjects)
   find_package(nlohmann_json REQUIRED)
   set(NEARMISS_HOSTS ${PROJECT_BINARY_DIR}/hosts)
@@ -297,21 +360,25 @@ function(nearmiss_finish_subjects)
     subject/printable.cpp)
   list(TRANSFORM NEARMISS_JUDGE_SIDE PREPEND ${PROJECT_SOURCE_DIR}/impl/)
   set(NEARMISS_JUDGE_SIDE ${NEARMISS_JUDGE_SIDE} PARENT_SCOPE)
-  add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/all.cpp ${NEARMISS_JUDGE_SIDE})
-  nearmiss_examines(nearmiss_subjects)
-  target_link_libraries(nearmiss_subjects PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
-  # Programs that ask hosts link another list of subjects in the place of this one.
-  set_source_files_properties(${NEARMISS_GENERATED}/subjects/all.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  nearmiss_unite(nearmiss_subjects 1)
-  target_compile_definitions(nearmiss_subjects PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}")
+  add_library(nearmiss_wall STATIC ${NEARMISS_JUDGE_SIDE})
+  nearmiss_examines(nearmiss_wall)
+  target_link_libraries(nearmiss_wall PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+  nearmiss_unite(nearmiss_wall 1)
+  target_compile_definitions(nearmiss_wall PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}")
   if(NEARMISS_SANITIZE)
-    target_compile_definitions(nearmiss_subjects PRIVATE NEARMISS_SANITIZED_HOSTS)
+    target_compile_definitions(nearmiss_wall PRIVATE NEARMISS_SANITIZED_HOSTS)
   endif()
-  target_include_directories(nearmiss_subjects PUBLIC ${NEARMISS_GENERATED})
+  target_include_directories(nearmiss_wall PUBLIC ${NEARMISS_GENERATED})
+  nearmiss_write_own_subjects(${NEARMISS_GENERATED}/subjects/own.cpp)
+  add_library(nearmiss_subjects STATIC ${NEARMISS_GENERATED}/subjects/own.cpp)
+  target_link_libraries(nearmiss_subjects PUBLIC nearmiss_wall)
+  add_library(nearmiss_in_process OBJECT ${NEARMISS_GENERATED}/subjects/all.cpp)
+  target_link_libraries(nearmiss_in_process PUBLIC nearmiss_subjects)
   if(NOT NEARMISS_EXAMINER)
+    # The command line does not depend on the hosts: the launcher builds those that a command asks for.
+    add_custom_target(hosts)
     add_library(nearmiss_hosts OBJECT ${NEARMISS_GENERATED}/subjects/hosts.cpp)
     target_link_libraries(nearmiss_hosts PUBLIC nearmiss_flags collide)
-    target_link_options(nearmiss_hosts INTERFACE -Wl,--as-needed)  # drops the libraries of subjects that are linked in process
   endif()
   add_library(nearmiss_per_query INTERFACE)  # subjects PER_QUERY that are not in nearmiss_subjects
   foreach(s IN LISTS subjects)
@@ -321,10 +388,10 @@ function(nearmiss_finish_subjects)
     endif()
     if(NOT NEARMISS_EXAMINER)
       nearmiss_make_host(${s})
-      add_dependencies(nearmiss_hosts nearmiss_host_${s})
+      add_dependencies(hosts nearmiss_host_${s})
     endif()
   endforeach()
-  add_dependencies(nearmiss_subjects nearmiss_host_of_plugins)
+  add_dependencies(nearmiss_wall nearmiss_host_of_plugins)
   set(NEARMISS_HOSTS ${NEARMISS_HOSTS} PARENT_SCOPE)
 endfunction()
 

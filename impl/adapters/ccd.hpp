@@ -24,7 +24,6 @@ enum class CcdAlgorithm { gjk, mpr };
 template <CcdAlgorithm algorithm>
 struct Ccd {
   using Number = double;
-  static constexpr bool referee = true;
   static std::string version() { return "libccd 2.1"; }
 
   /// The defaults of epa_tolerance and mpr_tolerance in ccd.h, 1e-4, in units of 2^-53, rounded up to a power of two.

@@ -54,7 +54,6 @@ struct FclShapes {
 template <fcl::GJKSolverType static_solver, fcl::CCDSolverType motion_solver>
 struct Fcl : FclShapes {
   using Number = double;
-  static constexpr bool referee = true;
   static std::string version() { return "FCL 0.7"; }
 
   /// FCL's own tolerances, relative to the scene, in units of 2^-53, rounded up to a power of two:

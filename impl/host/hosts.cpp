@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <wordexp.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <filesystem>
 #include <limits>
@@ -223,11 +226,11 @@ Subject described(std::string_view hello, HostProgram program) {
     refuse("its hello has '{}' twice in one object", twice->substr(0, most_of_a_name));
   const bool may_share = program.batches == HostProgram::Batches::shared;
   const Members m =
-      may_share ? Members(j, "its hello",
-                          {"nearmiss", "refused", "name", "version", "scalar", "batches", "layout", "offers",
-                           "not_offered", "referee"})
-                : Members(j, "its hello",
-                          {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
+      may_share
+          ? Members(j, "its hello",
+                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "layout", "offers", "not_offered"})
+          : Members(j, "its hello",
+                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
   const std::optional<int> version = m.whole("nearmiss");
   if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
   if (*version != wire::version)
@@ -244,7 +247,6 @@ Subject described(std::string_view hello, HostProgram program) {
   program.batches = batches_in(m.text("batches"), may_share);
   program.hello = hello;
   s.host = std::make_shared<const HostProgram>(std::move(program));
-  s.referee = may_share && m.flag("referee");
   const Json* not_offered = m.find("not_offered");
   if (not_offered != nullptr && !not_offered->is_object()) refuse("its \"not_offered\" is no object");
   for (const Query& q : catalogue()) {
@@ -292,8 +294,7 @@ void add_hosted(const std::string& where, HostProgram program, const std::string
     throw BadSubject(fmt::format("{}: {}{}", where, e.what(), plugin.empty() ? advice_for(program.arguments) : ""));
   }
   Subject s = subject_from_hello(where, hello, std::move(program));
-  if (find_subject(s.name) != nullptr)
-    throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
+  if (is_subject(s.name)) throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
   s.plugin = plugin;
   s.command = command;
   add_subject(std::move(s));
@@ -349,6 +350,42 @@ std::string from_any_folder(const std::string& command, const std::vector<std::s
   return fmt::format("cd {} && {}{}", quoted(here), by_shell ? "" : "exec ", command);
 }
 
+std::unique_ptr<Worker> begun(const HostOfBuild& host) {
+  auto worker =
+      std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(HostProgram{{host.file}}));
+  worker->begin();
+  return worker;
+}
+
+/// The subject that the host's hello describes. Throws BadSubject.
+Subject said_by(const HostOfBuild& host, Worker& worker) {
+  const std::string where = fmt::format("the subject {} of this build", host.name);
+  try {
+    return subject_from_hello(where, worker.hello(), {{host.file}});
+  } catch (const HostFailed& e) {
+    throw BadSubject(fmt::format("{}: {}", where, e.what()));
+  }
+}
+
+/// Runs `LAUNCHER build NAME...`, which shows its progress on standard error. Throws BadSubject.
+void have_built(const std::string& launcher, const std::vector<HostOfBuild>& hosts) {
+  std::vector<std::string> words{launcher, "build"};
+  for (const HostOfBuild& h : hosts) words.push_back(h.name);
+  std::vector<char*> arguments;
+  for (std::string& w : words) arguments.push_back(w.data());
+  arguments.push_back(nullptr);
+  pid_t process = 0;
+  int error = posix_spawn(&process, launcher.c_str(), nullptr, nullptr, arguments.data(), environ);
+  int status = 0;
+  while (error == 0 && waitpid(process, &status, 0) < 0) {
+    if (errno != EINTR) error = errno;
+  }
+  if (error != 0) throw BadSubject(fmt::format("{}: {}", launcher, std::strerror(error)));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  words.erase(words.begin(), words.begin() + 2);
+  throw BadSubject(fmt::format("{} could not build {}", launcher, fmt::join(words, ", ")));
+}
+
 }  // namespace
 
 Subject subject_from_hello(const std::string& where, std::string_view hello, HostProgram program) {
@@ -382,20 +419,43 @@ void load_subjects_of_environment() {
 
 std::vector<Subject> hosted(const std::vector<HostOfBuild>& hosts) {
   std::vector<std::unique_ptr<Worker>> workers;
-  for (const HostOfBuild& h : hosts) {
-    workers.push_back(
-        std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(HostProgram{{h.file}})));
-    workers.back()->begin();
-  }
+  for (const HostOfBuild& h : hosts) workers.push_back(begun(h));
   std::vector<Subject> all;
   for (std::size_t i = 0; i < hosts.size(); ++i) {
-    const std::string where = fmt::format("the subject {} of this build", hosts[i].name);
-    try {
-      all.push_back(subject_from_hello(where, workers[i]->hello(), {{hosts[i].file}}));
-    } catch (const HostFailed& e) {
-      throw BadSubject(fmt::format("{}: {}", where, e.what()));
-    }
+    all.push_back(said_by(hosts[i], *workers[i]));
     workers[i].reset();
+  }
+  return all;
+}
+
+std::vector<Subject> built_and_hosted(const std::vector<HostOfBuild>& hosts) {
+  if (const char* launcher = std::getenv(launcher_variable); launcher != nullptr && *launcher != 0) {
+    have_built(launcher, hosts);
+  }
+  for (const HostOfBuild& h : hosts) {
+    std::error_code error;
+    if (std::filesystem::exists(h.file, error)) continue;
+    throw BadSubject(
+        fmt::format("the subject {} of this build is not built: there is no {}; './nearmiss build {}' in "
+                    "the source tree builds it",
+                    h.name, h.file, h.name));
+  }
+  return hosted(hosts);
+}
+
+std::vector<Subject> hosted_at_hand(const std::vector<HostOfBuild>& hosts) {
+  std::vector<std::pair<const HostOfBuild*, std::unique_ptr<Worker>>> started;
+  for (const HostOfBuild& h : hosts) {
+    std::error_code error;
+    if (std::filesystem::exists(h.file, error)) started.emplace_back(&h, begun(h));
+  }
+  std::vector<Subject> all;
+  for (auto& [host, worker] : started) {
+    try {
+      all.push_back(said_by(*host, *worker));
+    } catch (const BadSubject&) {  // built before this program: the launcher builds it anew when it is asked
+    }
+    worker.reset();
   }
   return all;
 }

@@ -37,6 +37,13 @@ struct HostOfBuild {
 };
 /// Starts all hosts at once and returns the subjects that their hellos describe. Throws BadSubject.
 std::vector<Subject> hosted(const std::vector<HostOfBuild>& hosts);
+/// The environment variable with the launcher's file, where the launcher started this program.
+inline constexpr const char* launcher_variable = "NEARMISS_LAUNCHER";
+/// Has the launcher build these hosts where they are missing or older than their sources, and starts them as hosted()
+/// does. Without a launcher they must be there. Throws BadSubject.
+std::vector<Subject> built_and_hosted(const std::vector<HostOfBuild>& hosts);
+/// Starts those of the hosts that are there and are of this build.
+std::vector<Subject> hosted_at_hand(const std::vector<HostOfBuild>& hosts);
 
 /// The subject that a hello describes. Throws BadSubject, with `where` at the beginning of the line. Declared here for
 /// fuzz_protocol.

@@ -5,7 +5,6 @@
 ///   static std::string version();
 ///   static auto answer(const inputs::QUERY<Number>&);  // one for each query that it answers
 /// and, optionally,
-///   static constexpr bool referee = true;
 ///   template <class Q> static collide::Contract contract();  // the promise for inputs Q
 ///   template <class Q> static std::string equivalence();     // "" or the equivalent operation that it uses
 ///   template <class Q> static std::string left_out();        // "" or the members that it does not give, and why

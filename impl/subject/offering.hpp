@@ -49,11 +49,11 @@ Offering offering_of(std::string_view query) {
 /// The subject without offerings.
 template <class Adapter>
 Subject without_offerings(std::string name) {
+  static_assert(!requires { Adapter::referee; }, "a referee is added by nearmiss_add_subject with REFEREE");
   Subject s;
   s.name = std::move(name);
   s.version = Adapter::version();
   s.scalar = std::same_as<typename Adapter::Number, float> ? Scalar::float32 : Scalar::float64;
-  if constexpr (requires { Adapter::referee; }) s.referee = Adapter::referee;
   return s;
 }
 

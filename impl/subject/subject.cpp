@@ -1,34 +1,101 @@
 #include "impl/subject/subject.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "impl/catalogue/query.hpp"
 #include "impl/subject/foreign_promises.hpp"
 #include "impl/subject/provenance.hpp"
 
 namespace nearmiss {
 
-/// Written by CMake.
-std::vector<Subject> built_in_subjects();
-
 namespace {
 
-std::vector<Subject> subjects_of_build() {
-  std::vector<Subject> all = built_in_subjects();
-  const std::vector<std::string> own = own_subjects();
-  for (Subject& s : all) s.own = std::find(own.begin(), own.end(), s.name) != own.end();
-  return all;
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::vector<Subject>& all_subjects() {
-  static std::vector<Subject> all = subjects_of_build();
+/// The subject in the state before its start.
+Subject not_started(std::string name) {
+  Subject s;
+  s.name = std::move(name);
+  s.started = false;
+  for (const Query& q : catalogue()) {
+    Offering& o = s.offerings.emplace_back();
+    o.query = q.name;
+    o.how = "it is not built yet; './nearmiss build " + s.name + "' builds it";
+  }
+  return s;
+}
+
+/// The subjects of the process. Those of this build come first, and keep their places when they are started.
+class AllSubjects {
+ public:
+  AllSubjects() : names_(built_in_subjects()), is_started_(names_.size()) {
+    for (const std::string& name : names_) all_.push_back(not_started(name));
+  }
+  std::vector<Subject>& all() { return all_; }
+  const std::vector<std::string>& built_in() const { return names_; }
+  /// Starts those subjects of this build with these names that are not started.
+  template <class Start>
+  void start(const std::vector<std::string>& names, Start started_of) {
+    std::vector<std::string> missing;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (!is_started_[i] && contains(names, names_[i])) missing.push_back(names_[i]);
+    }
+    if (missing.empty()) return;
+    for (Subject& s : started_of(missing)) put(std::move(s));
+  }
+
+ private:
+  void put(Subject s) {
+    const auto i = std::size_t(std::find(names_.begin(), names_.end(), s.name) - names_.begin());
+    s.own = contains(own_, s.name);
+    s.referee = contains(referees_, s.name);
+    all_.at(i) = std::move(s);
+    is_started_[i] = true;
+  }
+  std::vector<std::string> names_, own_ = own_subjects(), referees_ = names_of_referees();
+  std::vector<bool> is_started_;
+  std::vector<Subject> all_;
+};
+
+AllSubjects& of_process() {
+  static AllSubjects all;
   return all;
 }
 
 }  // namespace
 
-const std::vector<Subject>& subjects() { return all_subjects(); }
+const std::vector<Subject>& subjects() {
+  of_process().start(of_process().built_in(), start_built_in);
+  return of_process().all();
+}
 
-void add_subject(Subject subject) { all_subjects().push_back(std::move(subject)); }
+const std::vector<Subject>& subjects_at_hand() {
+  of_process().start(of_process().built_in(), start_at_hand);
+  return of_process().all();
+}
+
+std::vector<std::string> subject_names() {
+  std::vector<std::string> names;
+  for (const Subject& s : of_process().all()) names.push_back(s.name);
+  return names;
+}
+
+std::vector<const Subject*> subjects_named(std::span<const std::string> names) {
+  const std::vector<std::string> wanted(names.begin(), names.end());
+  of_process().start(wanted, start_built_in);
+  std::vector<const Subject*> some;
+  for (const Subject& s : of_process().all()) {
+    if (contains(wanted, s.name)) some.push_back(&s);
+  }
+  return some;
+}
+
+std::vector<const Subject*> referees() { return subjects_named(names_of_referees()); }
+
+void add_subject(Subject subject) { of_process().all().push_back(std::move(subject)); }
 
 namespace {
 Measure the_measure;
@@ -48,10 +115,11 @@ Standard Subject::standard_for(std::string_view query) const {
 }
 
 const Subject* find_subject(std::string_view name) {
-  for (const Subject& s : subjects()) {
-    if (s.name == name) return &s;
-  }
-  return nullptr;
+  const std::vector<std::string> wanted{std::string(name)};
+  const std::vector<const Subject*> found = subjects_named(wanted);
+  return found.empty() ? nullptr : found.front();
 }
+
+bool is_subject(std::string_view name) { return contains(subject_names(), name); }
 
 }  // namespace nearmiss

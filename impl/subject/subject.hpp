@@ -96,6 +96,7 @@ struct Subject {
   std::shared_ptr<const HostProgram> host{};  ///< the program that answers; nullptr: functions of this process answer
   std::shared_ptr<const void> context{};      ///< keeps the context of its functions alive
   bool own = false;                           ///< belongs to this project (impl/subject/provenance.hpp)
+  bool started = true;                        ///< false: only its name is known (subjects_at_hand)
 
   const Offering& offering(std::string_view query) const {
     static const Offering none{"", Offer::not_offered, "unknown query", {}, {}};
@@ -110,7 +111,18 @@ struct Subject {
 };
 
 /// Every subject of this build, in the order of the calls of nearmiss_add_subject, then the subjects of add_subject().
+/// Subjects of this build that are programs of their own are built, where the launcher started this program, and
+/// started when they are first needed: by this function all of them. Throws BadSubject (impl/host/hosts.hpp).
 const std::vector<Subject>& subjects();
+/// The names of subjects(), without building or starting one.
+std::vector<std::string> subject_names();
+/// subjects() without building one: those that are not built are not started, and their offerings say how to build them.
+const std::vector<Subject>& subjects_at_hand();
+/// The subjects with these names, in the order of subjects(). They are built and started together. Names of no subject
+/// are left out.
+std::vector<const Subject*> subjects_named(std::span<const std::string> names);
+/// The subjects that give second opinions on the findings of others (nearmiss_add_subject with REFEREE).
+std::vector<const Subject*> referees();
 /// Adds a subject for the rest of the process. Invalidates pointers into subjects().
 void add_subject(Subject subject);
 /// The bound for subjects that promise nothing, for inputs of any size: `error` bounds the backward error, relative to
@@ -125,7 +137,9 @@ struct Measure {
 const Measure& measure();
 /// Sets the measure for the rest of the process.
 void set_measure(const Measure& m);
-/// nullptr where no subject has that name.
+/// nullptr where no subject has that name. A subject of this build is built and started where needed.
 const Subject* find_subject(std::string_view name);
+/// Whether a subject has that name. Builds and starts none.
+bool is_subject(std::string_view name);
 
 }  // namespace nearmiss

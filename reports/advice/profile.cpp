@@ -169,15 +169,16 @@ void write_profile(const Profile& profile, const Advice& advice) {
 Profile load_profile(const fs::path& file) { return ProfileReader(file).read(); }
 
 const Subject& subject_of(const ProfiledQuery& query, const fs::path& profile) {
-  for (const Subject& s : subjects()) {
-    if (s.name != query.subject) continue;
-    if (s.offering(query.query->name).answer == nullptr)
-      throw BadInput(
-          fmt::format("{}: {}: the subject {} does not offer it", profile.string(), query.query->name, s.name));
-    return s;
+  const Subject* s = find_subject(query.subject);
+  if (s == nullptr) {
+    throw BadInput(
+        fmt::format("{}: {}: this build has no subject {}", profile.string(), query.query->name, query.subject));
   }
-  throw BadInput(
-      fmt::format("{}: {}: this build has no subject {}", profile.string(), query.query->name, query.subject));
+  if (s->offering(query.query->name).answer == nullptr) {
+    throw BadInput(
+        fmt::format("{}: {}: the subject {} does not offer it", profile.string(), query.query->name, s->name));
+  }
+  return *s;
 }
 
 }  // namespace nearmiss

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -17,11 +18,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view not_built = "not built yet";
+
+std::string_view offer_of(const Subject& s, const Query& query) {
+  return s.started ? name_of(s.offering(query.name).offer) : not_built;
+}
+
 /// The offer of each subject, or of each referee, for the query.
 Json offers(const Query& query, bool referees_only) {
   Json j = Json::object();
-  for (const Subject& s : subjects()) {
-    if (!referees_only || s.referee) j[s.name] = name_of(s.offering(query.name).offer);
+  for (const Subject& s : subjects_at_hand()) {
+    if (!referees_only || s.referee) j[s.name] = offer_of(s, query);
   }
   return j;
 }
@@ -37,7 +44,7 @@ std::vector<std::string_view> names_of(Preconditions required) {
 /// The preconditions of each subject that has some: {NAME: [PRECONDITION]}.
 Json requirements(const Query& query) {
   Json j = Json::object();
-  for (const Subject& s : subjects()) {
+  for (const Subject& s : subjects_at_hand()) {
     if (const Preconditions r = s.offering(query.name).required; !r.empty()) j[s.name] = names_of(r);
   }
   return j;
@@ -49,7 +56,7 @@ Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json
 /// the units of collide/contract.hpp; null: no bound.
 Json contracts(const Query& query) {
   Json j = Json::object();
-  for (const Subject& s : subjects()) {
+  for (const Subject& s : subjects_at_hand()) {
     const collide::Contract& c = s.offering(query.name).contract;
     if (s.offering(query.name).offer == Offer::not_offered || promises_nothing(c)) continue;
     j[s.name] = {{"backward", bound_json(c.backward)},
@@ -76,7 +83,10 @@ Json list_json() {
   return {{"queries", queries}};
 }
 
-char mark_of(Offer o) { return o == Offer::answers ? '+' : o == Offer::by_equivalence ? '~' : '.'; }
+char mark_of(const Subject& s, const Query& query) {
+  const Offer o = s.offering(query.name).offer;
+  return !s.started ? '?' : o == Offer::answers ? '+' : o == Offer::by_equivalence ? '~' : '.';
+}
 
 std::string letter(std::size_t i) {
   return i < 26 ? std::string(1, char('A' + i)) : std::string(1, char('A' + i / 26 - 1)) + char('A' + i % 26);
@@ -84,20 +94,24 @@ std::string letter(std::size_t i) {
 
 std::string subjects_table() {
   std::vector<std::vector<std::string>> rows{{"", "SUBJECT", "VERSION", "SCALAR", ""}};
-  for (std::size_t i = 0; i < subjects().size(); ++i) {
-    const Subject& s = subjects()[i];
-    rows.push_back({letter(i), s.name, s.version, std::string(name_of(s.scalar)), s.referee ? "also a referee" : ""});
+  for (std::size_t i = 0; i < subjects_at_hand().size(); ++i) {
+    const Subject& s = subjects_at_hand()[i];
+    if (s.started) {
+      rows.push_back({letter(i), s.name, s.version, std::string(name_of(s.scalar)), s.referee ? "also a referee" : ""});
+    } else {
+      rows.push_back({letter(i), s.name, std::string(not_built), "", ""});
+    }
   }
   return table_text(rows);
 }
 
 std::string queries_table() {
   std::vector<std::vector<std::string>> rows{{"QUERY", "KIND"}};
-  for (std::size_t i = 0; i < subjects().size(); ++i) rows[0].push_back(letter(i));
+  for (std::size_t i = 0; i < subjects_at_hand().size(); ++i) rows[0].push_back(letter(i));
   rows[0].insert(rows[0].end(), {"SEEDS", "PROPERTIES"});
   for (const Query& q : catalogue()) {
     std::vector<std::string> row{std::string(q.name), std::string(name_of(q.kind))};
-    for (const Subject& s : subjects()) row.emplace_back(1, mark_of(s.offering(q.name).offer));
+    for (const Subject& s : subjects_at_hand()) row.emplace_back(1, mark_of(s, q));
     row.push_back(std::to_string(count_seeds(q)));
     row.push_back(std::to_string(properties_of(q).size()));
     rows.push_back(row);
@@ -109,9 +123,9 @@ std::string queries_table() {
 std::string reasons_table() {
   std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "REQUIRES", "HOW OR WHY NOT"}};
   for (const Query& q : catalogue()) {
-    for (const Subject& s : subjects()) {
+    for (const Subject& s : subjects_at_hand()) {
       const Offering& o = s.offering(q.name);
-      rows.push_back({std::string(q.name), s.name, std::string(name_of(o.offer)),
+      rows.push_back({std::string(q.name), s.name, std::string(offer_of(s, q)),
                       o.required.empty() ? "-" : fmt::format("{}", fmt::join(names_of(o.required), ", ")), o.how});
     }
   }
@@ -136,13 +150,16 @@ class ListCommand : public Command {
     return {"list",
             "show the queries and the offers of each subject",
             {"For every query: its kind of answer, whether each subject answers it (+), answers it by an "
-             "equivalent operation (~) or does not offer it (.), the number of stored cases in its seed corpus, "
-             "and the number of properties that are tested. Subjects that are marked as referees also give second "
+             "equivalent operation (~), does not offer it (.) or is not built yet (?: './nearmiss build NAME' builds "
+             "it, and so "
+             "does a command that asks it), the number of stored cases in its seed corpus, and the number of "
+             "properties that are tested. Subjects that are marked as referees also give second "
              "opinions in reports.",
              "--why shows for each query and subject the equivalent operation, or why the query is not offered, "
              "and the preconditions of the subject: it is not asked cases that do not meet them. --json prints "
              "one object for programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by "
-             "equivalence\" | \"not offered\"}, \"referees\": {the same}, \"requires\": {NAME: [PRECONDITION]}, "
+             "equivalence\" | \"not offered\" | \"not built yet\"}, \"referees\": {the same}, \"requires\": {NAME: "
+             "[PRECONDITION]}, "
              "\"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
@@ -182,8 +199,10 @@ class ListCommand : public Command {
     } else if (!names_.empty()) {
       for (const std::string& n : names_ == "queries" ? query_names() : subject_names()) say("{}\n", n);
     } else {
-      say("{}\n{}\n+ answers   ~ by equivalence   . not offered   (nearmiss list --why tells how and why)\n",
-          subjects_table(), queries_table());
+      const bool all =
+          std::all_of(subjects_at_hand().begin(), subjects_at_hand().end(), [](const Subject& s) { return s.started; });
+      say("{}\n{}\n+ answers   ~ by equivalence   . not offered{}   (nearmiss list --why tells how and why)\n",
+          subjects_table(), queries_table(), all ? "" : "   ? not built yet");
     }
     return 0;
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -58,26 +59,11 @@ std::string high_text(std::uint64_t high) {
   return high == std::numeric_limits<std::uint64_t>::max() ? "2^64 - 1" : std::to_string(high);
 }
 
-template <class Item>
-std::vector<const Item*> chosen(const std::vector<std::string>& names, std::span<const Item> all) {
-  std::vector<const Item*> items;
-  for (const Item& item : all) {
-    if (names.empty() || std::find(names.begin(), names.end(), item.name) != names.end()) items.push_back(&item);
-  }
-  return items;
-}
-
 }  // namespace
 
 std::vector<std::string> query_names() {
   std::vector<std::string> names;
   for (const Query& q : catalogue()) names.emplace_back(q.name);
-  return names;
-}
-
-std::vector<std::string> subject_names() {
-  std::vector<std::string> names;
-  for (const Subject& s : subjects()) names.push_back(s.name);
   return names;
 }
 
@@ -150,8 +136,16 @@ void Selection::declare_subjects(CLI::App& app) {
       ->check(known_subject());
 }
 
-std::vector<const Query*> Selection::queries() const { return chosen<Query>(query, catalogue()); }
-std::vector<const Subject*> Selection::subjects() const { return chosen<Subject>(subject, nearmiss::subjects()); }
+std::vector<const Query*> Selection::queries() const {
+  std::vector<const Query*> some;
+  for (const Query& q : catalogue()) {
+    if (query.empty() || std::find(query.begin(), query.end(), q.name) != query.end()) some.push_back(&q);
+  }
+  return some;
+}
+std::vector<const Subject*> Selection::subjects() const {
+  return subjects_named(subject.empty() ? subject_names() : subject);
+}
 
 void Selection::check_offered() const {
   for (const Query* q : queries()) {

@@ -17,7 +17,6 @@
 namespace nearmiss {
 
 std::vector<std::string> query_names();
-std::vector<std::string> subject_names();
 
 /// --patience, --plugin and --command; the last two are repeatable. Plugins and commands are loaded while the arguments
 /// are parsed, before later options are checked.

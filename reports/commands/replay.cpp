@@ -80,7 +80,7 @@ class ReplayCommand : public Command {
     const nlohmann::json& subject = report["subject"];
     if (!subject.is_object() || !subject.contains("name") || !subject["name"].is_string()) return;
     const std::string name = subject["name"];
-    if (find_subject(name) != nullptr) return;
+    if (is_subject(name)) return;
     say_on_stderr(fmt::format("nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300),
                               one_line(name, 60), how_to_ask_again(report, file)));
   }

@@ -24,11 +24,11 @@ constexpr std::uint64_t usual_cases = 10'000, most_advice_cases = 1'000'000'000;
 /// The chosen subjects or, without a choice, the tiers of collide.
 std::vector<const Subject*> advised_subjects(const Selection& selection) {
   if (!selection.subject.empty()) return selection.subjects();
-  std::vector<const Subject*> own;
-  for (const Subject* s : selection.subjects()) {
-    if (!tier_of(s->name).tier.empty()) own.push_back(s);
+  std::vector<std::string> own;
+  for (const std::string& name : subject_names()) {
+    if (!tier_of(name).tier.empty()) own.push_back(name);
   }
-  return own;
+  return subjects_named(own);
 }
 
 void check_some_offer(const scenes::Scene& scene, const std::vector<const Subject*>& subjects) {

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <limits>
 #include <thread>
 
@@ -99,6 +103,7 @@ class SweepCommand : public Command {
   }
 
   int run(const CLI::App&) override {
+    if (own_subjects_in_process().empty()) become_program_with_tiers();
     Slice slice = chosen_slice();
     const auto [begin, end] = chosen_range();
     std::vector<Subject> subjects = chosen_subjects(slice.query());
@@ -112,6 +117,19 @@ class SweepCommand : public Command {
   }
 
  private:
+  /// Replaces this program by the one that has the tiers of collide in its process, with the same arguments.
+  [[noreturn]] static void become_program_with_tiers() {
+    const std::string program =
+        (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "nearmiss-sweep").string();
+    std::string line = read_file("/proc/self/cmdline");
+    std::vector<char*> arguments;
+    for (std::size_t at = 0; at < line.size(); at = line.find('\0', at) + 1) arguments.push_back(line.data() + at);
+    arguments.push_back(nullptr);
+    execv(program.c_str(), arguments.data());
+    throw BadInput(
+        fmt::format("sweep: it is a program of its own, {}: {}; './nearmiss sweep' in the source tree builds it",
+                    program, std::strerror(errno)));
+  }
   std::uint64_t seed() const { return seed_.value_or(1); }
   unsigned jobs() const { return unsigned(jobs_.value_or(std::max(1u, std::thread::hardware_concurrency()))); }
 
@@ -166,13 +184,15 @@ class SweepCommand : public Command {
     return all;
   }
   static void check_can_be_swept(const std::string& name, const Query& query) {
-    const Subject& s = *find_subject(name);
-    if (!s.own) {
+    const std::vector<Subject> own = own_subjects_in_process();
+    const auto found = std::find_if(own.begin(), own.end(), [&](const Subject& s) { return s.name == name; });
+    if (found == own.end()) {
       throw BadInput(
           fmt::format("--subject {}: a sweep asks subjects in its own process, which a crash would end; only "
                       "the tiers of collide are asked so",
                       name));
     }
+    const Subject& s = *found;
     if (s.scalar != Scalar::float32) {
       throw BadInput(fmt::format("--subject {}: it computes in double, and a sweep goes through every float", name));
     }

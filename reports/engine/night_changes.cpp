@@ -75,11 +75,11 @@ std::string_view name_of(Change c) {
 }
 
 bool is_ours(const std::string& subject) {
-  const Subject* s = find_subject(subject);
-  if (s == nullptr) return true;  // a plugin or a command of an earlier night
-  const std::vector<std::string> added = added_subjects();
-  return s->own || !s->plugin.empty() || !s->command.empty() ||
-         std::find(added.begin(), added.end(), subject) != added.end();
+  const auto is_among = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), subject) != names.end();
+  };
+  const bool is_plugin_or_command = !is_among(built_in_subjects());  // perhaps of an earlier night
+  return is_plugin_or_command || is_among(own_subjects()) || is_among(added_subjects());
 }
 
 NightChanges::NightChanges(const std::vector<WrittenReport>& earlier, const std::vector<WrittenReport>& tonight,

@@ -49,21 +49,21 @@ Answer scaled_back(const Query& query, Answer a, double factor) {
 /// gets the case itself and, because its tolerances are lengths, once more at unit scale.
 std::vector<Opinion> second_opinions(const Case& question, const Subject& subject, Workers& workers) {
   std::vector<Opinion> opinions;
-  for (const Subject& referee : subjects()) {
-    if (!referee.referee || referee.name == subject.name) continue;
-    const Offering& offering = referee.offering(question.query->name);
+  for (const Subject* referee : referees()) {
+    if (referee->name == subject.name) continue;
+    const Offering& offering = referee->offering(question.query->name);
     if (offering.answer == nullptr) continue;
-    const std::optional<Case> same = in_scalar(question, referee.scalar);
+    const std::optional<Case> same = in_scalar(question, referee->scalar);
     if (!same) continue;
     const Standard asked{{}, true, offering.required};
-    const Answer answer = workers.ask(referee, *same);
-    opinions.push_back({referee.name, referee.version, answer, judge(*same, answer, asked, Detail::full)});
+    const Answer answer = workers.ask(*referee, *same);
+    opinions.push_back({referee->name, referee->version, answer, judge(*same, answer, asked, Detail::full)});
     const std::optional<double> factor = to_unit_scale(*same);
     const std::optional<Case> unit = factor ? scaled(*same, *factor) : std::nullopt;
     if (!unit) continue;
-    const Answer again = scaled_back(*same->query, workers.ask(referee, *unit), *factor);
+    const Answer again = scaled_back(*same->query, workers.ask(*referee, *unit), *factor);
     opinions.push_back(
-        {referee.name + " at unit scale", referee.version, again, judge(*same, again, asked, Detail::full)});
+        {referee->name + " at unit scale", referee->version, again, judge(*same, again, asked, Detail::full)});
   }
   return opinions;
 }

@@ -80,15 +80,15 @@ std::vector<StaticCheck> static_checks(const Case& question, const Answer& answe
     const bool valid =
         std::none_of(scenes.begin(), scenes.end(), [](const Case& c) { return c.query->broken(c.values).has_value(); });
     if (!valid) continue;  // the position overflows
-    for (const Subject& referee : subjects()) {
-      if (!referee.referee || referee.offering(query_of(by->to).name).answer == nullptr) continue;
+    for (const Subject* referee : referees()) {
+      if (referee->offering(query_of(by->to).name).answer == nullptr) continue;
       const bool holds = std::all_of(scenes.begin(), scenes.end(),
-                                     [&](const Case& c) { return in_scalar(c, referee.scalar).has_value(); });
+                                     [&](const Case& c) { return in_scalar(c, referee->scalar).has_value(); });
       if (!holds) continue;
-      check.referee = referee.name;
-      check.version = referee.version;
-      workers.send(referee, scenes);
-      std::ranges::copy(workers.receive(referee), check.said.begin());
+      check.referee = referee->name;
+      check.version = referee->version;
+      workers.send(*referee, scenes);
+      std::ranges::copy(workers.receive(*referee), check.said.begin());
       checks.push_back(check);
     }
   }
