@@ -13,10 +13,12 @@
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/profile_option.hpp"
+#include "reports/engine/building.hpp"
 #include "reports/engine/fuzz_night.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/engine/output.hpp"
+#include "reports/engine/progress.hpp"
 #include "reports/engine/property_tests.hpp"
 #include "reports/engine/relations_run.hpp"
 #include "reports/engine/replay.hpp"
@@ -76,37 +78,53 @@ class Expectations : public Sink {
   const StoredCase* stored_ = nullptr;
 };
 
-/// Asks every stored case of every subject. Returns the number of unexpected findings of subjects whose night it is.
-std::uint64_t replay_stored(Run& run) {
-  run.set_activity("stored cases");
-  std::uint64_t cases = 0;
-  Expectations expectations;
-  for (const Query* q : run.settings().queries) {
-    for (const StoredCase& stored : stored_cases(*q)) {
-      if (run.should_stop()) break;
-      ++cases;
-      expectations.about(stored);
-      run.examine_by_all(stored.question, &expectations);
+/// Asks these subjects every stored case.
+class StoredCases {
+ public:
+  void ask(Run& run, std::span<const Subject* const> subjects) {
+    run.set_activity("stored cases");
+    for (const Query* q : run.settings().queries) {
+      for (const StoredCase& stored : stored_cases(*q)) {
+        if (run.should_stop()) break;
+        asked_.insert(stored.file);
+        expectations_.about(stored);
+        run.examine_by(subjects, stored.question, &expectations_);
+      }
     }
+    run.note(
+        "stored",
+        {{"cases", asked_.size()}, {"expectations", expectations_.compared}, {"unexpected", expectations_.unexpected}});
   }
-  run.note("stored",
-           {{"cases", cases}, {"expectations", expectations.compared}, {"unexpected", expectations.unexpected}});
-  return expectations.of_ours;
-}
+  /// The number of unexpected findings of subjects whose night it is.
+  std::uint64_t unexpected() const { return expectations_.of_ours; }
 
-/// Asks the cases of earlier nights' reports again. Returns the files of those that were asked.
-std::set<std::string> ask_again(Run& run, const std::vector<WrittenReport>& earlier) {
+ private:
+  std::set<fs::path> asked_;
+  Expectations expectations_;
+};
+
+/// Asks these subjects the cases of earlier nights' reports again. Adds the files of those that were asked.
+void ask_again(Run& run, std::span<const Subject* const> subjects, const std::vector<WrittenReport>& earlier,
+               std::set<std::string>& again) {
   run.set_activity("findings of earlier nights");
-  std::set<std::string> again;
   for (const WrittenReport& w : earlier) {
     if (run.should_stop()) break;
     try {
-      run.examine_by_all(read_case_or_report(run.settings().folder / w.file));
+      run.examine_by(subjects, read_case_or_report(run.settings().folder / w.file));
       again.insert(w.file);
     } catch (const BadInput&) {  // a report of another version; its kind stays known
     }
   }
-  return again;
+}
+
+/// Shows the progress of the run while the launcher builds.
+void wait_for(const std::string& step, const std::string& what, Building& building, Run& run) {
+  constexpr int patience = 200;  // milliseconds
+  if (building.may_have(step)) run.set_activity(what);
+  while (building.may_have(step) && !run.should_stop()) {
+    building.poll(patience);
+    run.tick();
+  }
 }
 
 Json outcome_json(const FuzzOutcome& o) {
@@ -137,20 +155,47 @@ struct Fuzzing : FuzzNightOutcome {
   }
 };
 
+/// The loaded plugins and commands.
+std::vector<const Subject*> plugins_and_commands() {
+  const std::vector<std::string> built_in = built_in_subjects();
+  std::vector<std::string> names = subject_names();
+  std::erase_if(names, [&](const auto& n) { return std::find(built_in.begin(), built_in.end(), n) != built_in.end(); });
+  return subjects_named(names);
+}
+
 /// The loaded plugins and commands, for the targets. Throws BadInput for a name that cannot be passed to them.
 ForeignSubjects foreign_subjects() {
   ForeignSubjects foreign;
-  for (const Subject& s : subjects()) {
-    if (s.plugin.find(':') != std::string::npos) {
-      throw BadInput(s.plugin + ": fuzz targets cannot be told of a plugin with ':' in its name; move it elsewhere");
+  for (const Subject* s : plugins_and_commands()) {
+    if (s->plugin.find(':') != std::string::npos) {
+      throw BadInput(s->plugin + ": fuzz targets cannot be told of a plugin with ':' in its name; move it elsewhere");
     }
-    if (s.command.find('\n') != std::string::npos) {
-      throw BadInput(s.command + ": fuzz targets cannot be told of a command of several lines; write it on one");
+    if (s->command.find('\n') != std::string::npos) {
+      throw BadInput(s->command + ": fuzz targets cannot be told of a command of several lines; write it on one");
     }
-    if (!s.plugin.empty()) foreign.plugins.push_back(s.plugin);
-    if (!s.command.empty()) foreign.commands.push_back(s.command);
+    if (!s->plugin.empty()) foreign.plugins.push_back(s->plugin);
+    if (!s->command.empty()) foreign.commands.push_back(s->command);
   }
   return foreign;
+}
+
+constexpr const char* cannot_build =
+    "nightly: the launcher could not build the subjects; build/night.log in the source tree says why";
+
+/// The subjects that a night asks while the launcher builds the others: those that it has built, and plugins and
+/// commands. Waits for the first.
+std::vector<const Subject*> first_subjects(Building& building) {
+  constexpr int patience = 200;  // milliseconds
+  Progress progress;
+  progress.set_activity("the first subjects are being built");
+  while (building.may_have("subjects") && !interrupted()) {
+    building.poll(patience);
+    progress.show(0, std::nullopt, std::nullopt, std::nullopt);
+  }
+  if (!building.has("hosts") && !building.may_have("hosts")) throw BadInput(cannot_build);
+  std::vector<const Subject*> first = subjects_named(building.subjects());
+  for (const Subject* s : plugins_and_commands()) first.push_back(s);
+  return first;
 }
 
 /// The case in a file that a fuzz target left: JSON, or an artifact of libFuzzer in its query's folder.
@@ -233,14 +278,16 @@ int relate(Run& run, Clock::time_point until, const scenes::Scene* scene) {
 }
 
 /// Runs the property tests with fresh seeds. True where one failed.
-bool ask_properties(Run& run, Clock::time_point until) {
+bool ask_properties(Run& run, Clock::time_point until, const Building& building) {
   Json note{{"state", "not built"}, {"seeds", Json::array()}, {"passed", 0}, {"failed", Json::array()}, {"ended", ""}};
-  const std::optional<fs::path> program = find_property_tests();
+  const std::optional<fs::path> program = building.has("properties") ? find_property_tests() : std::nullopt;
   const double left = seconds_until(until);
   if (!program || left < 1) {
     note["state"] = program ? "no time" : "not built";
     run.note("properties", note);
-    say("properties: {}\n", program ? "no time was left" : "not built");
+    say("properties: {}\n", program                           ? "no time was left"
+                            : building.may_have("properties") ? "not built yet"
+                                                              : "not built");
     return false;
   }
   run.set_activity("properties");
@@ -332,20 +379,33 @@ class NightlyCommand : public Command {
     const std::vector<const Query*> queries = profile ? profile->queries() : all.queries();
     foreign_subjects();  // refuses a bad name now rather than in the last third
     catch_interrupts();
-    const FuzzTargets found =
-        find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), queries);
+    Building building;
+    building.wait_for_a_build_without_work();
+    const bool is_whole = profile || building.has("hosts");
+    FuzzTargets found = fuzz_targets(queries);
     Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), queries,
-             profile ? profile->subjects() : all.subjects(), seed, end, false, scene});
+             profile    ? profile->subjects()
+             : is_whole ? all.subjects()
+                        : first_subjects(building),
+             seed, end, false, scene});
     if (scene != nullptr) run.note("scene", scene->name);
     if (scene != nullptr) run.note("required", limits_to_json(*scene_limits()));
     say("seed {}, for {}, into {}\n{}{}\n", seed, duration_text(seconds), path_text(run.settings().folder),
-        measure_line(run.settings().queries, run.settings().subjects), targets_text(found));
+        measure_line(run.settings().queries, run.settings().subjects), targets_text(found, building));
     std::fflush(stdout);
     const std::vector<WrittenReport> earlier = run.kept().written();
+    std::set<std::string> again;
+    StoredCases stored;
+    if (!is_whole) {
+      ask_again(run, run.settings().subjects, earlier, again);
+      stored.ask(run, run.settings().subjects);
+      wait_for("hosts", "the other subjects are being built", building, run);
+    }
+    const std::vector<const Subject*> joined = is_whole ? run.settings().subjects : join(run, all, building);
     if (!profile) run.ask_worst_cases();
-    const std::set<std::string> again = ask_again(run, earlier);
-    const std::uint64_t unexpected = profile ? 0 : replay_stored(run);
-    const double later = (found.targets.empty() ? 0 : fuzzing_share);
+    ask_again(run, joined, earlier, again);
+    if (!profile) stored.ask(run, joined);
+    const double later = found.targets.empty() && !building.may_have("targets") ? 0 : fuzzing_share;
     const double testing = profile ? 0 : properties_share / 2, relating = properties_share / 2;
     run.set_until(between(begin, end, 1 - later - testing - relating - (profile ? 0 : climbing_share)));
     run.set_activity("generated cases");
@@ -354,7 +414,11 @@ class NightlyCommand : public Command {
     if (!profile) climb(run);
     run.set_until(end);
     const int related = relate(run, between(begin, end, 1 - later - testing), scene);
-    bool failed = (!profile && ask_properties(run, between(begin, end, 1 - later))) || related > 0;
+    bool failed = (!profile && ask_properties(run, between(begin, end, 1 - later), building)) || related > 0;
+    if (later > 0 && targets_.empty()) {
+      wait_for("targets", "the fuzz targets are being built", building, run);
+      found = building.has("targets") ? fuzz_targets(queries) : FuzzTargets{{}, found.missing, found.where};
+    }
     if (profile) put_seeds_of(*scene, found, run);
     const std::string fuzzing = fuzz_all(run, found, end, failed);
     const NightChanges changes(earlier, run.written_now(), again);
@@ -364,15 +428,29 @@ class NightlyCommand : public Command {
     const std::optional<NightTriage> triaged = triage(run, for_triage);
     say("\n{}\n{}{}\n{}\n{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
         run.kept().worst_text(), triaged ? triaged->text() : changes.text(run.settings().folder),
-        unexpected_text(unexpected), run.summary(), fuzzing);
+        unexpected_text(stored.unexpected()), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     if (std::max(related, run.exit_code()) == InternalError::exit_code) return InternalError::exit_code;
     if (triaged && triaged->internal_errors() > 0) return InternalError::exit_code;
-    if (failed || unexpected > 0 || (triaged ? triaged->is_regression() : changes.is_regression())) return 1;
+    if (failed || stored.unexpected() > 0 || (triaged ? triaged->is_regression() : changes.is_regression())) return 1;
     return run.shortfall() ? 2 : 0;
   }
 
  private:
+  FuzzTargets fuzz_targets(std::span<const Query* const> queries) const {
+    return find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), queries);
+  }
+  /// Adds the subjects that the launcher has built meanwhile to the run, and returns them. Throws BadInput where it
+  /// could not build them.
+  static std::vector<const Subject*> join(Run& run, const Selection& all, const Building& building) {
+    if (run.should_stop()) return {};
+    if (!building.has("hosts")) throw BadInput(cannot_build);
+    const std::vector<const Subject*> before = run.settings().subjects;
+    run.extend(all.subjects());
+    std::vector<const Subject*> joined = run.settings().subjects;
+    std::erase_if(joined, [&](const Subject* s) { return std::find(before.begin(), before.end(), s) != before.end(); });
+    return joined;
+  }
   double triage_seconds(double seconds) const {
     if (no_triage_) return 0;
     if (triage_minutes_) return std::min(60 * *triage_minutes_, seconds / 2);
@@ -393,7 +471,10 @@ class NightlyCommand : public Command {
     return fmt::format("{} that stored cases do not expect: \"stored\" in index.json\n",
                        plural_text(unexpected, "finding"));
   }
-  static std::string targets_text(const FuzzTargets& found) {
+  static std::string targets_text(const FuzzTargets& found, const Building& building) {
+    if (building.may_have("targets")) {
+      return "What is not built yet is built beside this night, and joins it: build/night.log has the progress.";
+    }
     if (found.targets.empty()) {
       return fmt::format(
           "The fuzz targets are not built (none with libFuzzer in {}): "

@@ -69,10 +69,15 @@ std::vector<std::string> table_row(const Tally& t) {
 }  // namespace
 
 Counts::Counts(std::vector<const Query*> queries, std::vector<const Subject*> subjects, bool by_class)
-    : queries_(std::move(queries)), subjects_(std::move(subjects)), has_classes_(by_class) {
+    : queries_(std::move(queries)), has_classes_(by_class) {
+  extend(std::move(subjects));
+}
+
+void Counts::extend(std::vector<const Subject*> subjects) {
+  subjects_ = std::move(subjects);
   for (const Query* q : queries_) {
     for (const Subject* s : subjects_) {
-      if (!(s->offering(q->name).answer == nullptr)) tallies_[{q, s}] = {q, s};
+      if (!(s->offering(q->name).answer == nullptr)) tallies_.try_emplace({q, s}, Tally{q, s});
     }
   }
 }

@@ -19,6 +19,9 @@ class Counts : public Sink {
   /// Counts the answers of these subjects to these queries; with `by_class` also by the mutators that made the cases.
   Counts(std::vector<const Query*> queries, std::vector<const Subject*> subjects, bool by_class);
 
+  /// Counts the answers of these subjects too; the tables have them in this order. All subjects so far are among them.
+  void extend(std::vector<const Subject*> subjects);
+
   void begin_batch(std::span<const Case> cases) override { touching_.assign(cases.size(), std::nullopt); }
   void take(const Examined& e) override;
   /// Where the second judgement may raise the worst error; and for a sample, so that a judge that contradicts itself is

@@ -82,6 +82,16 @@ bool is_ours(const std::string& subject) {
   return is_plugin_or_command || is_among(own_subjects()) || is_among(added_subjects());
 }
 
+std::string names_of_ours() {
+  const std::vector<std::string> own = own_subjects();
+  std::set<std::string> names;
+  for (const std::string& name : subject_names()) {
+    const bool is_own = std::find(own.begin(), own.end(), name) != own.end();
+    if (is_ours(name)) names.insert(is_own ? "collide" : name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 NightChanges::NightChanges(const std::vector<WrittenReport>& earlier, const std::vector<WrittenReport>& tonight,
                            const std::set<std::string>& again) {
   std::map<std::string, ReportsOfKind> kinds;
@@ -111,11 +121,7 @@ bool NightChanges::is_regression() const {
 }
 
 std::string NightChanges::text(const fs::path& folder) const {
-  std::set<std::string> examined;
-  for (const Subject& s : subjects()) {
-    if (is_ours(s.name)) examined.insert(s.own ? "collide" : s.name);
-  }
-  return fmt::format("{}: {}{}\nother libraries: {}{}", fmt::join(examined, ", "), count_text(*this, true),
+  return fmt::format("{}: {}{}\nother libraries: {}{}", names_of_ours(), count_text(*this, true),
                      first_to_read(*this, true, folder), count_text(*this, false), first_to_read(*this, false, folder));
 }
 

@@ -47,6 +47,8 @@ class NightChanges {
 
 /// True for a subject whose night it is.
 bool is_ours(const std::string& subject);
+/// The names of the subjects whose night it is, separated by commas; the tiers of collide together are "collide".
+std::string names_of_ours();
 
 /// Moves the reports of fixed kinds from findings/ to fixed/ of the run folder, so that a later night does not compare
 /// with them. Leaves a file that cannot be moved.

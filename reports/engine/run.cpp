@@ -103,23 +103,28 @@ Run::~Run() {
   }
 }
 
-std::vector<const Subject*> Run::offering(const Query& query) const {
+void Run::extend(std::vector<const Subject*> subjects) {
+  settings_.subjects = subjects;
+  counts_.extend(std::move(subjects));
+}
+
+std::vector<const Subject*> Run::offering(const Query& query, std::span<const Subject* const> subjects) const {
   std::vector<const Subject*> all;
-  for (const Subject* s : settings_.subjects) {
+  for (const Subject* s : subjects) {
     if (counts_.of(query, *s) != nullptr) all.push_back(s);
   }
   return all;
 }
 
 void Run::examine(std::span<const Case> cases) {
-  std::vector<const Subject*> subjects = offering(*cases.front().query);
+  std::vector<const Subject*> subjects = offering(*cases.front().query, settings_.subjects);
   std::erase_if(subjects, [&](const Subject* s) { return s->scalar != cases.front().scalar; });
   campaign_.examine(subjects, cases);
 }
 
-void Run::examine_by_all(const Case& question, Sink* listener) {
+void Run::examine_by(std::span<const Subject* const> subjects, const Case& question, Sink* listener) {
   listener_.to = listener;
-  campaign_.examine_in_any_scalar(offering(*question.query), question);
+  campaign_.examine_in_any_scalar(offering(*question.query, subjects), question);
   listener_.to = nullptr;
 }
 
@@ -139,7 +144,7 @@ void Run::ask_worst_cases() {
   for (const Query* q : settings_.queries) {
     for (const WorstCase& w : worst_cases(*q)) {
       if (should_stop()) return;
-      const std::vector<const Subject*> all = offering(*q);
+      const std::vector<const Subject*> all = offering(*q, settings_.subjects);
       const auto subject = std::find_if(all.begin(), all.end(), [&](const Subject* s) {
         return s->name == w.subject && s->scalar == w.question.scalar;
       });

@@ -57,12 +57,17 @@ class Run {
   /// Without a previous finish() it marks the run as failed in the index, even on a full disk.
   ~Run();
 
+  /// Asks these subjects too from now on: all of the run so far and those that have become available.
+  void extend(std::vector<const Subject*> subjects);
+
   /// Asks every subject of the run that offers the query and computes in the scalar of the cases. All cases are of one
   /// query and one scalar. Stops early on should_stop().
   void examine(std::span<const Case> cases);
-  /// Asks every subject that offers the query, in any scalar; a case that the scalar cannot hold exactly is out of
-  /// domain. `listener` is an additional sink, or nullptr.
-  void examine_by_all(const Case& question, Sink* listener = nullptr);
+  /// Asks those of these subjects of the run that offer the query, in any scalar; a case that the scalar cannot hold
+  /// exactly is out of domain. `listener` is an additional sink, or nullptr.
+  void examine_by(std::span<const Subject* const> subjects, const Case& question, Sink* listener = nullptr);
+  /// The same with all subjects of the run.
+  void examine_by_all(const Case& question) { examine_by(settings_.subjects, question); }
   /// Examines generated cases: `cases` for each query and subject, or without a number until the time is over. Queries
   /// take turns, so that each gets the same time while it has cases left. Subjects with the same preconditions get the
   /// same cases, which meet these preconditions. With a scene, `cases` of its mix for each subject.
@@ -110,7 +115,7 @@ class Run {
     }
     bool needs_second(const Examined& e) const override { return to != nullptr && to->needs_second(e); }
   };
-  std::vector<const Subject*> offering(const Query& query) const;
+  std::vector<const Subject*> offering(const Query& query, std::span<const Subject* const> subjects) const;
   void write_record(const Climb& c, std::map<const Climb*, double>& written) const;
   void write_index(RunState state);
   std::string lost_text() const;

@@ -33,16 +33,6 @@ constexpr SignatureChange signature_changes[] = {SignatureChange::fresh, Signatu
 
 fs::path triage_file(const fs::path& folder) { return folder / "triage" / "triage.json"; }
 
-std::string subjects_of_the_night() {
-  std::vector<std::string> names;
-  for (const Subject& s : subjects()) {
-    const std::string name = s.own ? "collide" : s.name;
-    if (is_ours(s.name) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  std::sort(names.begin(), names.end());
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 }  // namespace
 
 NightTriage::NightTriage(const Settings& settings) : folder_(settings.folder) {
@@ -121,7 +111,7 @@ std::string NightTriage::counts_text(bool ours) const {
 
 std::string NightTriage::text() const {
   const std::string page = no_page_.empty() ? path_text(folder_ / "index.html") : "none: " + no_page_;
-  return fmt::format("{}: {}\nother libraries: {}\n{}page: {}", subjects_of_the_night(), counts_text(true),
+  return fmt::format("{}: {}\nother libraries: {}\n{}page: {}", names_of_ours(), counts_text(true),
                      counts_text(false), compared_ ? "" : "no earlier night to compare with\n", page);
 }
 
