@@ -92,7 +92,7 @@ TEST(NightWhileBuilding, EndsWhereItsSubjectsCannotBeBuilt) {
   const TemporaryFolder folder;
   const Ran ran = night_with(folder, "echo subjects");
   EXPECT_EQ(ran.exit_code, 2);
-  EXPECT_NE(ran.err.find("could not build its subjects"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("could not build the subjects"), std::string::npos) << ran.err;
 }
 
 }  // namespace
