@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oracles/requirements.hpp"
+#include "reports/triage/trials.hpp"
 
 namespace nearmiss {
 
@@ -110,11 +111,6 @@ std::vector<Case> candidates_of(const Case& c, std::mt19937_64& random) {
     }
   }
   return all;
-}
-
-bool is_valid(const Case& c) {
-  return std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); }) &&
-         !c.query->broken(c.values);
 }
 
 }  // namespace

@@ -15,12 +15,6 @@ namespace {
 
 bool may_move(Role role) { return role != Role::flag && role != Role::index; }
 
-bool is_valid(const Case& c) {
-  return std::all_of(c.values.begin(), c.values.end(),
-                     [&](double x) { return std::isfinite(x) && representable(x, c.scalar); }) &&
-         !c.query->broken(c.values);
-}
-
 /// The parts of a case that may be scaled: sizes, and vectors as wholes.
 std::vector<std::pair<std::size_t, std::size_t>> parts_to_scale(const Query& q) {
   std::vector<std::pair<std::size_t, std::size_t>> parts;
@@ -57,6 +51,12 @@ void take_same(std::vector<Trial>& from, const Case& c, std::size_t most, std::v
 }
 
 }  // namespace
+
+bool is_valid(const Case& c) {
+  return std::all_of(c.values.begin(), c.values.end(),
+                     [&](double x) { return std::isfinite(x) && representable(x, c.scalar); }) &&
+         !c.query->broken(c.values);
+}
 
 Trials::Trials(const Case& question, const Subject& subject, const CauseLimits& limits, Workers& workers)
     : subject_(subject), workers_(workers), limits_(limits) {

@@ -19,6 +19,9 @@ enum class Outcome {
   none,   ///< not asked, without an answer, or outside of the contract's domain
 };
 
+/// Whether every number is finite and of the case's scalar, and the query has such a case.
+bool is_valid(const Case& c);
+
 /// A changed case with the subject's answer.
 struct Trial {
   Case question;
