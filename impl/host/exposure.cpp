@@ -75,6 +75,29 @@ int cover(const fs::path& folder) {
   return mount("nearmiss", folder.c_str(), "tmpfs", plain, "mode=0755,size=1m") == 0 ? 0 : errno;
 }
 
+/// Makes all mounts of this process private. After a chroot its root is no mount, which could be made private, so a
+/// private copy of all that is below becomes the root. The copy is mounted where no other process can see it: in a
+/// folder that covers /proc, which is a mount. Returns 0 or an errno.
+int make_mounts_private() {
+  constexpr unsigned long recursive = 16384, is_private = 1ul << 18;  // MS_REC, MS_PRIVATE
+  if (mount(nullptr, "/", nullptr, recursive | is_private, nullptr) == 0) return 0;
+  if (errno != EINVAL) return errno;
+  std::error_code error;
+  const fs::path here = fs::current_path(error);
+  if (error) return error.value();
+  const int copy = detached_mount("/");
+  mount_attr attributes{};
+  attributes.propagation = is_private;
+  if (copy < 0 ||
+      syscall(SYS_mount_setattr, copy, "", AT_EMPTY_PATH | AT_RECURSIVE, &attributes, sizeof attributes) != 0)
+    return errno;
+  if (mount(nullptr, "/proc", nullptr, is_private, nullptr) != 0) return errno;
+  if (const int why = cover("/proc"); why != 0) return why;
+  if (const int why = attach(copy, "/proc/root", true); why != 0) return why;
+  close(copy);
+  return chroot("/proc/root") == 0 && chdir(here.c_str()) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 std::vector<fs::path> hidden_paths(std::span<const std::string> names) {
@@ -92,8 +115,7 @@ std::vector<fs::path> hidden_paths(std::span<const std::string> names) {
 }
 
 int expose(std::span<const fs::path> paths) {
-  constexpr unsigned long recursive_private = 16384 | (1ul << 18);  // MS_REC, MS_PRIVATE
-  if (mount(nullptr, "/", nullptr, recursive_private, nullptr) != 0) return errno;
+  if (const int why = make_mounts_private(); why != 0) return why;
   std::vector<int> mounts;
   std::vector<bool> folders;
   std::vector<fs::path> closed;

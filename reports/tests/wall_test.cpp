@@ -20,10 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-enum class Way { superuser, user, container, container_root };
+enum class Way { superuser, chroot, user, container, container_root };
 
 const char* name_of(Way way) {
-  constexpr const char* names[] = {"superuser", "user", "container", "container-root"};
+  constexpr const char* names[] = {"superuser", "chroot", "user", "container", "container-root"};
   return names[std::size_t(way)];
 }
 bool is_ordinary(Way way) { return way == Way::user || way == Way::container; }
@@ -119,7 +119,8 @@ TEST_P(InWay, AnAssaultOnTheJudgeCostsOnlyItsCases) {
   for (const std::string& text : texts) EXPECT_EQ(text, "killed by signal 6 (Aborted): did its worst");
 }
 
-INSTANTIATE_TEST_SUITE_P(Wall, InWay, testing::Values(Way::superuser, Way::user, Way::container, Way::container_root),
+INSTANTIATE_TEST_SUITE_P(Wall, InWay,
+                         testing::Values(Way::superuser, Way::chroot, Way::user, Way::container, Way::container_root),
                          [](const auto& of) {
                            std::string name = name_of(of.param);
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -171,7 +172,7 @@ TEST_P(ClosedFolder, AScriptThereIsAskedOrRefusedWithAdvice) {
   const std::string script = copy_of(source_folder() + "/docs/example-program/balls.py");
   const Ran ran = asked({"-s", "balls-py", "--command", python + " " + script});
   if (ran.exit_code == impossible) GTEST_SKIP() << ran.err;
-  if (GetParam() == Way::superuser) {
+  if (GetParam() != Way::container_root) {
     EXPECT_LE(ran.exit_code, 1) << ran.err;
     return;
   }
@@ -180,9 +181,10 @@ TEST_P(ClosedFolder, AScriptThereIsAskedOrRefusedWithAdvice) {
   EXPECT_NE(ran.err.find("who cannot read "), std::string::npos) << ran.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(Wall, ClosedFolder, testing::Values(Way::superuser, Way::container_root), [](const auto& of) {
-  return std::string(of.param == Way::superuser ? "superuser" : "container_root");
-});
+INSTANTIATE_TEST_SUITE_P(Wall, ClosedFolder, testing::Values(Way::superuser, Way::chroot, Way::container_root),
+                         [](const auto& of) {
+                           return std::string(of.param == Way::container_root ? "container_root" : name_of(of.param));
+                         });
 
 }  // namespace
 }  // namespace nearmiss

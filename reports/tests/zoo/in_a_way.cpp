@@ -1,5 +1,6 @@
 /// Starts a program in one of the ways in which Nearmiss is used: in_a_way FOLDER WAY PROGRAM [ARGUMENT ...]
 ///
+///   chroot          as the superuser whose root folder is no mount, as after a chroot
 ///   user            as an ordinary user
 ///   container       as an ordinary user to whom the system refuses namespaces, as containers do by default
 ///   container-root  as the superuser of such a container, with the capabilities that it has by default
@@ -11,6 +12,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sched.h>
+#include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -23,6 +25,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,12 +96,37 @@ void show(const std::vector<std::string>& names) {
   if (errno = nearmiss::expose(hidden); errno != 0) impossible("mounts");
 }
 
+/// Changes the root to a folder, in a mount namespace of this program, in which everything is mounted that is in the
+/// root.
+void change_root() {
+  namespace fs = std::filesystem;
+  if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      mount("nearmiss", "/mnt", "tmpfs", 0, "mode=0755,size=1m") != 0)
+    impossible("a mount namespace");
+  const fs::path root = "/mnt/root";
+  fs::create_directory(root);
+  for (const fs::directory_entry& e : fs::directory_iterator("/")) {
+    const fs::path inside = root / e.path().filename();
+    if (e.is_symlink()) {
+      fs::copy_symlink(e.path(), inside);
+    } else if (e.is_directory()) {
+      fs::create_directory(inside);
+      if (mount(e.path().c_str(), inside.c_str(), nullptr, MS_BIND | MS_REC, nullptr) != 0) impossible("a mount");
+    }
+  }
+  if (chroot(root.c_str()) != 0) impossible("another root");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 4 || chdir(argv[1]) != 0) return 2;
   const std::string_view way = argv[2];
-  if (way == "container-root") {
+  if (way == "chroot") {
+    if (geteuid() != 0) impossible("this program does not run as the superuser");
+    change_root();
+    if (chdir(argv[1]) != 0) impossible(argv[1]);
+  } else if (way == "container-root") {
     if (geteuid() != 0) impossible("this program does not run as the superuser");
     keep_capabilities_of_a_container();
   } else {
@@ -106,7 +134,7 @@ int main(int argc, char** argv) {
     if (chdir(argv[1]) != 0) impossible(argv[1]);
     become_ordinary();
   }
-  if (way != "user") refuse_namespaces();
+  if (way != "user" && way != "chroot") refuse_namespaces();
   execvp(argv[3], argv + 3);
   impossible(argv[3]);
 }
