@@ -153,8 +153,8 @@ void serve(int from_judge, int to_judge, const wire::SharedRequest& asked, wire:
 }
 
 std::string hello_of(const Subject& subject) {
-  Json j{{"nearmiss", wire::version},         {"name", subject.name},    {"version", subject.version},
-         {"scalar", name_of(subject.scalar)}, {"batches", "shared"},     {"layout", shared_layout(catalogue())},
+  Json j{{"nearmiss", wire::version},         {"name", subject.name},         {"version", subject.version},
+         {"scalar", name_of(subject.scalar)}, {"batches", "shared"},          {"layout", shared_layout(catalogue())},
          {"offers", Json::array()},           {"not_offered", Json::object()}};
   for (const Offering& o : subject.offerings) {
     if (o.offer == Offer::not_offered) {

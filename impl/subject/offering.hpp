@@ -49,7 +49,8 @@ Offering offering_of(std::string_view query) {
 /// The subject without offerings.
 template <class Adapter>
 Subject without_offerings(std::string name) {
-  static_assert(!requires { Adapter::referee; }, "a referee is added by nearmiss_add_subject with REFEREE");
+  static_assert(
+      !requires { Adapter::referee; }, "a referee is added by nearmiss_add_subject with REFEREE");
   Subject s;
   s.name = std::move(name);
   s.version = Adapter::version();

@@ -116,7 +116,8 @@ struct Subject {
 const std::vector<Subject>& subjects();
 /// The names of subjects(), without building or starting one.
 std::vector<std::string> subject_names();
-/// subjects() without building one: those that are not built are not started, and their offerings say how to build them.
+/// subjects() without building one: those that are not built are not started, and their offerings say how to build
+/// them.
 const std::vector<Subject>& subjects_at_hand();
 /// The subjects with these names, in the order of subjects(). They are built and started together. Names of no subject
 /// are left out.

@@ -111,8 +111,8 @@ std::string NightTriage::counts_text(bool ours) const {
 
 std::string NightTriage::text() const {
   const std::string page = no_page_.empty() ? path_text(folder_ / "index.html") : "none: " + no_page_;
-  return fmt::format("{}: {}\nother libraries: {}\n{}page: {}", names_of_ours(), counts_text(true),
-                     counts_text(false), compared_ ? "" : "no earlier night to compare with\n", page);
+  return fmt::format("{}: {}\nother libraries: {}\n{}page: {}", names_of_ours(), counts_text(true), counts_text(false),
+                     compared_ ? "" : "no earlier night to compare with\n", page);
 }
 
 Json NightTriage::to_json() const {
