@@ -288,7 +288,7 @@ function(nearmiss_make_host identifier)
   file(GENERATE OUTPUT ${main} CONTENT
 "// Written by CMake: the host of ${name}.
 #include <unistd.h>
-#include \"impl/host/serve.hpp\"
+#include \"impl/host/built_in_host.hpp\"
 ${include}namespace nearmiss {
 Subject subject_${identifier}();
 }

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "impl/host/built_in_host.hpp"
 #include "impl/host/shared_layout.hpp"
 #include "impl/host/timing.hpp"
 #include "impl/subject/contained.hpp"

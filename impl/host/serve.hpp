@@ -32,8 +32,6 @@ void begin_host();
 
 /// The main function of a host of this project: sends the hello, then serves. Returns the exit code.
 int run_host(const Subject& subject, StageTallyFunction stages = nullptr);
-/// The same for a subject of this build, which is created after the pipes are protected.
-int run_built_in_host(Subject (*subject)(), StageTallyFunction stages = nullptr);
 /// Sends a refusal(); returns the exit code.
 int send_refusal(const std::string& why);
 
