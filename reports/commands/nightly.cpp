@@ -179,19 +179,24 @@ ForeignSubjects foreign_subjects() {
   return foreign;
 }
 
+/// Shows progress while the launcher builds, before there is a run.
+void wait_for(const std::string& step, Building& building) {
+  constexpr int patience = 200;  // milliseconds
+  Progress progress;
+  progress.set_activity("subjects are being built");
+  while (building.may_have(step) && !interrupted()) {
+    building.poll(patience);
+    progress.show(0, std::nullopt, std::nullopt, std::nullopt);
+  }
+}
+
 constexpr const char* cannot_build =
     "nightly: the launcher could not build the subjects; build/night.log in the source tree says why";
 
 /// The subjects that a night asks while the launcher builds the others: those that it has built, and plugins and
 /// commands. Waits for the first.
 std::vector<const Subject*> first_subjects(Building& building) {
-  constexpr int patience = 200;  // milliseconds
-  Progress progress;
-  progress.set_activity("the first subjects are being built");
-  while (building.may_have("subjects") && !interrupted()) {
-    building.poll(patience);
-    progress.show(0, std::nullopt, std::nullopt, std::nullopt);
-  }
+  wait_for("subjects", building);
   if (!building.has("hosts") && !building.may_have("hosts")) throw BadInput(cannot_build);
   std::vector<const Subject*> first = subjects_named(building.subjects());
   for (const Subject* s : plugins_and_commands()) first.push_back(s);
@@ -372,15 +377,18 @@ class NightlyCommand : public Command {
         begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds - for_triage));
     const std::uint64_t seed = seed_or_random(seed_);
     const Selection all;
+    catch_interrupts();
+    Building building;
+    building.wait_for_a_build_without_work();
     std::optional<ChosenProfile> profile;
-    if (profile_.is_given()) profile.emplace(profile_.file);
+    if (profile_.is_given()) {
+      wait_for("hosts", building);
+      profile.emplace(profile_.file);
+    }
     const scenes::Scene* scene = profile ? &profile->scene() : nullptr;
     judge_by(std::nullopt, scene);
     const std::vector<const Query*> queries = profile ? profile->queries() : all.queries();
     foreign_subjects();  // refuses a bad name now rather than in the last third
-    catch_interrupts();
-    Building building;
-    building.wait_for_a_build_without_work();
     const bool is_whole = profile || building.has("hosts");
     FuzzTargets found = fuzz_targets(queries);
     Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), queries,
@@ -430,10 +438,14 @@ class NightlyCommand : public Command {
         run.kept().worst_text(), triaged ? triaged->text() : changes.text(run.settings().folder),
         unexpected_text(stored.unexpected()), run.summary(), fuzzing);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
+    if (building.has_failed())
+      say_on_stderr(
+          "nearmiss: this night lacked what the launcher could not build; build/night.log in the source tree says "
+          "why\n");
     if (std::max(related, run.exit_code()) == InternalError::exit_code) return InternalError::exit_code;
     if (triaged && triaged->internal_errors() > 0) return InternalError::exit_code;
     if (failed || stored.unexpected() > 0 || (triaged ? triaged->is_regression() : changes.is_regression())) return 1;
-    return run.shortfall() ? 2 : 0;
+    return run.shortfall() || building.has_failed() ? 2 : 0;
   }
 
  private:

@@ -28,6 +28,8 @@ class Building {
   bool has(const std::string& step) const { return !there_is_ || steps_.contains(step); }
   /// Whether the step may still succeed.
   bool may_have(const std::string& step) const { return !ended_ && !steps_.contains(step); }
+  /// Whether the build has ended before its last step.
+  bool has_failed() const { return there_is_ && ended_ && !steps_.contains("targets"); }
   /// The subjects that the launcher has named.
   const std::vector<std::string>& subjects() const { return subjects_; }
 

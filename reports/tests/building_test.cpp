@@ -88,6 +88,15 @@ TEST(NightWhileBuilding, BeginsWithTheSubjectsThatAreThere) {
   for (const std::string& name : subject_names()) EXPECT_TRUE(asked.contains(name)) << name << " has not joined";
 }
 
+/// A night without its fuzz targets is no whole night.
+TEST(NightWhileBuilding, SaysWhatItLacked) {
+  const TemporaryFolder folder;
+  const Ran ran = night_with(folder, "echo subjects; echo hosts");
+  EXPECT_GE(ran.exit_code, 1) << ran.out;
+  EXPECT_NE(ran.err.find("lacked what the launcher could not build"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.out.find("properties: not built\n"), std::string::npos) << ran.out;
+}
+
 TEST(NightWhileBuilding, EndsWhereItsSubjectsCannotBeBuilt) {
   const TemporaryFolder folder;
   const Ran ran = night_with(folder, "echo subjects");
