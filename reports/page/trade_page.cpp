@@ -15,6 +15,8 @@ namespace nearmiss {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 namespace fs = std::filesystem;
 
 #ifdef NEARMISS_D3_FILE
@@ -37,7 +39,6 @@ std::string scripts_of_trade_page() {
 
 /// Null for a file that is no trade.
 nlohmann::ordered_json trade_in(const fs::path& file) {
-  using Json = nlohmann::ordered_json;
   nlohmann::ordered_json trade = nlohmann::ordered_json::parse(read_file(file), nullptr, /*allow_exceptions=*/false);
   const auto has = [&](const char* member, Json::value_t type) {
     return trade.contains(member) && trade[member].type() == type;
