@@ -31,7 +31,7 @@ build=$copy/build/release
 cmake -S "$copy" -B "$build" --preset release -DNEARMISS_BENCHMARKS=OFF -DNEARMISS_CCD=OFF \
   -DNEARMISS_BULLET=OFF -DNEARMISS_ODE=OFF -DNEARMISS_ADD="$copy/docs/example-library/nearmiss.cmake" >"$copy/log" 2>&1 ||
   { cat "$copy/log"; fail "cmake refuses the new query"; }
-cmake --build "$build" --target nearmiss_cli nearmiss_properties "fuzz_$query" >"$copy/log" 2>&1 ||
+cmake --build "$build" --target nearmiss_cli hosts nearmiss_properties "fuzz_$query" >"$copy/log" 2>&1 ||
   { tail -n 40 "$copy/log"; fail "the new query does not build"; }
 
 nearmiss=$build/reports/nearmiss
@@ -56,7 +56,7 @@ grep -q "$query" "$copy/log" || fail "no test ran for the query"
 
 # Mutation: a wrong comparison in the new query must be found.
 sed -i 's/ <= sphere.radius/ < 2 * sphere.radius/' "$copy/impl/collide/include/collide/detail/$query.hpp"
-cmake --build "$build" --target nearmiss_cli >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
+cmake --build "$build" --target nearmiss_cli hosts >"$copy/log" 2>&1 || { cat "$copy/log"; fail "the mutant does not build"; }
 status=0
 "$nearmiss" run --query "$query" --cases 20000 --seed 1 --out "$copy/mutant" >"$copy/log" 2>&1 || status=$?
 [ "$status" = 1 ] || { cat "$copy/log"; fail "the mutant ends with exit code $status, not 1"; }
