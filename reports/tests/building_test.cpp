@@ -33,7 +33,7 @@ Ran run_of(const TemporaryFolder& folder, const std::string& launcher, std::vect
   return nearmiss(arguments, {launcher});
 }
 
-/// The launcher is asked for the chosen subjects, and for the referees where a report needs them: once for each.
+/// The launcher is asked for the chosen subjects, all at once.
 TEST(SubjectsToBuild, AreThoseThatACommandAsks) {
   const TemporaryFolder folder;
   const Ran ran = run_of(folder, launcher(folder, ""), {"-s", "collide-fast-double", "-s", "collide-certified-float"});
