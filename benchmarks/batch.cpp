@@ -1,4 +1,5 @@
-/// Measures the throughput of batches beside that of single calls of `Fast`; writes docs/batch.md to standard output.
+/// Measures the throughput of batches beside that of single calls of `Fast`; writes docs/measured/batch.md to standard
+/// output.
 ///
 ///   batch_gain [--scenes=N] [--repeats=N] [QUERY ...]
 ///
@@ -98,7 +99,7 @@ void print_head(unsigned repeats) {
 
 Written by `build/release/benchmarks/batch_gain`. Run the same command to update this page.
 
-The [batch form](numerics.md#batch-forms) of a query answers it for many arguments in one call. The tables have the
+The [batch form](../explanation/numerics.md#batch-forms) of a query answers it for many arguments in one call. The tables have the
 processor time of a query in ns: by single calls of `Fast` in a loop over an array of structs, and by a batch with SSE2 and
 with AVX2 over structures of arrays. The bits of the answers are the same. × is the time of the single calls divided by
 that of the batch. All ways answer the same {} plain scenes of the generator in the same order and store the answers. Half

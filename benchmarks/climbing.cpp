@@ -1,5 +1,5 @@
 /// Measures how much worse the errors are that climbing finds than those of random sampling in the same time; writes
-/// docs/climbing.md to standard output.
+/// docs/measured/climbing.md to standard output.
 ///
 ///   climbing_gain [--frame] [--seconds=S] [--seeds=N] [--subject=NAME ...] [QUERY ...]
 ///
@@ -107,7 +107,7 @@ Written by this command; run it again to update this page:
 {}
 ```
 
-`nearmiss run --climb` moves from bad cases to worse ones ([properties.md](properties.md#worst-cases)). Here it is compared with
+`nearmiss run --climb` moves from bad cases to worse ones ([properties.md](../explanation/properties.md#worst-cases)). Here it is compared with
 the generator's cases alone: the same query, subject and seed, {:g} seconds for each kind of error, the same hosts and
 judge, without the stored worst cases. Figures are medians of {} pairs: the largest proved error of a search, in ulps
 (forward) or epsilon (backward), a sampled lower bound; `-` means that nothing was proved. The last column counts the pairs in
@@ -186,7 +186,7 @@ int main(int argc, char** argv) {
       return complain(argument + " is no query of the catalogue");
     }
   }
-  options.command_line += " > docs/climbing.md";
+  options.command_line += " > docs/measured/climbing.md";
   try {
     return run(options);
   } catch (const BadSubject& e) {

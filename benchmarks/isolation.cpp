@@ -1,12 +1,12 @@
-/// Measures the cost of isolation; writes docs/isolation.md to standard output.
+/// Measures the cost of isolation; writes docs/measured/isolation.md to standard output.
 ///
 ///   isolation_cost [--frame] [--pairs=N] [--subject=NAME] [--command=COMMAND ...] [QUERY ...]
 ///
 /// Times the same work alternately with the subject in its host and in this process, and prints the medians of the
 /// ratios of processor time (of both processes) and of wall time; then the cost of a case for each COMMAND, a program
-/// over pipes (docs/protocol.md). Exit code 1 where isolation costs a run more than 20 % of processor time; wall time
-/// also depends on the load of the machine. --frame measures nothing and prints the page with a dash in place of each
-/// figure.
+/// over pipes (docs/reference/protocol.md). Exit code 1 where isolation costs a run more than 20 % of processor time;
+/// wall time also depends on the load of the machine. --frame measures nothing and prints the page with a dash in place
+/// of each figure.
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
       return complain(argument + " is no query of the catalogue");
     }
   }
-  command_line += " > docs/isolation.md";
+  command_line += " > docs/measured/isolation.md";
   if (frame) pairs = 0;
   if (queries.empty()) {
     for (const Query& q : catalogue()) queries.push_back(&q);
@@ -287,7 +287,7 @@ int main(int argc, char** argv) {
     fmt::print(R"(
 ## Programs over pipes
 
-The cost of a case that is sent to any other program ([protocol.md](protocol.md)). The programs compute almost nothing, so the
+The cost of a case that is sent to any other program ([protocol.md](../reference/protocol.md)). The programs compute almost nothing, so the
 figures are the cost of the pipes: medians of {} rounds of {} batches of {} cases, in nanoseconds of processor time of both
 processes and of wall time.
 

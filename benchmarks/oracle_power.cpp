@@ -1,5 +1,5 @@
 /// Measures how wide the oracle's enclosures are, and which wrong answers the judge detects; writes
-/// docs/oracle-power.md to standard output.
+/// docs/measured/oracle-power.md to standard output.
 ///
 ///   oracle_power [--cases=N] [--lies=N] [QUERY ...]
 ///

@@ -110,7 +110,7 @@ TEST_P(Enclosures, ContainTheExactAnswersOfEveryFamily) {
 }
 
 /// How many yes-answers per thousand cases a wider enclosure may exclude although a narrower one did not. Zero unless
-/// the bound depends on a time found in plain doubles (docs/numerics.md).
+/// the bound depends on a time found in plain doubles (docs/explanation/numerics.md).
 int excluded_later_at_most(std::string_view query) { return query == "moving_sphere_passes_box" ? 1 : 0; }
 
 TEST_P(Enclosures, GrowWithTheWidening) {

@@ -1,4 +1,4 @@
-/// docs/reference.md and the catalogue name the same queries.
+/// docs/reference/reference-api.md and the catalogue name the same queries.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ struct Row {
 };
 
 std::vector<Row> rows_of_reference() {
-  const std::string path = source_folder() + "/docs/reference.md";
+  const std::string path = source_folder() + "/docs/reference/reference-api.md";
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + " cannot be read");
   std::vector<Row> rows;
@@ -71,10 +71,10 @@ TEST(ReferenceTable, NamesTheSameQueriesAsTheCatalogue) {
   std::ranges::set_difference(named, known, std::inserter(not_in_catalogue, not_in_catalogue.end()));
   std::ranges::set_difference(known, named, std::inserter(not_in_table, not_in_table.end()));
   EXPECT_TRUE(not_in_catalogue.empty())
-      << "docs/reference.md names what impl/catalogue/catalogue.def has no line for:\n  "
+      << "docs/reference/reference-api.md names what impl/catalogue/catalogue.def has no line for:\n  "
       << fmt::format("{}", fmt::join(not_in_catalogue, "\n  "));
   EXPECT_TRUE(not_in_table.empty())
-      << "docs/reference.md has no row for these lines of impl/catalogue/catalogue.def (one that the"
+      << "docs/reference/reference-api.md has no row for these lines of impl/catalogue/catalogue.def (one that the"
          " reference does not have goes under \"Beyond the reference\"):\n  "
       << fmt::format("{}", fmt::join(not_in_table, "\n  "));
 }

@@ -1,5 +1,6 @@
 /// The direction of includes: a folder includes only itself and folders to its left in the order of
-/// docs/architecture.md. An oracle includes nothing of the implementation but shapes, answers and their members.
+/// docs/explanation/architecture.md. An oracle includes nothing of the implementation but shapes, answers and their
+/// members.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A collision library in JavaScript as a subject of Nearmiss; docs/protocol.md explains each line.
+// A collision library in JavaScript as a subject of Nearmiss; docs/reference/protocol.md explains each line.
 //
 //     ./nearmiss run --command "node docs/example-program/balls.js" --subject balls-js
 const fs = require("fs");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A collision library in Python as a subject of Nearmiss; docs/protocol.md explains each line.
+"""A collision library in Python as a subject of Nearmiss; docs/reference/protocol.md explains each line.
 
     ./nearmiss run --command "python3 docs/example-program/balls.py" --subject balls-py
 """

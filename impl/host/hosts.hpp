@@ -1,5 +1,5 @@
 /// Subjects that run in programs of their own: the subjects of this build, plugins, and any program that speaks the
-/// protocol (docs/protocol.md). The functions here check every member of such a program's hello.
+/// protocol (docs/reference/protocol.md). The functions here check every member of such a program's hello.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 /// Keeps a host apart from the judge and from other hosts: by a user id of its own, by capabilities, by filters.
-/// docs/threat-model.md says which of them hold where.
+/// docs/explanation/threat-model.md says which of them hold where.
 #pragma once
 
 #include <sys/types.h>

@@ -166,7 +166,7 @@ void open_named_files(const Plan& plan) {
 
 /// Takes from this process what would let it reach the judge or another host.
 void separate(Plan& plan, Namespaces own, const std::array<pid_t, 4>& others, int status) {
-  static char undumpable[] = "NEARMISS_UNDUMPABLE=1";  // for a host of this project: docs/threat-model.md
+  static char undumpable[] = "NEARMISS_UNDUMPABLE=1";  // for a host of this project: docs/explanation/threat-model.md
   if (const int why = become_unprivileged(plan.user); why != 0) cannot_start(status, why);
   if (plan.user || own.users) return;
   plan.environment.insert(plan.environment.begin(), undumpable);
@@ -387,7 +387,7 @@ std::vector<std::string> names_in(const Program& program, const std::string& exe
 void tell_once_of_the_superuser() {
   static const int told = std::fputs(
       "nearmiss: what is asked runs as the superuser here, because this system has no other user id for it; "
-      "docs/threat-model.md says what that means\n",
+      "docs/explanation/threat-model.md says what that means\n",
       stderr);
   static_cast<void>(told);
 }

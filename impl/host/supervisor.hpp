@@ -22,7 +22,7 @@ struct Confinement {
   std::size_t files = 256;                         ///< open files of each process
   bool pid_namespace = true;  ///< request a namespace; without one the supervisor searches for leftover processes
   /// The program runs with the rights of this process. Otherwise it loses every privilege, and neither it nor any other
-  /// such program can read, trace or signal this process (docs/threat-model.md).
+  /// such program can read, trace or signal this process (docs/explanation/threat-model.md).
   bool trusted = false;
 
   /// No limits: for programs of this project.

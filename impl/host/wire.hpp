@@ -14,7 +14,7 @@
 
 namespace nearmiss::wire {
 
-/// The version of the protocol in docs/protocol.md, as the hello states it.
+/// The version of the protocol in docs/reference/protocol.md, as the hello states it.
 inline constexpr int version = 1;
 
 /// The file descriptors of a host, beside the standard three.

@@ -1,6 +1,6 @@
 /* A collision library as a plugin of Nearmiss: a shared library that is loaded at run time, written in any language
  * that can speak C's calling convention. `nearmiss list --members QUERY` shows a query's numbers, in their order;
- * docs/semantics.md defines their meaning, docs/bring-your-own.md describes the steps.
+ * docs/reference/semantics.md defines their meaning, docs/bring-your-own.md describes the steps.
  *
  *   cc -shared -fPIC -o libmine.so mine.c   &&   nearmiss run --plugin ./libmine.so --subject mine
  */

@@ -75,7 +75,7 @@ struct Offering {
   TimeFunction time = nullptr;     ///< nullptr: its calls can be timed only through `answer`; known only in the host
 };
 
-/// A program that answers in place of a function of this process (docs/protocol.md).
+/// A program that answers in place of a function of this process (docs/reference/protocol.md).
 struct HostProgram {
   /// How batches are transferred: in shared memory, or through pipes.
   enum class Batches { shared, binary, json };

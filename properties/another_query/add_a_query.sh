@@ -22,8 +22,8 @@ here=$source_folder/properties/another_query
 cp -R "$here/overlay/." "$copy"
 echo "NEARMISS_QUERY($query)" >>"$copy/impl/catalogue/catalogue.def"
 sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball holds a point |
-}" "$copy/docs/reference.md"
-grep -q "$query" "$copy/docs/reference.md" || fail "docs/reference.md has no table for a query of one's own"
+}" "$copy/docs/reference/reference-api.md"
+grep -q "$query" "$copy/docs/reference/reference-api.md" || fail "docs/reference/reference-api.md has no table for a query of one's own"
 sed -i "\$a #include <collide/$query.hpp>" "$copy/impl/collide/include/collide/collide.hpp"
 
 # The same preset and the same depth of the build folder: what did not change comes from the compiler cache.

@@ -123,7 +123,8 @@ void declare_foreign_subjects(CLI::App& app) {
               "Add the subject of this shared library (see docs/bring-your-own.md); may be given several times",
               "FILE");
   add_loading(app, "--command", load_command,
-              "Add the subject that this program is (see docs/protocol.md); may be given several times", "COMMAND");
+              "Add the subject that this program is (see docs/reference/protocol.md); may be given several times",
+              "COMMAND");
 }
 
 void Selection::declare_subjects(CLI::App& app) {

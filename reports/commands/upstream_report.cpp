@@ -20,7 +20,7 @@ class UpstreamReportCommand : public Command {
          "of the scene, the given and the exact answer, the program of 'nearmiss emit-test', and what other libraries "
          "answer. It names no folder of this machine.",
          "Look first whether the library's own documentation allows the answer, and whether the finding is known: "
-         "docs/upstream.md has those that are."},
+         "docs/measured/upstream.md has those that are."},
         {{"0", "The report is written."},
          {"2", "It could not be written, or nothing is to be reported. One line on standard error says why."},
          internal_error_status()},

@@ -48,7 +48,7 @@ class Workers {
   double processor_seconds(const Subject& subject) const;
 
   static std::size_t capacity_for(const Query& query);
-  /// The most cases in a batch. Smaller batches raise the cost of isolation (docs/isolation.md).
+  /// The most cases in a batch. Smaller batches raise the cost of isolation (docs/measured/isolation.md).
   static constexpr std::size_t batch = Worker::capacity;
 
  private:

@@ -80,7 +80,7 @@ tests='Structure.*:ReferenceTable.*:Catalogue.*'
 "$properties" --gtest_filter="$tests" >"$scratch/said" 2>&1 || { tail -n 40 "$scratch/said" >&2; fail "a test of the sources fails"; }
 grep -q 'Structure.IncludesPointToTheLeft' "$scratch/said" || fail "the tests of the sources were not run"
 if command -v python3 >/dev/null; then
-  PYTHONDONTWRITEBYTECODE=1 python3 corpus/known-bugs --check || fail "docs/known-bugs.md would change"
+  PYTHONDONTWRITEBYTECODE=1 python3 corpus/known-bugs --check || fail "docs/measured/known-bugs.md would change"
 fi
 
 # An export has no folder .git: its sources are the same, and the stored case.

@@ -1,4 +1,4 @@
-/// The example programs of docs/protocol.md: each is a subject like any other.
+/// The example programs of docs/reference/protocol.md: each is a subject like any other.
 #include <gtest/gtest.h>
 
 #include <algorithm>

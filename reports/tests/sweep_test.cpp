@@ -227,7 +227,7 @@ json without_times(json state) {
 
 json state_in(const std::filesystem::path& folder) { return json::parse(read_file(folder / "sweep.json")); }
 
-/// The results of docs/exhaustive.md.
+/// The results of docs/measured/exhaustive.md.
 TEST(StoredSweeps, AreExhaustive) {
   std::size_t found = 0;
   for (const auto& f : std::filesystem::directory_iterator(source_folder() + "/reports/exhaustive")) {

@@ -1,5 +1,5 @@
-/// What docs/threat-model.md promises, in each way in which Nearmiss is used: what a subject tries against the judge,
-/// its neighbours and the system does not succeed, and costs only its own cases.
+/// What docs/explanation/threat-model.md promises, in each way in which Nearmiss is used: what a subject tries against
+/// the judge, its neighbours and the system does not succeed, and costs only its own cases.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -4,7 +4,7 @@
 The frame of a page is its headings, its prose, the headers of its tables, and in each row the cells that name something.
 Every number in prose counts as a figure.
 
-  docs/page_frame.py [--mask REGEX] ... PAGE COMMAND [ARGUMENT ...]
+  docs/measured/page_frame.py [--mask REGEX] ... PAGE COMMAND [ARGUMENT ...]
 
 compares PAGE with what COMMAND prints. It prints one line per difference, and ends with exit code 1 if there is one. Text
 that matches a mask counts as a figure.
