@@ -5,21 +5,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "corpus/source_folder.hpp"
 #include "impl/catalogue/query.hpp"
-#include "reports/findings/encoded.hpp"
+#include "properties/project_files.hpp"
 
 namespace nearmiss {
 namespace {
@@ -72,23 +69,6 @@ const Room& room_of(const std::string& file) {
 
 bool is_source(const fs::path& p) {
   return p.extension() == ".cpp" || p.extension() == ".hpp" || p.extension() == ".h";
-}
-
-/// The names that cmake/sources prints.
-std::vector<std::string> project_files() {
-  const std::string command = shell_quoted((root / "cmake/sources").string()) + " " + shell_quoted(root.string());
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  if (pipe == nullptr) throw std::runtime_error("no shell");
-  std::vector<std::string> files{""};
-  for (int c = 0; (c = std::fgetc(pipe.get())) != EOF;) {
-    if (c == '\0') {
-      files.emplace_back();
-    } else {
-      files.back() += char(c);
-    }
-  }
-  files.pop_back();
-  return files;
 }
 
 /// Each source and header of the project in a folder of the list, without the overlay of another query.
@@ -163,11 +143,9 @@ TEST(Structure, NoOracleSeesTheImplementation) {
 TEST(Structure, TheLibraryKnowsNothingOfItsExaminers) {
   for (const std::string& file : sources()) {
     if (!file.starts_with("impl/collide/")) continue;
-    std::ifstream in(root / file);
-    std::stringstream text;
-    text << in.rdbuf();
+    const std::string text = text_of_file(file);
     for (const char* word : {"nearmiss", "judge", "harness", "oracle", "fuzz", " ask(", "ask<"}) {
-      EXPECT_EQ(text.str().find(word), std::string::npos) << file << ": " << word;
+      EXPECT_EQ(text.find(word), std::string::npos) << file << ": " << word;
     }
     for (const std::string& other : includes_of(file)) EXPECT_TRUE(other.starts_with("impl/collide/")) << file;
   }
@@ -223,12 +201,10 @@ TEST(Structure, NoHeaderReadsWhatTheLibraryCompiles) {
   for (const std::string& file : sources()) {
     if (!file.starts_with(collide_headers)) continue;
     ++headers;
-    std::ifstream in(root / file);
-    std::stringstream text;
-    text << in.rdbuf();
+    const std::string text = text_of_file(file);
     for (const char* heavy : {"gmp.h", "mpfr.h", "immintrin.h"}) {
       if (file.ends_with("/batch_avx2.hpp")) continue;  // only batch.hpp includes it
-      EXPECT_EQ(text.str().find("#include <" + std::string(heavy)), std::string::npos) << file << ": " << heavy;
+      EXPECT_EQ(text.find("#include <" + std::string(heavy)), std::string::npos) << file << ": " << heavy;
     }
     for (const std::string& other : includes_of(file)) EXPECT_TRUE(other.starts_with(collide_headers)) << file;
   }
