@@ -207,9 +207,9 @@ struct Gjk : Bodies<A, B> {
 
 /// A sphere that moves from its start to past the shape.
 template <class B>
-struct Sweep : Bodies<Sphere, B> {
+struct ConvexCast : Bodies<Sphere, B> {
   template <class Q>
-  explicit Sweep(const Q& q)
+  explicit ConvexCast(const Q& q)
       : Bodies<Sphere, B>(q),
         from(pose(the<Sphere>(q))),
         to(at(end_of_motion(the<Sphere>(q).center, q.velocity, the<Sphere>(q).radius, the_other<Sphere, B>(q)))),
@@ -226,8 +226,8 @@ struct Sweep : Bodies<Sphere, B> {
 };
 
 template <class B>
-struct Subsimplex : Sweep<B> {
-  using Sweep<B>::Sweep;
+struct Subsimplex : ConvexCast<B> {
+  using ConvexCast<B>::ConvexCast;
   LibraryAnswer ask() const {
     btVoronoiSimplexSolver simplex;
     return this->by(btSubsimplexConvexCast(&this->a.geometry, &this->b.geometry, &simplex));
@@ -235,8 +235,8 @@ struct Subsimplex : Sweep<B> {
 };
 
 template <class B>
-struct Continuous : Sweep<B> {
-  using Sweep<B>::Sweep;
+struct Continuous : ConvexCast<B> {
+  using ConvexCast<B>::ConvexCast;
   LibraryAnswer ask() const {
     if constexpr (std::is_same_v<B, Plane>) {
       return this->by(btContinuousConvexCollision(&this->a.geometry, &this->b.geometry));
@@ -346,12 +346,12 @@ struct AABoxSlabs {
   btVector3 bounds[2];
 };
 
-template <class Q, class Scene>
+template <class Q, class Asked>
 void enter_as(const char* query, const char* way) {
-  register_contender(query, "bullet", way, std::make_unique<ContenderOf<Scene, Q>>());
+  register_contender(query, "bullet", way, std::make_unique<ContenderOf<Asked, Q>>());
 }
 template <class Q, class B>
-void enter_sweeps(const char* query) {
+void enter_casts(const char* query) {
   enter_as<Q, Subsimplex<B>>(query, "subsimplex");
   enter_as<Q, Continuous<B>>(query, "continuous");
 }
@@ -378,13 +378,13 @@ void enter_query(const char* name) {
   } else if constexpr (is == "moving_sphere_plane") {
     enter_as<Q, Continuous<Plane>>(name, "continuous");
   } else if constexpr (is == "moving_sphere_sphere") {
-    enter_sweeps<Q, Sphere>(name);
+    enter_casts<Q, Sphere>(name);
   } else if constexpr (is == "moving_sphere_box") {
-    enter_sweeps<Q, Box>(name);
+    enter_casts<Q, Box>(name);
   } else if constexpr (is == "moving_sphere_capsule") {
-    enter_sweeps<Q, Capsule>(name);
+    enter_casts<Q, Capsule>(name);
   } else if constexpr (is == "moving_sphere_triangle") {
-    enter_sweeps<Q, Triangle>(name);
+    enter_casts<Q, Triangle>(name);
   } else if constexpr (is == "moving_point_sphere") {
     enter_as<Q, RaySubsimplex<Sphere>>(name, "subsimplex");
   } else if constexpr (is == "moving_point_box") {

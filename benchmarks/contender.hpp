@@ -1,4 +1,4 @@
-/// A contender: one way to answer a query. The benchmarks time all contenders of a query on the same scenes.
+/// A contender: one way to answer a query. The benchmarks time all contenders of a query on the same cases.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/scenes.hpp"
+#include "benchmarks/timed_cases.hpp"
 #include "impl/catalogue/answer.hpp"
 
 namespace nearmiss::benchmarks {
@@ -16,20 +16,20 @@ class Contender {
  public:
   virtual ~Contender() = default;
   /// Makes the objects that exist before a call: shapes, poses, prepared operands. Not timed.
-  virtual void prepare(const Scenes& scenes) = 0;
-  /// Answers every scene once, in the order of this pass.
+  virtual void prepare(const TimedCases& cases) = 0;
+  /// Answers every case once, in the order of this pass.
   virtual void pass(std::size_t pass) = 0;
-  virtual void ask(std::size_t scene) = 0;
-  virtual bool yes(std::size_t scene) = 0;
-  /// The share of scenes that each stage answered, by name; empty for a contender without stages.
+  virtual void ask(std::size_t index) = 0;
+  virtual bool yes(std::size_t index) = 0;
+  /// The share of cases that each stage answered, by name; empty for a contender without stages.
   virtual std::vector<std::pair<std::string, double>> stages() { return {}; }
 };
 
-/// The i-th scene of a pass. Scenes are in random order, and each pass uses another order, so that no branch predictor
-/// can learn it. `scenes` must be a power of two.
-inline std::size_t scene_in_pass(std::size_t i, std::size_t pass, std::size_t scenes) {
-  const std::size_t stride = 2 * (pass * 0x9e3779b97f4a7c15 >> 32) + 1;  // odd, and scenes a power of two
-  return (i * stride) & (scenes - 1);
+/// The i-th case of a pass. Cases are in random order, and each pass uses another order, so that no branch predictor
+/// can learn it. `cases` must be a power of two.
+inline std::size_t case_in_pass(std::size_t i, std::size_t pass, std::size_t cases) {
+  const std::size_t stride = 2 * (pass * 0x9e3779b97f4a7c15 >> 32) + 1;  // odd, and cases a power of two
+  return (i * stride) & (cases - 1);
 }
 
 /// Registers a contender as the benchmark QUERY/LIBRARY/WAY/SCALAR.
@@ -51,25 +51,25 @@ inline void keep(const T& value) {
   asm volatile("" : : "m"(value) : "memory");
 }
 
-/// A contender with scenes of type Scene, which are made from Q, the inputs of a query, and answer by `ask()`. `Tier`
+/// A contender with cases of type Asked, which are made from Q, the inputs of a query, and answer by `ask()`. `Tier`
 /// may count its stages.
-template <class Scene, class Q, class Tier = void>
+template <class Asked, class Q, class Tier = void>
 class ContenderOf final : public Contender {
  public:
   ~ContenderOf() override { clear(); }
-  void prepare(const Scenes& scenes) override {
+  void prepare(const TimedCases& cases) override {
     clear();
-    capacity_ = scenes.size();
-    scenes_ = std::allocator<Placed>().allocate(capacity_);  // contiguous; a scene need not be movable
-    for (const auto& values : scenes.values) std::construct_at(scenes_ + size_++, inputs_from<Q>(values.data()));
+    capacity_ = cases.size();
+    cases_ = std::allocator<Placed>().allocate(capacity_);  // contiguous; a case need not be movable
+    for (const auto& values : cases.values) std::construct_at(cases_ + size_++, inputs_from<Q>(values.data()));
   }
   void pass(std::size_t pass) override {
-    const Placed* const scenes = scenes_;  // the loop is timed: locals avoid reading the members in each iteration
+    const Placed* const cases = cases_;  // the loop is timed: locals avoid reading the members in each iteration
     const std::size_t size = size_;
-    for (std::size_t i = 0; i < size; ++i) keep(scenes[scene_in_pass(i, pass, size)].scene.ask());
+    for (std::size_t i = 0; i < size; ++i) keep(cases[case_in_pass(i, pass, size)].asked.ask());
   }
-  void ask(std::size_t scene) override { keep(scenes_[scene].scene.ask()); }
-  bool yes(std::size_t scene) override { return scenes_[scene].scene.ask().yes(); }
+  void ask(std::size_t index) override { keep(cases_[index].asked.ask()); }
+  bool yes(std::size_t index) override { return cases_[index].asked.ask().yes(); }
   std::vector<std::pair<std::string, double>> stages() override {
     if constexpr (requires { Tier::counts(); }) {
       const auto before = Tier::counts();
@@ -84,20 +84,20 @@ class ContenderOf final : public Contender {
   }
 
  private:
-  /// A scene at the start of a cache line, so that it occupies as few lines as possible.
+  /// A case at the start of a cache line, so that it occupies as few lines as possible.
   struct alignas(64) Placed {
-    explicit Placed(const Q& q) : scene(q) {}
-    Scene scene;
+    explicit Placed(const Q& q) : asked(q) {}
+    Asked asked;
   };
 
   void clear() {
-    if (scenes_ == nullptr) return;
-    std::destroy_n(scenes_, size_);
-    std::allocator<Placed>().deallocate(scenes_, capacity_);
-    scenes_ = nullptr;
+    if (cases_ == nullptr) return;
+    std::destroy_n(cases_, size_);
+    std::allocator<Placed>().deallocate(cases_, capacity_);
+    cases_ = nullptr;
     size_ = 0;
   }
-  Placed* scenes_ = nullptr;
+  Placed* cases_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
 };
 

@@ -139,9 +139,9 @@ struct Motion : Pair<Sphere, Target<B>> {
   fcl::Transform3d end;
 };
 
-template <class Q, class Scene>
+template <class Q, class Asked>
 void enter_as(const char* query, const char* way) {
-  register_contender(query, "fcl", way, std::make_unique<ContenderOf<Scene, Q>>());
+  register_contender(query, "fcl", way, std::make_unique<ContenderOf<Asked, Q>>());
 }
 
 /// Registers FCL's contenders for a query.

@@ -1,9 +1,9 @@
-/// Times every contender on the scenes of its query. Google Benchmark's own options apply; --scenes=N, a power of two,
-/// sets the number of scenes for each query.
+/// Times every contender on the cases of its query. Google Benchmark's own options apply; --cases=N, a power of two,
+/// sets the number of cases for each query.
 ///
-/// The time is that of one call in a sequence of calls, with the scenes in random order. Counters: p50 and p99,
-/// percentiles over the scenes of the latency in ns of a single call that overlaps with no other; hits, the share of
-/// scenes with a yes; agree, the share of scenes with the same decision as Fast in double; and for a tier with stages
+/// The time is that of one call in a sequence of calls, with the cases in random order. Counters: p50 and p99,
+/// percentiles over the cases of the latency in ns of a single call that overlaps with no other; hits, the share of
+/// cases with a yes; agree, the share of cases with the same decision as Fast in double; and for a tier with stages
 /// the share that each stage answered.
 #include <benchmark/benchmark.h>
 
@@ -64,23 +64,23 @@ double median(std::vector<double> values) {
 
 /// An empty call, which measures the overhead of the timing.
 class NoQuestion final : public Contender {
-  void prepare(const Scenes&) override {}
+  void prepare(const TimedCases&) override {}
   void pass(std::size_t) override {}
   void ask(std::size_t) override {}
   bool yes(std::size_t) override { return false; }
 };
 
-/// The latency of each scene in ticks: the median of some passes in different orders, so that a load on the machine
+/// The latency of each case in ticks: the median of some passes in different orders, so that a load on the machine
 /// during one pass does not count.
-std::vector<double> costs_of_scenes(Contender& contender, std::size_t scenes) {
+std::vector<double> costs_of_cases(Contender& contender, std::size_t cases) {
   constexpr std::size_t passes = 9;
-  std::vector<std::vector<double>> costs(scenes);
+  std::vector<std::vector<double>> costs(cases);
   for (std::size_t pass = 0; pass < passes; ++pass) {
-    for (std::size_t i = 0; i < scenes; ++i) {
-      const std::size_t scene = scene_in_pass(i, pass, scenes);
+    for (std::size_t i = 0; i < cases; ++i) {
+      const std::size_t index = case_in_pass(i, pass, cases);
       const std::uint64_t begin = ticks();
-      contender.ask(scene);
-      costs[scene].push_back(double(ticks() - begin));
+      contender.ask(index);
+      costs[index].push_back(double(ticks() - begin));
     }
   }
   std::vector<double> medians;
@@ -92,16 +92,16 @@ struct Percentiles {
   double p50, p99, agree;
 };
 
-Percentiles percentiles(Contender& contender, const Scenes& scenes) {
+Percentiles percentiles(Contender& contender, const TimedCases& cases) {
   static NoQuestion nothing;
   Contender* volatile no_question = &nothing;  // the compiler must not inline the call
-  const double overhead = median(costs_of_scenes(*no_question, scenes.size()));
-  std::vector<double> costs = costs_of_scenes(contender, scenes.size());
+  const double overhead = median(costs_of_cases(*no_question, cases.size()));
+  std::vector<double> costs = costs_of_cases(contender, cases.size());
   std::sort(costs.begin(), costs.end());
   const auto ns = [&](std::size_t i) { return std::max(0.0, costs[i] - overhead) * ns_per_tick(); };
   std::size_t agree = 0;
-  for (std::size_t i = 0; i < scenes.size(); ++i) agree += contender.yes(i) == scenes.yes[i];
-  return {ns(costs.size() / 2), ns(costs.size() * 99 / 100), double(agree) / double(scenes.size())};
+  for (std::size_t i = 0; i < cases.size(); ++i) agree += contender.yes(i) == cases.yes[i];
+  return {ns(costs.size() / 2), ns(costs.size() * 99 / 100), double(agree) / double(cases.size())};
 }
 
 /// A benchmark. Keeps its percentiles, because Google Benchmark calls run() several times for one result.
@@ -111,14 +111,14 @@ struct Entry {
   std::optional<Percentiles> measured;
 
   void run(benchmark::State& state) {
-    const Scenes& scenes = scenes_of(query);
-    contender->prepare(scenes);
-    if (!measured) measured = percentiles(*contender, scenes);
-    const auto calls = benchmark::IterationCount(scenes.size());
+    const TimedCases& cases = timed_cases_of(query);
+    contender->prepare(cases);
+    if (!measured) measured = percentiles(*contender, cases);
+    const auto calls = benchmark::IterationCount(cases.size());
     for (std::size_t pass = 0; state.KeepRunningBatch(calls); ++pass) contender->pass(pass);
     state.counters["p50"] = measured->p50;
     state.counters["p99"] = measured->p99;
-    state.counters["hits"] = scenes.share_of_yes();
+    state.counters["hits"] = cases.share_of_yes();
     state.counters["agree"] = measured->agree;
     for (const auto& [stage, share] : contender->stages()) state.counters[stage] = share;
     contender->prepare({});  // frees the memory
@@ -130,15 +130,15 @@ std::vector<std::unique_ptr<Entry>>& entries() {
   return all;
 }
 
-/// Removes --scenes=N from the arguments; false where N is not a power of two.
-bool take_scene_count(int& argc, char** argv) {
-  constexpr std::string_view option = "--scenes=";
+/// Removes --cases=N from the arguments; false where N is not a power of two.
+bool take_case_count(int& argc, char** argv) {
+  constexpr std::string_view option = "--cases=";
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (!argument.starts_with(option)) continue;
     const std::size_t count = std::strtoull(argv[i] + option.size(), nullptr, 10);
     if (!std::has_single_bit(count)) return false;
-    set_scene_count(count);
+    set_case_count(count);
     std::copy(argv + i + 1, argv + argc, argv + i);
     --argc;
     return true;
@@ -159,13 +159,13 @@ void register_contender(std::string query, std::string library, std::string way,
 }  // namespace nearmiss::benchmarks
 
 int main(int argc, char** argv) {
-  if (!nearmiss::benchmarks::take_scene_count(argc, argv)) {
-    std::cerr << "--scenes must be a power of two\n";
+  if (!nearmiss::benchmarks::take_case_count(argc, argv)) {
+    std::cerr << "--cases must be a power of two\n";
     return 2;
   }
   nearmiss::benchmarks::add_context("flags", NEARMISS_BENCHMARK_FLAGS);
   nearmiss::benchmarks::add_context("processor", nearmiss::benchmarks::processor());
-  nearmiss::benchmarks::add_context("scenes", std::to_string(nearmiss::benchmarks::scene_count()));
+  nearmiss::benchmarks::add_context("cases", std::to_string(nearmiss::benchmarks::case_count()));
   nearmiss::benchmarks::enter_all();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

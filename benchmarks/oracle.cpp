@@ -1,7 +1,7 @@
 /// Times the judge on every query, with answers of collide's fast tier that are computed before. Google Benchmark's own
 /// options apply; --cases=N sets the number of cases of each measurement.
 ///
-///   QUERY/judge/SCALAR       plain scenes: the decision, the contract and the proved backward bound
+///   QUERY/judge/SCALAR       plain cases: the decision, the contract and the proved backward bound
 ///   QUERY/wrong/SCALAR       the same, each answer off by a part in 4096, or else with the opposite decision
 ///   QUERY/forward/SCALAR     as judge, and the forward error to a tenth of an ulp
 ///   QUERY/degenerate/SCALAR  as judge, of the generator's cases that only the exact stage decides
@@ -54,7 +54,7 @@ bool decided_by_interval(const Case& c) {
   return oracle_of(*c.query).interval(c.values, still, Answer{}, c.scalar).decided();
 }
 
-std::vector<Asked> plain_scenes(const Pairing& p) {
+std::vector<Asked> plain_cases(const Pairing& p) {
   std::vector<Asked> all;
   for (std::uint64_t i = 0; all.size() < count; ++i) {
     Case c = generate(*p.query, p.scalar, 2024, i);
@@ -69,10 +69,10 @@ std::vector<Asked> all_sorts(const Pairing& p) {
   return all;
 }
 
-/// The plain scenes with wrong answers: each nonzero number is off by a part in 4096; without such a number the
+/// The plain cases with wrong answers: each nonzero number is off by a part in 4096; without such a number the
 /// decision is wrong.
 std::vector<Asked> with_wrong_answers(const Pairing& p) {
-  std::vector<Asked> all = plain_scenes(p);
+  std::vector<Asked> all = plain_cases(p);
   for (Asked& a : all) {
     bool off = false;
     for (std::size_t i = 0; i < p.query->outputs.size(); ++i) {
@@ -155,14 +155,13 @@ void enter_all() {
     for (const Scalar scalar : {Scalar::float32, Scalar::float64}) {
       const Subject* fast = find_subject("collide-fast-" + std::string(name_of(scalar)));
       const Pairing p{&q, scalar, &fast->offering(q.name)};
-      register_benchmark(p, "judge", [](benchmark::State& s, const Pairing& x) {
-        time_cases(s, x, plain_scenes(x), Detail::verdict);
-      });
+      register_benchmark(
+          p, "judge", [](benchmark::State& s, const Pairing& x) { time_cases(s, x, plain_cases(x), Detail::verdict); });
       register_benchmark(p, "wrong", [](benchmark::State& s, const Pairing& x) {
         time_cases(s, x, with_wrong_answers(x), Detail::verdict);
       });
       register_benchmark(p, "forward", [](benchmark::State& s, const Pairing& x) {
-        time_cases(s, x, plain_scenes(x), Detail::forward);
+        time_cases(s, x, plain_cases(x), Detail::forward);
       });
       register_benchmark(p, "degenerate", [](benchmark::State& s, const Pairing& x) {
         time_cases(s, x, degenerate(x), Detail::verdict);

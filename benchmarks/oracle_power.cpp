@@ -3,7 +3,7 @@
 ///
 ///   oracle_power [--cases=N] [--lies=N] [QUERY ...]
 ///
-/// The program widens the inputs of plain scenes by 2^24 epsilon of double. It compares the width of the enclosure with
+/// The program widens the inputs of plain cases by 2^24 epsilon of double. It compares the width of the enclosure with
 /// that of the hull of exact answers to inputs within the widening: random ones and, for each number of the answer, the
 /// two corners in the directions of its slopes. Then the judge gets lies about --lies cases of each family. Exit code 1
 /// where the median of a query is above four, or where fewer than 99.9 % of a family's lies are detected.
@@ -76,7 +76,7 @@ the judge gets *lies*, answers that are wrong by construction: elementary bounds
 the oracle, prove that no input within 2^10 times the bound on the backward error has such an answer. The bounds on the
 backward error are the promises of `Fast` in both scalars, and 2^30 ε of double. A lie is wrong in the decision alone, in one
 number or in one point. Of each family {} cases are drawn for each scalar and bound; the table has the share of lies that the
-judge proves to be further off than the bound. In the scenes of `tiny`, `thin` and `degenerate` some bodies are small, nearly
+judge proves to be further off than the bound. In the cases of `tiny`, `thin` and `degenerate` some bodies are small, nearly
 flat, or flat and concentric; `huge` and `minute` have lengths of 2^500 to 2^1018 and of 2^-500 to 2^-1060 (float: 2^60 to
 2^122, 2^-60 to 2^-140).
 
@@ -111,28 +111,28 @@ flat, or flat and concentric; `huge` and `minute` have lengths of 2^500 to 2^101
   return few.empty();
 }
 
-int run(const std::vector<std::string>& names, std::uint64_t scenes, std::uint64_t cases_with_lies) {
+int run(const std::vector<std::string>& names, std::uint64_t cases, std::uint64_t cases_with_lies) {
   fmt::print(R"(# How tight the oracle's enclosures are
 
 Written by `build/release/benchmarks/oracle_power`. Run the same command to update this page.
 
-An enclosure that is too wide excuses errors. For each query the inputs of {} plain scenes are widened by 2^24 ε of
+An enclosure that is too wide excuses errors. For each query the inputs of {} plain cases are widened by 2^24 ε of
 double. The table has the ratio of the width of the enclosure to the width of the hull of exact answers to inputs within
 the widening: random inputs and, for each number of the answer, the two corners in the directions of its slopes. The ratio
-of a vector is that of its widest number. Scenes whose decision changes within the widening are left out, and so are
+of a vector is that of its widest number. Cases whose decision changes within the widening are left out, and so are
 answers that consist of decisions, flags and indices only.
 
 | query | part | median | 90 % | 99 % |
 |---|---|---|---|---|
 )",
-             scenes);
+             cases);
   bool good = true;
   std::string wide;
   double widest = 0;
   for (const Query& q : catalogue()) {
     if (!names.empty() && std::find(names.begin(), names.end(), q.name) == names.end()) continue;
     WidthRatios every{"", {}};
-    for (WidthRatios& r : width_ratios(q, scenes)) {
+    for (WidthRatios& r : width_ratios(q, cases)) {
       if (r.all.empty()) continue;
       every.all.insert(every.all.end(), r.all.begin(), r.all.end());
       if (r.at(0.5) > most_median) wide += fmt::format("{}`{}` {}", wide.empty() ? "" : ", ", q.name, r.part);
@@ -159,12 +159,12 @@ answers that consist of decisions, flags and indices only.
 
 int main(int argc, char** argv) {
   std::vector<std::string> names;
-  std::uint64_t scenes = 400, lies = 1000;
+  std::uint64_t cases = 400, lies = 1000;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument.starts_with("--cases=")) {
-      scenes = std::strtoull(argv[i] + 8, nullptr, 10);
-      if (scenes == 0) return std::cerr << "oracle_power: --cases must be a positive number\n", 2;
+      cases = std::strtoull(argv[i] + 8, nullptr, 10);
+      if (cases == 0) return std::cerr << "oracle_power: --cases must be a positive number\n", 2;
     } else if (argument.starts_with("--lies=")) {
       lies = std::strtoull(argv[i] + 7, nullptr, 10);
       if (lies == 0) return std::cerr << "oracle_power: --lies must be a positive number\n", 2;
@@ -174,5 +174,5 @@ int main(int argc, char** argv) {
       return std::cerr << "oracle_power: " << argument << " is no query of the catalogue\n", 2;
     }
   }
-  return nearmiss::run(names, scenes, lies);
+  return nearmiss::run(names, cases, lies);
 }

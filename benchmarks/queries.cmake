@@ -54,14 +54,14 @@ ${calls}#ifdef NEARMISS_WITH_FCL
 }
 ")
 
-# Only the subject that decides the scenes: the subject bullet would link Bullet in double into every program.
+# Only the subject that decides the cases: the subject bullet would link Bullet in double into every program.
 set(judge ${NEARMISS_GENERATED}/benchmarks/subjects.cpp)
 nearmiss_write_subjects(${judge} collide_fast_double)
 
 set_source_files_properties(fcl.cpp bullet.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # both name their shapes alike
 foreach(scalar float double)
   set(target benchmark_${scalar})
-  add_executable(${target} main.cpp scenes.cpp ${judge} ${query_sources})
+  add_executable(${target} main.cpp timed_cases.cpp ${judge} ${query_sources})
   target_link_options(${target} PRIVATE -Wl,--as-needed)
   target_link_libraries(${target} PRIVATE nearmiss_corpus nearmiss_subjects benchmark::benchmark)
   if(TARGET collide::certified)
@@ -85,11 +85,11 @@ foreach(scalar float double)
   nearmiss_unite(${target} 2)
 endforeach()
 
-# Runs every contender on few scenes and makes the page, to test that they run, not how fast.
+# Runs every contender on few cases and makes the page, to test that they run, not how fast.
 if(NEARMISS_TESTS AND NEARMISS_PYTHON)
   add_test(NAME Benchmarks.RunAndMakeTheirTable COMMAND ${NEARMISS_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/table
     --build ${PROJECT_BINARY_DIR} --output ${CMAKE_CURRENT_BINARY_DIR}/smoke.md --
-    --scenes=64 --benchmark_min_time=0.00001 --benchmark_repetitions=1)
+    --cases=64 --benchmark_min_time=0.00001 --benchmark_repetitions=1)
   set_tests_properties(Benchmarks.RunAndMakeTheirTable PROPERTIES TIMEOUT 300)
   # The stored page, without its figures, is what the programs of this build write.
   add_test(NAME Pages.Benchmarks COMMAND ${NEARMISS_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/table

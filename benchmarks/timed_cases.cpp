@@ -1,4 +1,4 @@
-#include "benchmarks/scenes.hpp"
+#include "benchmarks/timed_cases.hpp"
 
 #include <algorithm>
 #include <map>
@@ -14,17 +14,17 @@ namespace {
 
 std::size_t count = 4096;
 
-struct Scene {
+struct TimedCase {
   std::vector<double> values;
   bool yes;
 };
 
-/// The first `count` plain scenes, with as many hits as misses where there are enough of both.
-std::vector<Scene> draw(const Query& query) {
+/// The first `count` plain cases, with as many hits as misses where there are enough of both.
+std::vector<TimedCase> draw(const Query& query) {
   const Offering& judge = find_subject("collide-fast-double")->offering(query.name);
   const std::size_t quota = decides(query.kind) ? count / 2 : count;
-  const std::uint64_t most = 64 * count;  // of the generator's cases; half of them are plain scenes
-  std::vector<Scene> drawn, surplus;
+  const std::uint64_t most = 64 * count;  // of the generator's cases; half of them are plain cases
+  std::vector<TimedCase> drawn, surplus;
   std::size_t of[2] = {0, 0};
   Case c;
   for (std::uint64_t i = 0; i < most && drawn.size() < count; ++i) {
@@ -35,31 +35,33 @@ std::vector<Scene> draw(const Query& query) {
     if (into.size() < count) into.push_back({c.values, yes});
   }
   for (std::size_t i = 0; drawn.size() < count && i < surplus.size(); ++i) drawn.push_back(surplus[i]);
-  if (drawn.size() < count) throw std::logic_error("too few plain scenes of " + std::string(query.name));
+  if (drawn.size() < count) throw std::logic_error("too few plain cases of " + std::string(query.name));
   return drawn;
 }
 
-Scenes make(const Query& query) {
-  std::vector<Scene> drawn = draw(query);
+TimedCases make(const Query& query) {
+  std::vector<TimedCase> drawn = draw(query);
   std::mt19937_64 random(1);
   for (std::size_t i = drawn.size() - 1; i > 0; --i) std::swap(drawn[i], drawn[random() % (i + 1)]);
-  Scenes scenes;
-  for (const Scene& s : drawn) {
-    scenes.values.push_back(s.values);
-    scenes.yes.push_back(s.yes);
+  TimedCases cases;
+  for (const TimedCase& s : drawn) {
+    cases.values.push_back(s.values);
+    cases.yes.push_back(s.yes);
   }
-  return scenes;
+  return cases;
 }
 
 }  // namespace
 
-double Scenes::share_of_yes() const { return double(std::count(yes.begin(), yes.end(), true)) / double(yes.size()); }
+double TimedCases::share_of_yes() const {
+  return double(std::count(yes.begin(), yes.end(), true)) / double(yes.size());
+}
 
-void set_scene_count(std::size_t n) { count = n; }
-std::size_t scene_count() { return count; }
+void set_case_count(std::size_t n) { count = n; }
+std::size_t case_count() { return count; }
 
-const Scenes& scenes_of(std::string_view query) {
-  static std::map<std::string, Scenes, std::less<>> made;
+const TimedCases& timed_cases_of(std::string_view query) {
+  static std::map<std::string, TimedCases, std::less<>> made;
   const auto known = made.find(query);
   if (known != made.end()) return known->second;
   const Query* q = find_query(query);
