@@ -10,7 +10,7 @@
 
 namespace {
 
-struct Mutator {
+struct MutatorState {
   const nearmiss::Query* query;
   std::uint64_t seed;
   std::vector<std::uint8_t> made;  ///< the last result; afl-fuzz reads it until the next call
@@ -27,15 +27,15 @@ extern "C" void* afl_custom_init(void* /*afl_state_t*/, unsigned int seed) {
     std::fprintf(stderr, "afl_mutator: NEARMISS_MUTATED_QUERY is no query: %s\n", name == nullptr ? "not set" : name);
     return nullptr;  // afl-fuzz ends
   }
-  return new Mutator{query, seed, {}};
+  return new MutatorState{query, seed, {}};
 }
 
 extern "C" std::size_t afl_custom_fuzz(void* data, std::uint8_t* bytes, std::size_t size, std::uint8_t** out,
                                        std::uint8_t* /*other*/, std::size_t /*other_size*/, std::size_t max_size) {
-  auto& mutator = *static_cast<Mutator*>(data);
+  auto& mutator = *static_cast<MutatorState*>(data);
   mutator.made = nearmiss::mutated_case(*mutator.query, {bytes, size}, mutator.seed++);
   *out = mutator.made.data();
   return std::min(mutator.made.size(), max_size);
 }
 
-extern "C" void afl_custom_deinit(void* data) { delete static_cast<Mutator*>(data); }
+extern "C" void afl_custom_deinit(void* data) { delete static_cast<MutatorState*>(data); }

@@ -27,9 +27,9 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 
 /// A case and one right answer, by the names of their vectors. The test only classifies, so doubles are precise enough.
-class Scene {
+class AnsweredCase {
  public:
-  Scene(const Case& c, const Alternative& a) : case_(c), alternative_(a) {}
+  AnsweredCase(const Case& c, const Alternative& a) : case_(c), alternative_(a) {}
 
   std::optional<Vector> given(const std::string& name) const {
     return three(case_.query->inputs, name, [&](std::size_t i) { return case_.values[i]; });
@@ -89,7 +89,7 @@ Vector turned_back(const Vector& v, const Vector& u, double w) {  // by the inve
 }
 
 /// The feature of the fixed shape on which an answer lies; empty if the query has none.
-std::string feature_of(const Scene& s) {
+std::string feature_of(const AnsweredCase& s) {
   if (const auto w = s.answered("weights")) {
     const auto zeros = std::count_if(w->begin(), w->end(), [](double x) { return std::abs(x) <= at_most; });
     return std::string(zeros == 0 ? "face" : zeros == 1 ? "edge" : "vertex");
@@ -186,7 +186,7 @@ Balance balance_of(const Query& query, Scalar scalar, int cases) {
     b.knifes_edge += decides(query.kind) && on_the_knifes_edge(t);
     for (const std::string& tie : ties_of(c, t)) ++b.ties[tie];
     std::set<std::string> features;
-    for (const Alternative& a : t.alternatives) features.insert(feature_of(Scene(c, a)));
+    for (const Alternative& a : t.alternatives) features.insert(feature_of(AnsweredCase(c, a)));
     for (const std::string& f : features) {
       if (!f.empty()) ++b.features[f];
     }

@@ -184,7 +184,7 @@ class Draw {
 
 /// A case and one of its right answers: `before`, the vectors that belong to the set, `after`. Moving vector `leaving`
 /// along `way` moves the answer out of the set by the same distance; -1: no such direction is known.
-struct Member {
+struct SetMember {
   const char* query;
   Numbers inputs, before;
   std::vector<Vec> vectors;
@@ -196,12 +196,12 @@ struct Member {
 constexpr int octaves = 10;     // of sizes relative to positions
 constexpr int box_octaves = 3;  // of sizes whose sums must be exact, in float too
 
-Member concentric(Draw& d) {
+SetMember concentric(Draw& d) {
   const Vec c = d.place(), n = d.direction();
   const double r1 = d.size(octaves), r2 = d.size(octaves);
   return {"sphere_sphere_penetration", Numbers{} + c + Numbers{r1} + c + Numbers{r2}, {r1 + r2}, {n, c + r1 * n}, 1, n};
 }
-Member on_the_center(Draw& d) {
+SetMember on_the_center(Draw& d) {
   const Vec c = d.place(), n = d.direction();
   const double own = d.size(octaves), radius = d.size(octaves);
   return {"moving_sphere_sphere",
@@ -212,7 +212,7 @@ Member on_the_center(Draw& d) {
           n};
 }
 /// On the axis of a capsule: in its middle perpendicular to it, at an end perpendicular or further outward.
-Member on_the_axis(Draw& d) {
+SetMember on_the_axis(Draw& d) {
   const Vec p0 = d.place(), along = d.axis();
   const int halves = d.below(3);
   Vec n = d.direction();
@@ -230,7 +230,7 @@ Member on_the_axis(Draw& d) {
           halves == 1 && d.below(2) == 0 ? unit(along) : n};
 }
 /// A capsule of radius 0: the normals perpendicular to it, against the motion.
-Member on_a_segment(Draw& d) {
+SetMember on_a_segment(Draw& d) {
   const Vec p0 = d.place(), along = d.axis(), v = d.axis(), center = p0 + 0.5L * along;
   Vec n = unit(cross(along, d.direction()));
   if (dot(n, v) > 0) n = -1 * n;
@@ -264,7 +264,7 @@ struct ExactBox {
 };
 
 /// Contact with an edge or a vertex, from outside or at the start; `as_ball`: by a ball of radius 0.
-Member onto_a_box(Draw& d, bool as_ball) {
+SetMember onto_a_box(Draw& d, bool as_ball) {
   const ExactBox box(d, d.below(4) - 1);
   const int level = d.below(4);  // the axis along the edge; 3: a vertex
   Vec place{}, n{}, v{};
@@ -284,11 +284,11 @@ Member onto_a_box(Draw& d, bool as_ball) {
           level < 3 ? 1 : -1,
           level < 3 ? box.axes[level] : Vec{}};
 }
-Member point_onto_a_box(Draw& d) { return onto_a_box(d, false); }
-Member no_ball_onto_a_box(Draw& d) { return onto_a_box(d, true); }
+SetMember point_onto_a_box(Draw& d) { return onto_a_box(d, false); }
+SetMember no_ball_onto_a_box(Draw& d) { return onto_a_box(d, true); }
 
 /// Contact of a point with the face, an edge or a vertex of a triangle, from its front or at the start.
-Member no_ball_onto_a_triangle(Draw& d) {
+SetMember no_ball_onto_a_triangle(Draw& d) {
   const Vec e = d.axis(), f = d.axis(), normal = cross(e, f), corner = d.place();
   if (dot(normal, normal) == 0) return no_ball_onto_a_triangle(d);
   const std::array<Vec, 3> v{corner, corner + 4 * e, corner + 4 * f};
@@ -313,7 +313,7 @@ Member no_ball_onto_a_triangle(Draw& d) {
 }
 
 /// Box 2 before a face of box 1: with its own face, rotated in the plane, or with an edge.
-Member on_a_patch(Draw& d) {
+SetMember on_a_patch(Draw& d) {
   const int about = d.below(3) - 1;
   const ExactBox box1(d, -1);
   ExactBox box2(d, about);
@@ -340,7 +340,7 @@ Member on_a_patch(Draw& d) {
 }
 
 /// Three corners on a line, or all at one point, projected along z.
-Member weights_without_area(Draw& d) {
+SetMember weights_without_area(Draw& d) {
   const Vec base = d.place(), along = Real(d.below(3)) * d.axis();
   const std::array<Real, 3> at{0, Real(d.below(9) - 4), Real(d.below(9) - 4)};
   Vec w{d.uniform(0, 1), d.uniform(0, 1), d.uniform(0, 1)};
@@ -365,7 +365,7 @@ Member weights_without_area(Draw& d) {
 
 struct Set {
   const char* name;
-  Member (*member)(Draw&);
+  SetMember (*member)(Draw&);
 };
 std::ostream& operator<<(std::ostream& out, const Set& s) { return out << s.name; }
 
@@ -381,7 +381,7 @@ class SetOfRightAnswers : public testing::TestWithParam<Set> {
       for (int i = 0; i < members && !HasFailure(); ++i) f(draw, GetParam().member(draw), scalar);
     }
   }
-  static Exchange answer(const Member& m, const std::vector<Vec>& vectors, Scalar scalar) {
+  static Exchange answer(const SetMember& m, const std::vector<Vec>& vectors, Scalar scalar) {
     Numbers numbers = m.before;
     for (const Vec& v : vectors) numbers = numbers + v;
     return asked(m.query, m.inputs, true, numbers + m.after, scalar);
@@ -392,12 +392,12 @@ class SetOfRightAnswers : public testing::TestWithParam<Set> {
 };
 
 TEST_P(SetOfRightAnswers, AMemberThatIsRoundedIsRight) {
-  for_each_member([](Draw&, const Member& m, Scalar scalar) { expect_right(answer(m, m.vectors, scalar)); });
+  for_each_member([](Draw&, const SetMember& m, Scalar scalar) { expect_right(answer(m, m.vectors, scalar)); });
 }
 
 TEST_P(SetOfRightAnswers, AMemberThatIsPushedByAnUlpIsToldNoFurtherOff) {
   constexpr double rounded_and_pushed = 1.5;
-  for_each_member([](Draw& draw, const Member& m, Scalar scalar) {
+  for_each_member([](Draw& draw, const SetMember& m, Scalar scalar) {
     std::vector<Vec> pushed = m.vectors;
     for (Vec& v : pushed) {
       const Real one = unit_of(v, scalar);
@@ -411,7 +411,7 @@ TEST_P(SetOfRightAnswers, WhatLeavesThemIsTold) {
   constexpr Real far = 24;
   constexpr double at_least = 8;  // in each component, to cover sqrt(3) and rounding
   int asked_about = 0;
-  for_each_member([&](Draw&, const Member& m, Scalar scalar) {
+  for_each_member([&](Draw&, const SetMember& m, Scalar scalar) {
     if (m.leaving < 0) return;
     std::vector<Vec> left = m.vectors;
     Vec& v = left[std::size_t(m.leaving)];

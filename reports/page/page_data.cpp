@@ -124,14 +124,14 @@ Json counted_in(const Json& index, const Json& report) {
   return nullptr;
 }
 
-using KindOfFinding = std::tuple<std::string, std::string, std::string>;
-KindOfFinding kind_in_index(const Json& report) {
+using RowKey = std::tuple<std::string, std::string, std::string>;
+RowKey kind_in_index(const Json& report) {
   return {text_of_member(report, "query"), text_of_member(report, "subject"), fault_in_index(report)};
 }
 
 /// What a night says about each kind: "new", "worse", "known" or "fixed".
-std::map<KindOfFinding, std::string> changes_in(const Json& index) {
-  std::map<KindOfFinding, std::string> changes;
+std::map<RowKey, std::string> changes_in(const Json& index) {
+  std::map<RowKey, std::string> changes;
   for (const char* whose : {"ours", "others"}) {
     const Json& kinds = member_of(member_of(index, "night"), whose);
     for (const char* change : {"new", "worse", "known", "fixed"}) {
@@ -141,7 +141,7 @@ std::map<KindOfFinding, std::string> changes_in(const Json& index) {
   return changes;
 }
 
-Json signature_in_index(const Json& index, const KindOfFinding& kind, const std::vector<const Json*>& reports) {
+Json signature_in_index(const Json& index, const RowKey& kind, const std::vector<const Json*>& reports) {
   const Json& worst = **std::max_element(
       reports.begin(), reports.end(), [](const Json* a, const Json* b) { return severity_of(*a) < severity_of(*b); });
   Fnv1a hash;
@@ -164,8 +164,8 @@ Json signature_in_index(const Json& index, const KindOfFinding& kind, const std:
 }
 
 std::vector<Json> signatures_in_index(const Json& index) {
-  const std::map<KindOfFinding, std::string> changes = changes_in(index);
-  std::map<KindOfFinding, std::vector<const Json*>> kinds;
+  const std::map<RowKey, std::string> changes = changes_in(index);
+  std::map<RowKey, std::vector<const Json*>> kinds;
   const auto reports = index.find("reports");
   if (reports != index.end()) {
     for (const Json& r : *reports) kinds[kind_in_index(r)].push_back(&r);
