@@ -107,7 +107,7 @@ Written by this command; run it again to update this page:
 {}
 ```
 
-`nearmiss run --climb` moves from bad cases to worse ones ([properties.md](../explanation/properties.md#worst-cases)). Here it is compared with
+`nearmiss run --climb` moves from bad cases to worse ones ([searches](../searches.md#worst-cases)). Here it is compared with
 the generator's cases alone: the same query, subject and seed, {:g} seconds for each kind of error, the same hosts and
 judge, without the stored worst cases. Figures are medians of {} pairs: the largest proved error of a search, in ulps
 (forward) or epsilon (backward), a sampled lower bound; `-` means that nothing was proved. The last column counts the pairs in

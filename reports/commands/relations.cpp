@@ -29,7 +29,7 @@ class RelationsCommand : public Command {
             {"Changes every generated case in exactly representable ways with a known effect on the answer: it "
              "turns, mirrors, moves or scales the case by powers of two, starts it later, or asks another query "
              "about the same sets. Each chosen subject answers the case and these follow-ups, in a process of its "
-             "own. docs/explanation/properties.md has the table of relations.",
+             "own. docs/searches.md has the table of relations.",
              "Answers that differ are no fault by themselves, because rounding may make them differ. A promise is "
              "broken where the judge proves that one of the answers violates its contract, where a subject gives "
              "no answer, or where bits differ although the subject claims that they do not. Decisions that "
