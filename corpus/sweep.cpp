@@ -31,17 +31,17 @@ bool turns_a_direction(const Query& query) {
 }
 
 /// The numbers of a case in double, rounded to the scalar only at the end.
-class Scene {
+class MovedCase {
  public:
-  Scene(const Case& c, std::uint64_t seed) : fields_(c.query->inputs), values(c.values), random_(seed) {}
+  MovedCase(const Case& c, std::uint64_t seed) : fields_(c.query->inputs), values(c.values), random_(seed) {}
 
-  void apply(SweepAxis axis, double x) {
+  void apply(ExtremeAxis axis, double x) {
     switch (axis) {
-      case SweepAxis::offset: return move(x);
-      case SweepAxis::scale: return scale(int(x));
-      case SweepAxis::speed: return hasten(x);
-      case SweepAxis::ratio: return resize(x);
-      case SweepAxis::angle: return turn(x);
+      case ExtremeAxis::offset: return move(x);
+      case ExtremeAxis::scale: return scale(int(x));
+      case ExtremeAxis::speed: return hasten(x);
+      case ExtremeAxis::ratio: return resize(x);
+      case ExtremeAxis::angle: return turn(x);
     }
   }
 
@@ -149,51 +149,51 @@ bool vanished(const Query& query, std::span<const double> before, std::span<cons
 
 }  // namespace
 
-SweepAxisName name_of(SweepAxis axis) {
+ExtremeAxisName name_of(ExtremeAxis axis) {
   switch (axis) {
-    case SweepAxis::offset: return {"offset", "sizes from the origin"};
-    case SweepAxis::scale: return {"scale", "size, powers of two"};
-    case SweepAxis::speed: return {"speed", "sizes per unit of time"};
-    case SweepAxis::ratio: return {"ratio", "of the first size"};
-    case SweepAxis::angle: return {"angle", "radians from parallel"};
+    case ExtremeAxis::offset: return {"offset", "sizes from the origin"};
+    case ExtremeAxis::scale: return {"scale", "size, powers of two"};
+    case ExtremeAxis::speed: return {"speed", "sizes per unit of time"};
+    case ExtremeAxis::ratio: return {"ratio", "of the first size"};
+    case ExtremeAxis::angle: return {"angle", "radians from parallel"};
   }
   return {"?", "?"};
 }
 
-std::span<const double> values_of(SweepAxis axis) {
+std::span<const double> values_of(ExtremeAxis axis) {
   switch (axis) {
-    case SweepAxis::offset: return offsets;
-    case SweepAxis::scale: return scales;
-    case SweepAxis::speed: return speeds;
-    case SweepAxis::ratio: return ratios;
-    case SweepAxis::angle: return angles;
+    case ExtremeAxis::offset: return offsets;
+    case ExtremeAxis::scale: return scales;
+    case ExtremeAxis::speed: return speeds;
+    case ExtremeAxis::ratio: return ratios;
+    case ExtremeAxis::angle: return angles;
   }
   return {};
 }
 
-std::vector<SweepPlane> planes_of(const Query& query) {
-  std::vector<SweepPlane> planes{{SweepAxis::offset, SweepAxis::scale}};
+std::vector<ExtremePlane> planes_of(const Query& query) {
+  std::vector<ExtremePlane> planes{{ExtremeAxis::offset, ExtremeAxis::scale}};
   const bool sizes = has(query, Role::size), moves = has(query, Role::velocity);
-  if (moves) planes.push_back({SweepAxis::speed, sizes ? SweepAxis::ratio : SweepAxis::offset});
-  if (sizes && !moves) planes.push_back({SweepAxis::offset, SweepAxis::ratio});
+  if (moves) planes.push_back({ExtremeAxis::speed, sizes ? ExtremeAxis::ratio : ExtremeAxis::offset});
+  if (sizes && !moves) planes.push_back({ExtremeAxis::offset, ExtremeAxis::ratio});
   if (moves || has(query, Role::rotation) || turns_a_direction(query)) {
-    planes.push_back({SweepAxis::offset, SweepAxis::angle});
+    planes.push_back({ExtremeAxis::offset, ExtremeAxis::angle});
   }
   return planes;
 }
 
-std::optional<Case> sweep_case(const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index,
-                               const SweepPlane& plane, double x, double y) {
+std::optional<Case> extreme_case(const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index,
+                                 const ExtremePlane& plane, double x, double y) {
   Case c = generate(query, scalar, seed, index);
-  Scene scene(c, Random(seed).bits() ^ index);
+  MovedCase moved(c, Random(seed).bits() ^ index);
   const std::vector<double> before = c.values;
   // The order: shapes, then their places, then the scale of all lengths.
-  for (const SweepAxis axis :
-       {SweepAxis::angle, SweepAxis::ratio, SweepAxis::speed, SweepAxis::offset, SweepAxis::scale}) {
-    if (plane.x == axis) scene.apply(axis, x);
-    if (plane.y == axis) scene.apply(axis, y);
+  for (const ExtremeAxis axis :
+       {ExtremeAxis::angle, ExtremeAxis::ratio, ExtremeAxis::speed, ExtremeAxis::offset, ExtremeAxis::scale}) {
+    if (plane.x == axis) moved.apply(axis, x);
+    if (plane.y == axis) moved.apply(axis, y);
   }
-  for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] = rounded_to(scalar, scene.values[i]);
+  for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] = rounded_to(scalar, moved.values[i]);
   const bool finite = std::all_of(c.values.begin(), c.values.end(), [](double v) { return std::isfinite(v); });
   if (!finite || vanished(query, before, c.values) || query.broken(c.values)) return std::nullopt;
   c.origin = "sweep";

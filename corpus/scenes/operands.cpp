@@ -28,13 +28,13 @@ constexpr Form forms[] = {
 
 std::string_view before_point(std::string_view name) { return name.substr(0, name.find('.')); }
 
-/// The first input of the group's end, and the fields of the group.
-struct Group {
+/// The fields of an input that follow each other, and where they end.
+struct FieldsOfInput {
   std::string name, fields;
   std::size_t end;
 };
-Group group_at(const std::vector<Field>& inputs, std::size_t begin) {
-  Group g{std::string(before_point(inputs[begin].name)), "", begin};
+FieldsOfInput group_at(const std::vector<Field>& inputs, std::size_t begin) {
+  FieldsOfInput g{std::string(before_point(inputs[begin].name)), "", begin};
   for (; g.end < inputs.size() && before_point(inputs[g.end].name) == g.name; ++g.end) {
     const std::string& name = inputs[g.end].name;
     if (name.size() == g.name.size()) return {g.name, "", begin + 1};
@@ -46,7 +46,7 @@ Group group_at(const std::vector<Field>& inputs, std::size_t begin) {
 bool is_filled_in(Role role) { return role == Role::time || role == Role::flag || role == Role::index; }
 
 /// Adds a group of inputs; false where a scene cannot fill it in.
-bool add(QueryPlan& plan, const Query& query, std::size_t begin, const Group& g) {
+bool add(QueryPlan& plan, const Query& query, std::size_t begin, const FieldsOfInput& g) {
   const Role role = query.inputs[begin].role;
   if (g.fields.empty()) {
     plan.lone.push_back(begin);
@@ -70,7 +70,7 @@ std::optional<QueryPlan> query_plan(const Query& query) {
   QueryPlan plan;
   if (query.kind == Kind::direction) return std::nullopt;  // asked after a contact, about its place
   for (std::size_t i = 0; i < query.inputs.size();) {
-    const Group g = group_at(query.inputs, i);
+    const FieldsOfInput g = group_at(query.inputs, i);
     if (!add(plan, query, i, g)) return std::nullopt;
     i = g.end;
   }

@@ -64,8 +64,8 @@ class TriageCommand : public Command {
     app.add_option("--junit", junit_, "Also write it as JUnit XML")->type_name("FILE");
   }
   int run(const CLI::App&) override {
-    const std::vector<Decision> decisions =
-        decisions_.empty() ? std::vector<Decision>() : decisions_in(read_file(decisions_), decisions_);
+    const std::vector<SignatureDecision> decisions =
+        decisions_.empty() ? std::vector<SignatureDecision>() : decisions_in(read_file(decisions_), decisions_);
     const Sources sources = read_sources(sources_);
     name_skipped(sources);
     if (sources.reports.empty() && !sources.skipped.empty())

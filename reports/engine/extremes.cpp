@@ -130,7 +130,7 @@ Extremes::Extremes(ExtremesSettings settings)
   }
 }
 
-void Extremes::sweep() {
+void Extremes::fill() {
   for (const Query* q : settings_.queries) {
     const std::vector<MapPlane> planes = settings_.source->planes_of(*q);
     for (std::size_t p = 0; p < planes.size(); ++p) {

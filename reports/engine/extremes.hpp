@@ -64,7 +64,7 @@ class Extremes {
   ~Extremes();
 
   /// Fills the maps; an interrupt stops it early.
-  void sweep();
+  void fill();
   /// Writes extremes.json (reports/extremes.schema.json) and, where this build has the drawing library, the page
   /// extremes.html.
   void write() const;

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-MapAxis axis_of_sweep(SweepAxis axis) {
+MapAxis map_axis_of(ExtremeAxis axis) {
   const auto values = values_of(axis);
   return {std::string(name_of(axis).name), std::string(name_of(axis).unit), {values.begin(), values.end()}};
 }
@@ -23,17 +23,17 @@ class GeneratedMapCases : public MapCases {
  public:
   std::vector<MapPlane> planes_of(const Query& query) const override {
     std::vector<MapPlane> planes;
-    for (const SweepPlane& p : nearmiss::planes_of(query)) planes.push_back({axis_of_sweep(p.x), axis_of_sweep(p.y)});
+    for (const ExtremePlane& p : nearmiss::planes_of(query)) planes.push_back({map_axis_of(p.x), map_axis_of(p.y)});
     return planes;
   }
   Cells cells(const Query& query, std::size_t plane, Scalar scalar, std::uint64_t seed,
               std::uint64_t cases) const override {
-    const SweepPlane p = nearmiss::planes_of(query)[plane];
+    const ExtremePlane p = nearmiss::planes_of(query)[plane];
     const auto xs = values_of(p.x), ys = values_of(p.y);
     return [=, &query](std::size_t cell) {
       std::vector<Case> all;
       for (std::uint64_t i = 0; i < cases; ++i) {
-        auto c = sweep_case(query, scalar, seed, i, p, xs[cell % xs.size()], ys[cell / xs.size()]);
+        auto c = extreme_case(query, scalar, seed, i, p, xs[cell % xs.size()], ys[cell / xs.size()]);
         if (c) all.push_back(std::move(*c));
       }
       return all;

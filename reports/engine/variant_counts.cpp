@@ -8,13 +8,13 @@ namespace nearmiss {
 
 void VariantCounts::count(const Tally& tally, const Examined& e, const Variant& variant, bool kept) {
   const bool broke = e.finding.verdict == Verdict::broke;
-  Signature signature = signature_of(e.finding);
-  if (broke) signature.breakage = tally.breakage_of(e.finding);
-  const auto [at, is_new] = kinds_.try_emplace({e.question.query, &e.subject, std::move(signature)});
+  KindKey key = kind_key_of(e.finding);
+  if (broke) key.breakage = tally.breakage_of(e.finding);
+  const auto [at, is_new] = kinds_.try_emplace({e.question.query, &e.subject, std::move(key)});
   Kind& kind = at->second;
   if (is_new) {
     kind.words = kind_of_finding(*e.question.query, e.subject.name, e.finding);
-    if (broke) kind.words.clause = std::get<Signature>(at->first).breakage;
+    if (broke) kind.words.clause = std::get<KindKey>(at->first).breakage;
   }
   const bool is_known = kind.variants.contains(variant) || kind.variants.size() < most_variants;
   Count& c = kind.variants[is_known ? variant : Variant{0, {}, variant.ordinary}];

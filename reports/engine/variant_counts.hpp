@@ -28,7 +28,7 @@ class VariantCounts {
 
  private:
   /// A kind by what is cheap to compare.
-  using Key = std::tuple<const Query*, const Subject*, Signature>;
+  using Key = std::tuple<const Query*, const Subject*, KindKey>;
   struct Kind {
     FindingKind words;
     std::map<Variant, Count> variants;

@@ -34,8 +34,8 @@ std::string with_hyphens(std::string text) {
 
 }  // namespace
 
-Signature signature_of(const Finding& f) {
-  Signature s;
+KindKey kind_key_of(const Finding& f) {
+  KindKey s;
   s.verdict = f.verdict;
   s.disagreement = f.disagreement;
   if (const MemberFinding* headline = f.headline_member()) s.member = headline->member;

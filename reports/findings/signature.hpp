@@ -10,24 +10,24 @@
 
 namespace nearmiss {
 
-/// Two findings of the same query and subject with the same signature are of the same kind: the same member of the
+/// Two findings of the same query and subject with the same key are of the same kind: the same member of the
 /// answer is wrong in the same way, and breaks the same clause.
-struct Signature {
+struct KindKey {
   Verdict verdict = Verdict::agrees;
   Disagreement disagreement = Disagreement::none;
   int member = MemberFinding::decision;  ///< of the headline, an index in the query's layout
   Clause broken = Clause::none;
   std::string breakage;  ///< for a subject that broke: kind_of_breakage()
 
-  auto operator<=>(const Signature&) const = default;
+  auto operator<=>(const KindKey&) const = default;
 };
 
-Signature signature_of(const Finding& f);
+KindKey kind_key_of(const Finding& f);
 
 /// "backward error", "exact decisions"; "" for none.
 std::string_view name_of(Clause c);
 
-/// A signature in words, with its query and subject: the same for a finding and for the file of its report.
+/// A kind in words, with its query and subject: the same for a finding and for the file of its report.
 struct FindingKind {
   std::string query, subject;
   std::string fault;   ///< fault_of(): "false-miss", "broke"

@@ -71,7 +71,7 @@ TEST(Extremes, ShowThatFloatEndsBeforeDoubleAndThatCertifiedStaysRight) {
   };
   const json &fast_float = map_of(report, "collide-fast-float", "scale"),
              &fast_double = map_of(report, "collide-fast-double", "scale");
-  const auto scales = values_of(SweepAxis::scale);
+  const auto scales = values_of(ExtremeAxis::scale);
   const std::size_t rows = scales.size(), last = rows - 1;
   EXPECT_EQ(sum(fast_float.at("cases"), last, 1), 0u) << "2^1000 in float";
   EXPECT_GT(sum(fast_double.at("cases"), last, 1), 0u);
@@ -186,16 +186,16 @@ TEST(SceneMaps, SortTheCasesOfTheSceneIntoCells) {
 
 TEST(Sweeps, MakeCasesThatAreValidAndExactInTheirScalarForMostPlaces) {
   for (const Query& q : catalogue()) {
-    for (const SweepPlane& plane : planes_of(q)) {
+    for (const ExtremePlane& plane : planes_of(q)) {
       int made = 0, places = 0;
       for (const double x : values_of(plane.x)) {
         for (const double y : values_of(plane.y)) {
           ++places;
-          const auto c = sweep_case(q, Scalar::float64, 1, 3, plane, x, y);
+          const auto c = extreme_case(q, Scalar::float64, 1, 3, plane, x, y);
           if (!c) continue;
           ++made;
           ASSERT_FALSE(q.broken(c->values));
-          EXPECT_EQ(sweep_case(q, Scalar::float64, 1, 3, plane, x, y)->values, c->values);
+          EXPECT_EQ(extreme_case(q, Scalar::float64, 1, 3, plane, x, y)->values, c->values);
         }
       }
       EXPECT_GE(made, places * 9 / 10) << q.name << " " << name_of(plane.x).name << " " << name_of(plane.y).name;

@@ -115,9 +115,9 @@ std::vector<std::uint64_t> numbers_of(const std::string& version) {
   return numbers;
 }
 
-bool is_open_again(const Decision& d, const TriagedSignature& s) {
+bool is_open_again(const SignatureDecision& d, const TriagedSignature& s) {
   if (s.change == SignatureChange::fixed) return false;
-  if (d.kind == Decision::Kind::fixed) return numbers_of(s.version) >= numbers_of(d.argument);
+  if (d.kind == SignatureDecision::Kind::fixed) return numbers_of(s.version) >= numbers_of(d.argument);
   return d.bound && s.size.relative >= much_worse * *d.bound;
 }
 
@@ -138,26 +138,27 @@ double bound_in(std::istringstream& words, const std::string& where) {
   return percent / 100;
 }
 
-Decision decision_in(const std::string& line, const std::string& where) {
+SignatureDecision decision_in(const std::string& line, const std::string& where) {
   const std::size_t hash = line.find('#');
   std::istringstream words(line.substr(0, hash));
-  Decision d;
+  SignatureDecision d;
   std::string kind, word;
   words >> d.id >> kind;
   const bool is_id = d.id.size() == 12 && d.id.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (!is_id) throw BadInput(fmt::format("{}: '{}' is no id of twelve hexadecimal digits", where, one_line(d.id, 40)));
   bool known = false;
-  for (const auto k :
-       {Decision::Kind::accepted, Decision::Kind::upstream, Decision::Kind::reported, Decision::Kind::fixed}) {
+  for (const auto k : {SignatureDecision::Kind::accepted, SignatureDecision::Kind::upstream,
+                       SignatureDecision::Kind::reported, SignatureDecision::Kind::fixed}) {
     if (kind == name_of(k)) d.kind = k, known = true;
   }
   if (!known) {
     throw BadInput(
         fmt::format("{}: '{}' is none of accepted, upstream, reported URL, fixed VERSION", where, one_line(kind, 40)));
   }
-  const bool has_argument = d.kind == Decision::Kind::reported || d.kind == Decision::Kind::fixed;
+  const bool has_argument = d.kind == SignatureDecision::Kind::reported || d.kind == SignatureDecision::Kind::fixed;
   if (has_argument && !(words >> d.argument)) {
-    throw BadInput(fmt::format("{}: {} needs a {}", where, kind, d.kind == Decision::Kind::fixed ? "version" : "URL"));
+    throw BadInput(
+        fmt::format("{}: {} needs a {}", where, kind, d.kind == SignatureDecision::Kind::fixed ? "version" : "URL"));
   }
   if (words >> word) {
     if (word != "at")
@@ -211,8 +212,8 @@ std::vector<std::string> compare_with(const std::vector<TriagedSignature>& basel
   return {cannot_be_asked.begin(), cannot_be_asked.end()};
 }
 
-std::vector<Decision> decisions_in(const std::string& text, const std::string& where) {
-  std::vector<Decision> all;
+std::vector<SignatureDecision> decisions_in(const std::string& text, const std::string& where) {
+  std::vector<SignatureDecision> all;
   std::istringstream lines(text);
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -220,17 +221,17 @@ std::vector<Decision> decisions_in(const std::string& text, const std::string& w
     const std::size_t begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#') continue;
     const std::string here = fmt::format("{}:{}", where, number);
-    Decision d = decision_in(line, here);
-    if (std::any_of(all.begin(), all.end(), [&](const Decision& o) { return o.id == d.id; }))
+    SignatureDecision d = decision_in(line, here);
+    if (std::any_of(all.begin(), all.end(), [&](const SignatureDecision& o) { return o.id == d.id; }))
       throw BadInput(fmt::format("{}: there is a decision about {} already", here, d.id));
     all.push_back(std::move(d));
   }
   return all;
 }
 
-std::vector<std::string> apply(const std::vector<Decision>& decisions, Triage& now) {
+std::vector<std::string> apply(const std::vector<SignatureDecision>& decisions, Triage& now) {
   std::vector<std::string> unknown;
-  for (const Decision& d : decisions) {
+  for (const SignatureDecision& d : decisions) {
     bool found = false;
     for (TriagedSignature& s : now.signatures) {
       if (s.id != d.id) continue;

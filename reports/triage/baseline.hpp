@@ -21,11 +21,11 @@ std::vector<std::string> compare_with(const std::vector<TriagedSignature>& basel
 
 /// Lines "ID accepted|upstream|reported URL|fixed VERSION [at N %]  # why"; empty lines and lines that begin with # say
 /// nothing. `where` is the name of the file, for messages. Throws BadInput for any other line, and for an ID twice.
-std::vector<Decision> decisions_in(const std::string& text, const std::string& where);
+std::vector<SignatureDecision> decisions_in(const std::string& text, const std::string& where);
 
 /// Sets `decision` of the signatures with these ids. A decision is open again where the proved size is at least twice
 /// that of its line, and where a signature that was fixed in a version is here in this or a later version. Returns the
 /// ids of no signature.
-std::vector<std::string> apply(const std::vector<Decision>& decisions, Triage& now);
+std::vector<std::string> apply(const std::vector<SignatureDecision>& decisions, Triage& now);
 
 }  // namespace nearmiss

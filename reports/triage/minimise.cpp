@@ -33,7 +33,7 @@ class SameFault {
     for (const Detail detail : {Detail::verdict, Detail::full}) {
       detail_ = detail;
       const Finding f = judged(question, answer);
-      signature_ = signature_of(f);
+      kind_ = kind_key_of(f);
       kept_ = answer;
       if (is_bad(f)) return true;
     }
@@ -51,7 +51,7 @@ class SameFault {
     const Answer answer = workers_.ask(subject_, c);
     if (interrupted()) return false;  // the worker may have given up
     tick_(++questions_);
-    if (signature_of(judged(c, answer)) != signature_) return false;
+    if (kind_key_of(judged(c, answer)) != kind_) return false;
     kept_ = answer;
     return true;
   }
@@ -68,7 +68,7 @@ class SameFault {
   Workers& workers_;
   const std::function<void(std::uint64_t)>& tick_;
   Detail detail_ = Detail::verdict;
-  Signature signature_;
+  KindKey kind_;
   Answer kept_;
   std::uint64_t questions_ = 0;
   Clock::time_point begin_;

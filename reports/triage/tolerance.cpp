@@ -102,9 +102,10 @@ class ConstantError {
   std::vector<Evidence> evidence_;
 };
 
-class Tolerance {
+class ToleranceSearch {
  public:
-  Tolerance(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar, bool errs_to_both_sides)
+  ToleranceSearch(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar,
+                  bool errs_to_both_sides)
       : trials_(trials), scans_(scans), similar_(similar), errs_to_both_sides_(errs_to_both_sides) {}
 
   Tested result() {
@@ -274,7 +275,7 @@ Tested constant_error_of(const Trials& trials, std::span<const ScaleScan> scans)
 
 Tested tolerance_of(Trials& trials, std::span<const ScaleScan> scans, std::span<const Trial> similar,
                     bool errs_to_both_sides) {
-  return Tolerance(trials, scans, similar, errs_to_both_sides).result();
+  return ToleranceSearch(trials, scans, similar, errs_to_both_sides).result();
 }
 
 }  // namespace nearmiss

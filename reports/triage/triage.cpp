@@ -38,7 +38,7 @@ struct Candidate {
 };
 
 /// The candidates of one kind. Those to be examined come first, in their order.
-struct Group {
+struct CandidatesOfKind {
   FindingKind kind;
   std::vector<Candidate> all;
   std::size_t to_examine = 0;
@@ -72,7 +72,7 @@ std::optional<Candidate> asked_again(const FiledReport& r, Workers& workers, Fin
 
 /// Moves the candidates that are to be examined to the front: the worst, the simplest, then one of each further
 /// variant.
-void choose(Group& group) {
+void choose(CandidatesOfKind& group) {
   std::vector<Candidate>& all = group.all;
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return std::tuple(a.size.relative, digits_of(b.filed->question)) >
@@ -126,9 +126,9 @@ class Work {
     triage_.sources = sources_.names;
     triage_.skipped = sources_.skipped;
     ask_again();
-    for (Group& g : groups_) choose(g);
+    for (CandidatesOfKind& g : groups_) choose(g);
     examine_groups();
-    for (Group& g : groups_) put_into_signatures(g);
+    for (CandidatesOfKind& g : groups_) put_into_signatures(g);
     count();
     rank(triage_.signatures);
     return std::move(triage_);
@@ -158,9 +158,9 @@ class Work {
   /// The first of every group, then the second of every group, and so on.
   void examine_groups() {
     std::size_t total = 0, done = 0;
-    for (const Group& g : groups_) total += g.to_examine;
+    for (const CandidatesOfKind& g : groups_) total += g.to_examine;
     for (std::size_t turn = 0; turn < most_examined; ++turn) {
-      for (Group& g : groups_) {
+      for (CandidatesOfKind& g : groups_) {
         if (turn >= g.to_examine) continue;
         if (interrupted() || time_left() <= Seconds(0)) {
           triage_.all_examined = false;
@@ -180,7 +180,7 @@ class Work {
   }
 
   /// The signature of an examined case; a new one where no other case had it.
-  TriagedSignature& signature_of(const Group& g, const Candidate& c) {
+  TriagedSignature& signature_of(const CandidatesOfKind& g, const Candidate& c) {
     TriagedSignature s;
     s.kind = g.kind;
     s.version = c.filed->subject->version;
@@ -207,7 +207,7 @@ class Work {
     all.push_back(std::move(s));
     return all.back();
   }
-  void put_into_signatures(const Group& g) {
+  void put_into_signatures(const CandidatesOfKind& g) {
     std::vector<const Candidate*> examined;
     for (const Candidate& c : g.all) {
       if (c.examined) examined.push_back(&c);
@@ -276,7 +276,8 @@ class Work {
     }
   }
   const TriagedSignature* signature_for(const CountedVariant& v) {
-    const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.kind == v.kind; });
+    const auto group =
+        std::find_if(groups_.begin(), groups_.end(), [&](const CandidatesOfKind& g) { return g.kind == v.kind; });
     if (group == groups_.end()) return nullptr;
     const Candidate* like = most_alike(like_[v.kind], v.variant);
     return &signature_of(*group, like != nullptr ? *like : group->all.front());
@@ -288,7 +289,7 @@ class Work {
   ExaminedCases examined_;
   Clock::time_point begin_;
   Triage triage_;
-  std::vector<Group> groups_;
+  std::vector<CandidatesOfKind> groups_;
   std::map<FindingKind, std::vector<const Candidate*>> like_;
   std::map<std::string, std::uint64_t> ordinary_;  ///< by the id of the signature
   std::map<std::string, Finding> finding_of_;      ///< the worst one
@@ -306,12 +307,12 @@ std::string_view name_of(SignatureChange c) {
   return "?";
 }
 
-std::string_view name_of(Decision::Kind k) {
+std::string_view name_of(SignatureDecision::Kind k) {
   switch (k) {
-    case Decision::Kind::accepted: return "accepted";
-    case Decision::Kind::upstream: return "upstream";
-    case Decision::Kind::reported: return "reported";
-    case Decision::Kind::fixed: return "fixed";
+    case SignatureDecision::Kind::accepted: return "accepted";
+    case SignatureDecision::Kind::upstream: return "upstream";
+    case SignatureDecision::Kind::reported: return "reported";
+    case SignatureDecision::Kind::fixed: return "fixed";
   }
   return "?";
 }

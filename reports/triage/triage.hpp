@@ -25,7 +25,7 @@ enum class SignatureChange {
 std::string_view name_of(SignatureChange c);
 
 /// What was decided about a signature, in a line of a decisions file.
-struct Decision {
+struct SignatureDecision {
   enum class Kind { accepted, upstream, reported, fixed };
 
   std::string id;
@@ -35,7 +35,7 @@ struct Decision {
   std::string note;
   bool reopened = false;
 };
-std::string_view name_of(Decision::Kind k);
+std::string_view name_of(SignatureDecision::Kind k);
 
 /// The findings with one signature: a row.
 struct TriagedSignature {
@@ -59,7 +59,7 @@ struct TriagedSignature {
   std::vector<std::string> ids;      ///< of the reports
 
   std::optional<SignatureChange> change;  ///< empty: without a baseline
-  std::optional<Decision> decision;
+  std::optional<SignatureDecision> decision;
 
   /// True where the row makes a command exit with 1: new, worse or without a baseline, and no decision about it holds.
   bool stands() const;

@@ -26,11 +26,11 @@ Json or_null(const std::optional<T>& x) {
   return x ? Json(*x) : Json(nullptr);
 }
 
-Json decision_to_json(const std::optional<Decision>& d) {
+Json decision_to_json(const std::optional<SignatureDecision>& d) {
   if (!d) return nullptr;
   return {{"kind", name_of(d->kind)},
-          {"url", d->kind == Decision::Kind::reported ? Json(d->argument) : Json(nullptr)},
-          {"version", d->kind == Decision::Kind::fixed ? Json(d->argument) : Json(nullptr)},
+          {"url", d->kind == SignatureDecision::Kind::reported ? Json(d->argument) : Json(nullptr)},
+          {"version", d->kind == SignatureDecision::Kind::fixed ? Json(d->argument) : Json(nullptr)},
           {"note", d->note},
           {"reopened", d->reopened}};
 }

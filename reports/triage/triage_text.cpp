@@ -15,12 +15,12 @@ std::string findings_text(const TriagedSignature& s) {
   return fmt::format("{}, {} in ordinary scenes", plural_text(s.findings, "finding"), share_text(s.ordinary_share));
 }
 
-std::string decision_text(const Decision& d) {
+std::string decision_text(const SignatureDecision& d) {
   const std::string argument = d.argument.empty() ? "" : " " + d.argument;
   const std::string note = d.note.empty() ? "" : fmt::format(" ({})", one_line(d.note, 80));
   if (!d.reopened) return fmt::format("{}{}{}", name_of(d.kind), argument, note);
   return fmt::format("re-opened: it was {}{}, and is {}{}", name_of(d.kind), argument,
-                     d.kind == Decision::Kind::fixed ? "here again" : "worse now", note);
+                     d.kind == SignatureDecision::Kind::fixed ? "here again" : "worse now", note);
 }
 
 /// "NEW", "worse", "re-opened: …".

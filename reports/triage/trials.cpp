@@ -67,7 +67,7 @@ Trials::Trials(const Case& question, const Subject& subject, const CauseLimits& 
   for (const Detail detail : {Detail::verdict, Detail::full}) {
     detail_ = detail;
     base_.finding = judged(question, base_.answer);
-    signature_ = signature_of(base_.finding);
+    kind_ = kind_key_of(base_.finding);
     base_.outcome = outcome_of(base_.finding);
     if (is_bad(base_.finding)) return;
   }
@@ -98,7 +98,7 @@ bool Trials::is_right(const Case& c, const Answer& answer) const {
 }
 
 Outcome Trials::outcome_of(const Finding& f) const {
-  if (is_bad(f)) return signature_of(f) == signature_ ? Outcome::same : Outcome::other;
+  if (is_bad(f)) return kind_key_of(f) == kind_ ? Outcome::same : Outcome::other;
   return f.verdict == Verdict::agrees || f.verdict == Verdict::not_proved ? Outcome::right : Outcome::none;
 }
 

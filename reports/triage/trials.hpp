@@ -66,7 +66,7 @@ class Trials {
   CauseLimits limits_;
   Clock::time_point begin_ = Clock::now();
   Detail detail_ = Detail::verdict;
-  Signature signature_;
+  KindKey kind_;
   Standard standard_for(const Query& q) const;
 
   Trial base_;
