@@ -63,7 +63,7 @@ class ExtremesCommand : public Command {
                        profile ? profile->subjects() : selection_.subjects(), seed, cases_.value_or(default_cases),
                        profile ? profile->scene().name : "",
                        profile ? scene_map_cases(profile->scene()) : generated_map_cases()});
-    extremes.sweep();
+    extremes.fill();
     extremes.write();
     say("{}\n{}\n", extremes.table(), extremes.summary());
     if (interrupted()) say_on_stderr(fmt::format("nearmiss: {}\n", extremes.summary()));
