@@ -13,9 +13,9 @@ namespace nearmiss::fuzz {
 
 namespace {
 
-enum class Feature : std::uint64_t { margin, stage, branches, backward, forward, backward_by_branch };
+enum class NumericFeature : std::uint64_t { margin, stage, branches, backward, forward, backward_by_branch };
 
-void set(Feature feature, std::initializer_list<std::uint64_t> of) {
+void set(NumericFeature feature, std::initializer_list<std::uint64_t> of) {
   std::uint64_t h = 0xcbf29ce484222325 ^ std::uint64_t(feature);  // FNV-1a over whole numbers, then a final mix
   for (const std::uint64_t x : of) h = (h ^ x) * 0x100000001b3;
   h ^= h >> 32;
@@ -51,21 +51,22 @@ bool feedback_is_on() {
 void note_case(const Case& question, const Finding& f) {
   if (!feedback_is_on() && !statistics_are_asked()) return;
   const std::uint64_t ties = std::min<std::uint64_t>(f.right_answers, 4);
-  set(Feature::stage, {std::uint64_t(question.scalar), std::uint64_t(f.decided_by), std::uint64_t(f.truth_yes), ties});
-  set(Feature::branches, {f.branches, std::uint64_t(f.truth_yes), ties});
+  set(NumericFeature::stage,
+      {std::uint64_t(question.scalar), std::uint64_t(f.decided_by), std::uint64_t(f.truth_yes), ties});
+  set(NumericFeature::branches, {f.branches, std::uint64_t(f.truth_yes), ties});
   if (!decides(question.query->kind)) return;
   static double margin = 0;  // of the last case, to which most cases are near
   margin = decision_margin(question, margin);
   const std::uint64_t rung = margin < 0 ? 0 : margin == 0 ? 1 : std::uint64_t(2 + std::ilogb(margin));
-  set(Feature::margin, {std::uint64_t(question.scalar), rung, std::uint64_t(f.truth_yes)});
+  set(NumericFeature::margin, {std::uint64_t(question.scalar), rung, std::uint64_t(f.truth_yes)});
 }
 
 void note_answer(std::size_t subject, const Finding& f) {
   if (!feedback_is_on() && !statistics_are_asked()) return;
   const std::uint64_t kind = std::uint64_t(f.verdict) << 8 | std::uint64_t(f.disagreement);
-  set(Feature::backward, {subject, kind, backward_bucket(f)});
-  set(Feature::forward, {subject, std::uint64_t(f.verdict), forward_bucket(f.forward_ulps)});
-  set(Feature::backward_by_branch, {subject, backward_bucket(f), f.branches});
+  set(NumericFeature::backward, {subject, kind, backward_bucket(f)});
+  set(NumericFeature::forward, {subject, std::uint64_t(f.verdict), forward_bucket(f.forward_ulps)});
+  set(NumericFeature::backward_by_branch, {subject, backward_bucket(f), f.branches});
 }
 
 double badness(const Finding& f) {
