@@ -1,4 +1,4 @@
-/// docs/reference/reference-api.md and the catalogue name the same queries.
+/// docs/reference/reference-api.md, docs/reference/semantics.md and the catalogue name the same queries.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,11 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "corpus/source_folder.hpp"
 #include "impl/catalogue/query.hpp"
+#include "properties/project_files.hpp"
 
 namespace nearmiss {
 namespace {
@@ -77,6 +79,27 @@ TEST(ReferenceTable, NamesTheSameQueriesAsTheCatalogue) {
       << "docs/reference/reference-api.md has no row for these lines of impl/catalogue/catalogue.def (one that the"
          " reference does not have goes under \"Beyond the reference\"):\n  "
       << fmt::format("{}", fmt::join(not_in_table, "\n  "));
+}
+
+/// The first cells of the table below "The queries".
+std::set<std::string> queries_with_a_meaning() {
+  std::istringstream page(text_of_file("docs/reference/semantics.md"));
+  std::set<std::string> queries;
+  const std::regex name("`([a-z_]+)`");
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) inside = line == "## The queries";
+    if (!inside || !line.starts_with("| `")) continue;
+    const std::string cell = line.substr(0, line.find('|', 1));
+    for (std::sregex_iterator i(cell.begin(), cell.end(), name), end; i != end; ++i) queries.insert((*i)[1]);
+  }
+  return queries;
+}
+
+TEST(ReferenceTable, EveryQueryOfTheCatalogueHasAMeaning) {
+  std::set<std::string> known;
+  for (const Query& query : catalogue()) known.insert(std::string(query.name));
+  EXPECT_EQ(queries_with_a_meaning(), known) << "docs/reference/semantics.md, The queries";
 }
 
 TEST(ReferenceTable, CallsNothingBeyondTheReferenceThatIsInIt) {

@@ -24,6 +24,7 @@ echo "NEARMISS_QUERY($query)" >>"$copy/impl/catalogue/catalogue.def"
 sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball holds a point |
 }" "$copy/docs/reference/reference-api.md"
 grep -q "$query" "$copy/docs/reference/reference-api.md" || fail "docs/reference/reference-api.md has no table for a query of one's own"
+sed -i "/^| \`slide_direction\` |/a | \`$query\` | is the point in the closed ball? |" "$copy/docs/reference/semantics.md"
 sed -i "\$a #include <collide/$query.hpp>" "$copy/impl/collide/include/collide/collide.hpp"
 
 # The same preset and the same depth of the build folder: what did not change comes from the compiler cache.
