@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "benchmarks/machine.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/host/hosts.hpp"
 #include "oracles/judge.hpp"
 #include "reports/engine/tally.hpp"

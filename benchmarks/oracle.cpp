@@ -20,12 +20,12 @@
 #include <iostream>
 
 #include "benchmarks/machine.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/raw_numbers.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/exact/number_memory.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
+#include "properties/judge/raw_numbers.hpp"
 
 namespace nearmiss::benchmarks {
 

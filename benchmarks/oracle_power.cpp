@@ -14,10 +14,10 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "corpus/families.hpp"
-#include "corpus/lies.hpp"
-#include "corpus/width_ratios.hpp"
 #include "oracles/judge.hpp"
+#include "properties/judge/families.hpp"
+#include "properties/judge/lies.hpp"
+#include "properties/judge/width_ratios.hpp"
 
 namespace nearmiss {
 
@@ -72,7 +72,7 @@ bool print_lies(std::span<const Query* const> queries, std::uint64_t cases) {
 ## Which wrong answers are detected
 
 An enclosure can also be so wide that it excludes no answer, for example where it divides by the length of a short edge. So
-the judge gets *lies*, answers that are wrong by construction: elementary bounds (`corpus/lies.cpp`), which share nothing with
+the judge gets *lies*, answers that are wrong by construction: elementary bounds (`properties/judge/lies.cpp`), which share nothing with
 the oracle, prove that no input within 2^10 times the bound on the backward error has such an answer. The bounds on the
 backward error are the promises of `Fast` in both scalars, and 2^30 ε of double. A lie is wrong in the decision alone, in one
 number or in one point. Of each family {} cases are drawn for each scalar and bound; the table has the share of lies that the

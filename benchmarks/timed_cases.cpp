@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/subject/subject.hpp"
 
 namespace nearmiss::benchmarks {

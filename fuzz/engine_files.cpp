@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss {
 namespace {

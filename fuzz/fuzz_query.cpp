@@ -20,8 +20,8 @@
 #include <cstring>
 #include <vector>
 
-#include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/storage/codec.hpp"
 #include "fuzz/asked.hpp"
 #include "fuzz/feedback.hpp"
 #include "fuzz/fuzzed_query.hpp"

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss {
 

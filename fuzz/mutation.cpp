@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "corpus/case_builder.hpp"
-#include "corpus/codec.hpp"
-#include "corpus/crossover.hpp"
-#include "corpus/float_order.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/search/crossover.hpp"
+#include "corpus/search/float_order.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss::fuzz {
 

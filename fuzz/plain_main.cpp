@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "fuzz/fuzzed_query.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "corpus/codec.hpp"
-#include "corpus/store.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 
 namespace nearmiss {
 namespace {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "fuzz/asked.hpp"
 #include "fuzz/fuzzed_query.hpp"
 #include "fuzz/statistics.hpp"

@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/catalogue/query_ids.hpp"
 #include "properties/features.hpp"
 #include "properties/support.hpp"

@@ -8,8 +8,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "corpus/generator.hpp"
-#include "corpus/store.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/adapters/collide_batch.hpp"
 #include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"

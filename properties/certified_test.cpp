@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <collide/certified.hpp>
 
-#include "corpus/raw_numbers.hpp"
 #include "nearmiss/catalogue_inputs.hpp"
 #include "oracles/judge.hpp"
+#include "properties/judge/raw_numbers.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

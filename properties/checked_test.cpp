@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -1,5 +1,5 @@
 /// Cases survive both codecs, and files that are no cases are refused with one clear line.
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "corpus/generator.hpp"
-#include "corpus/near_words.hpp"
-#include "corpus/store.hpp"
+#include "corpus/files/near_words.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/store.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

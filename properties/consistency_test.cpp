@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "properties/support.hpp"
 

@@ -1,5 +1,5 @@
 /// The changes of cases for fuzzers: they keep cases valid and exact, depend on the seed alone, and reach touches.
-#include "corpus/crossover.hpp"
+#include "corpus/search/crossover.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/store.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

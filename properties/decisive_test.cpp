@@ -17,12 +17,12 @@
 #include <string_view>
 #include <utility>
 
-#include "corpus/case_builder.hpp"
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/raw_numbers.hpp"
+#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/adapters/decisive_kernels.hpp"
 #include "nearmiss/collide_functions.hpp"
+#include "properties/judge/raw_numbers.hpp"
 #include "properties/support.hpp"
 #include "properties/unlikely_cases.hpp"
 

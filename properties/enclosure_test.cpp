@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "corpus/codec.hpp"
-#include "corpus/families.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/store.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
+#include "properties/judge/families.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/host/worker.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "impl/subject/subject.hpp"

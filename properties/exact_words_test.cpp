@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 #include "properties/support.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/catalogue/queries/sphere_sphere_overlap.hpp"
 #include "impl/subject/adapter.hpp"
 #include "properties/support.hpp"

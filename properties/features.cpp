@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "corpus/bodies.hpp"
 #include "oracles/requirements.hpp"
+#include "properties/judge/bodies.hpp"
 
 namespace nearmiss {
 namespace {

@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/case_builder.hpp"
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/raw_numbers.hpp"
+#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "nearmiss/collide_functions.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
+#include "properties/judge/raw_numbers.hpp"
 #include "properties/support.hpp"
 #include "properties/unlikely_cases.hpp"
 

@@ -1,5 +1,5 @@
 /// The generator: its cases are valid, exact, the same on every machine, and useful.
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <map>
 #include <set>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 #include "properties/support.hpp"

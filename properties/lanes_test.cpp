@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <collide/tiers.hpp>
 
-#include "corpus/generator.hpp"
-#include "corpus/store.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/store.hpp"
 #include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"
 

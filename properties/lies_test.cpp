@@ -1,14 +1,14 @@
-/// The judge detects every gross lie: an answer that is wrong by construction (corpus/lies.hpp) and exceeds a bound by
-/// a factor of 2^10 is proved to exceed the bound, for all shapes and sizes.
+/// The judge detects every gross lie: an answer that is wrong by construction (properties/judge/lies.hpp) and exceeds a
+/// bound by a factor of 2^10 is proved to exceed the bound, for all shapes and sizes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/families.hpp"
-#include "corpus/lies.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/exact/oracle.hpp"
+#include "properties/judge/families.hpp"
+#include "properties/judge/lies.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -1,5 +1,5 @@
 /// The oracle against a ground truth that others computed symbolically, and the importer.
-#include "corpus/nyu_ccd.hpp"
+#include "corpus/importers/nyu_ccd.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "corpus/codec.hpp"
-#include "corpus/store.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "oracles/judge.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "oracles/judge.hpp"
 #include "properties/hand_derived.hpp"
 #include "properties/support.hpp"

@@ -9,9 +9,9 @@
 #include <map>
 #include <string>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
-#include "corpus/width_ratios.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
+#include "properties/judge/width_ratios.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

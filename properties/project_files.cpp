@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "reports/findings/encoded.hpp"
 
 namespace nearmiss {

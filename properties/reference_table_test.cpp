@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "impl/catalogue/query.hpp"
 #include "properties/project_files.hpp"
 

@@ -8,10 +8,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/case_builder.hpp"
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/store.hpp"
+#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "oracles/confirmed.hpp"
 #include "properties/support.hpp"
 

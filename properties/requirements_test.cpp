@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/generator/generator.hpp"
 #include "oracles/judge.hpp"
 #include "properties/support.hpp"
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "corpus/case_builder.hpp"
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/generator.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 #include "corpus/scenes/scene_ranges.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss::scenes {
 namespace {

@@ -7,11 +7,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
 #include "corpus/scenes/operands.hpp"
 #include "corpus/scenes/recorded_cases.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 #include "corpus/scenes/solids.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/exact/oracle.hpp"
 
 namespace nearmiss::scenes {

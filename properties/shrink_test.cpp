@@ -1,12 +1,12 @@
 /// The shrinker finds simple cases and keeps the required property.
-#include "corpus/shrink.hpp"
+#include "corpus/search/shrink.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

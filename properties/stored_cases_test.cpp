@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/store.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/host/worker.hpp"
 #include "oracles/confirmed.hpp"
 #include "properties/support.hpp"

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "impl/catalogue/query.hpp"
 #include "properties/project_files.hpp"
 
@@ -41,19 +41,33 @@ constexpr Room rooms[] = {
     {"oracles/exact", 4},
     {"oracles/algorithms", 5},
     {"oracles", 6},
-    {"corpus", 7},
-    {"reports/findings", 8},
-    {"reports/engine", 9},
-    {"reports/triage", 10},
-    {"reports/trade", 10},
-    {"reports/advice", 11},
-    {"reports/upstream", 11},
-    {"reports/page", 11},
-    {"reports/commands", 12},
-    {"reports/tests", 13},
-    {"properties", 13},
-    {"fuzz", 13},
-    {"benchmarks", 13},
+    {"corpus/files", 7},
+    {"corpus/generator", 7},
+    {"corpus/storage", 8},
+    {"corpus/importers", 9},
+    {"corpus/relations", 9},
+    {"corpus/scenes", 9},
+    {"corpus/search", 9},
+    {"reports/findings", 10},
+    {"reports/engine", 11},
+    {"reports/triage/causes", 12},
+    {"reports/triage/geometry", 12},
+    {"reports/triage/trials", 13},
+    {"reports/triage/hypotheses", 14},
+    {"reports/triage/minimisation", 14},
+    {"reports/triage/examination", 15},
+    {"reports/triage", 16},
+    {"reports/triage/comparison", 17},
+    {"reports/trade", 12},
+    {"reports/advice", 18},
+    {"reports/upstream", 18},
+    {"reports/page", 18},
+    {"reports/commands", 19},
+    {"properties/judge", 19},
+    {"reports/tests", 20},
+    {"properties", 20},
+    {"fuzz", 20},
+    {"benchmarks", 20},
 };
 
 /// The innermost folder of the list that contains the file.

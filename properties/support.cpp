@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
-#include "corpus/shrink.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/search/shrink.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/provenance.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/exact/oracle.hpp"

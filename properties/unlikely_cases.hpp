@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "corpus/case_builder.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/raw_numbers.hpp"
+#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/generator.hpp"
 #include "oracles/requirements.hpp"
+#include "properties/judge/raw_numbers.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "nearmiss/collide_functions.hpp"
 #include "properties/support.hpp"
 

@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/families.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "properties/derivation.hpp"
+#include "properties/judge/families.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

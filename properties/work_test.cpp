@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/raw_numbers.hpp"
-#include "corpus/store.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
+#include "properties/judge/raw_numbers.hpp"
 #include "properties/support.hpp"
 
 namespace nearmiss {

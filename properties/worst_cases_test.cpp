@@ -1,7 +1,7 @@
 /// Every stored worst case (corpus/worst/) still has the error that its file states.
 #include <gtest/gtest.h>
 
-#include "corpus/store.hpp"
+#include "corpus/storage/store.hpp"
 #include "oracles/requirements.hpp"
 #include "properties/support.hpp"
 

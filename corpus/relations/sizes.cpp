@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/case_builder.hpp"
+#include "corpus/generator/case_builder.hpp"
 #include "corpus/relations/follow_ups.hpp"
 #include "corpus/relations/operands.hpp"
 #include "corpus/relations/recast.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "corpus/case_builder.hpp"
+#include "corpus/generator/case_builder.hpp"
 #include "corpus/relations/follow_ups.hpp"
 #include "corpus/relations/operands.hpp"
 

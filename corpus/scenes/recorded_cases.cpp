@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss::scenes {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "impl/catalogue/case.hpp"
 
 namespace nearmiss::scenes {

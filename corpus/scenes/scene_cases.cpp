@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "corpus/fit.hpp"
+#include "corpus/generator/fit.hpp"
 #include "corpus/scenes/operands.hpp"
 #include "corpus/scenes/solids.hpp"
 

@@ -19,7 +19,7 @@ void draw_case(Case& into, const Scene& scene, const Query& query, Scalar scalar
                std::uint64_t index);
 Case draw_case(const Scene& scene, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index);
 
-/// The same, changed to meet the preconditions of a subject where it does not (see fit() in corpus/fit.hpp).
+/// The same, changed to meet the preconditions of a subject where it does not (see fit() in corpus/generator/fit.hpp).
 void draw_case_inside(Case& into, const Scene& scene, const Query& query, Scalar scalar, std::uint64_t seed,
                       std::uint64_t index, Preconditions required);
 

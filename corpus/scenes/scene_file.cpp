@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/store.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 
 namespace nearmiss::scenes {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "impl/catalogue/case.hpp"
 #include "oracles/scene_limits.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "corpus/near_words.hpp"
+#include "corpus/files/near_words.hpp"
 #include "corpus/scenes/operands.hpp"
 #include "corpus/scenes/recorded_cases.hpp"
 #include "corpus/scenes/scene_file.hpp"

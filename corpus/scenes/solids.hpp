@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "corpus/case_builder.hpp"
+#include "corpus/generator/case_builder.hpp"
 #include "corpus/scenes/scene_file.hpp"
 
 namespace nearmiss::scenes {

@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
 #include "corpus/scenes/recorded_cases.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss::scenes {
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/advice/advice.hpp"
 #include "reports/advice/advice_json.hpp"
 #include "reports/engine/interrupt.hpp"

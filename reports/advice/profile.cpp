@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/advice/advice_json.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"

@@ -1,10 +1,10 @@
-#include "reports/triage/bisect.hpp"
+#include "reports/triage/comparison/bisect.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/interrupt.hpp"

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/output.hpp"
 #include "reports/findings/pretty_json.hpp"
-#include "reports/triage/run_diff.hpp"
+#include "reports/triage/comparison/run_diff.hpp"
 
 namespace nearmiss {
 

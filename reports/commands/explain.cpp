@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/tasks.hpp"
@@ -13,7 +13,7 @@
 #include "reports/engine/run.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/cause.hpp"
+#include "reports/triage/causes/cause.hpp"
 
 namespace nearmiss {
 

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/nyu_ccd.hpp"
+#include "corpus/importers/nyu_ccd.hpp"
 #include "corpus/scenes/recorded_cases.hpp"
 #include "corpus/scenes/trace_scene.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/catalogue/query_ids.hpp"
 #include "impl/catalogue/roles.hpp"
 #include "oracles/exact/oracle.hpp"

@@ -11,8 +11,8 @@
 #include <limits>
 #include <new>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/environment.hpp"

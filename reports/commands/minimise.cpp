@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/tasks.hpp"
@@ -12,7 +12,7 @@
 #include "reports/engine/run.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/minimise.hpp"
+#include "reports/triage/minimisation/minimise.hpp"
 
 namespace nearmiss {
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <thread>
 
-#include "corpus/codec.hpp"
 #include "corpus/scenes/scene_cases.hpp"
-#include "corpus/store.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"

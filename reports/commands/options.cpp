@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/host/hosts.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/report_text.hpp"

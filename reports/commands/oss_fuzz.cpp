@@ -8,8 +8,8 @@
 #include <regex>
 #include <sstream>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/output.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 
 namespace nearmiss {
 

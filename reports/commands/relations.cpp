@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/profile_option.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"

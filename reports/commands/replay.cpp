@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"

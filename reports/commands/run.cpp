@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/profile_option.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "reports/advice/profile.hpp"
 #include "reports/advice/verification.hpp"
 #include "reports/commands/command.hpp"

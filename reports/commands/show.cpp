@@ -2,15 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/commands/tasks.hpp"
 #include "reports/engine/output.hpp"
 #include "reports/engine/replay.hpp"
-#include "reports/triage/cause_json.hpp"
-#include "reports/triage/minimise.hpp"
+#include "reports/triage/causes/cause_json.hpp"
+#include "reports/triage/minimisation/minimise.hpp"
 #include "reports/upstream/scene_picture.hpp"
 
 namespace nearmiss {

@@ -10,8 +10,8 @@
 #include <limits>
 #include <thread>
 
-#include "corpus/errors.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"

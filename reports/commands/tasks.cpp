@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/relation_report.hpp"

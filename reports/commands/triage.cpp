@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/interrupt.hpp"
@@ -11,7 +11,7 @@
 #include "reports/engine/run.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/baseline.hpp"
+#include "reports/triage/comparison/baseline.hpp"
 #include "reports/triage/triage.hpp"
 #include "reports/triage/triage_json.hpp"
 #include "reports/triage/triage_text.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/neighbours.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/search/neighbours.hpp"
 #include "reports/findings/hash.hpp"
 #include "reports/findings/workers.hpp"
 

@@ -1,9 +1,9 @@
 /// One climb: the search for the largest error of one kind that one subject makes on one query.
 ///
 /// A climb asks cases in rounds. It begins with the worst cases known and with generated ones. From the worst of them
-/// it climbs: each round proposes neighbours of the case (corpus/neighbours.hpp) and moves to the one with the largest
-/// error. A hill counts as climbed when several rounds found nothing worse. The next hill begins at another bad case,
-/// at a case that differs in many numbers from the top of an earlier hill, or at new generated cases.
+/// it climbs: each round proposes neighbours of the case (corpus/search/neighbours.hpp) and moves to the one with the
+/// largest error. A hill counts as climbed when several rounds found nothing worse. The next hill begins at another bad
+/// case, at a case that differs in many numbers from the top of an earlier hill, or at new generated cases.
 ///
 /// Only errors that the judge proved count. A forward error has no bound where a query is badly conditioned: there the
 /// search finds cases that are ever closer to a flip. That is what it is for.
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/store.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/error_kind.hpp"
 

@@ -6,9 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/html.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/encoded.hpp"

@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 
 namespace nearmiss {
 

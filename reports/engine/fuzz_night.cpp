@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/host/supervisor.hpp"
 
 namespace nearmiss {

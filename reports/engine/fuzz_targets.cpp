@@ -11,9 +11,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
-#include "corpus/store.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/host/supervisor.hpp"
 #include "reports/engine/interrupt.hpp"

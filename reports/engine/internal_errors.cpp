@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/progress.hpp"
 #include "reports/findings/hash.hpp"
 #include "reports/findings/pretty_json.hpp"

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "corpus/generator/sweep.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 #include "corpus/scenes/solids.hpp"
-#include "corpus/sweep.hpp"
 
 namespace nearmiss {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/findings/hash.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"

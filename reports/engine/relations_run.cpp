@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/run_folder.hpp"
 #include "reports/engine/schedule.hpp"

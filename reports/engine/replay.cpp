@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/printable.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/report_text.hpp"

@@ -14,9 +14,9 @@
 #include <tuple>
 #include <utility>
 
-#include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/pretty_json.hpp"

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/folder_lock.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/breakage.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "corpus/fit.hpp"
+#include "corpus/generator/fit.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 
 namespace nearmiss {

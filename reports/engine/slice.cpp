@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/crossover.hpp"
-#include "corpus/errors.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/search/crossover.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/contained.hpp"
 #include "reports/engine/counts.hpp"
 #include "reports/engine/interrupt.hpp"

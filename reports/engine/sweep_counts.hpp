@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
 #include "impl/subject/subject.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/engine/slice.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/sweep.hpp"
 #include "reports/findings/report.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"

@@ -4,8 +4,8 @@
 #include <compare>
 #include <string>
 
-#include "corpus/feature_regions.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/generator/feature_regions.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/near_words.hpp"
+#include "corpus/files/near_words.hpp"
 #include "oracles/judge.hpp"
 #include "reports/findings/encoded.hpp"
 

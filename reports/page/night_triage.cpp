@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/engine/progress.hpp"
@@ -14,7 +14,7 @@
 #include "reports/findings/workers.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/page_data.hpp"
-#include "reports/triage/baseline.hpp"
+#include "reports/triage/comparison/baseline.hpp"
 #include "reports/triage/triage_json.hpp"
 
 namespace nearmiss {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <tuple>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/engine/replay.hpp"

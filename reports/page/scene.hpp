@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
 #include "impl/catalogue/case.hpp"
 
 namespace nearmiss {

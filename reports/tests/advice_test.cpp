@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "corpus/codec.hpp"
 #include "corpus/scenes/scene_file.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/advice/profile.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/host/hosts.hpp"
 #include "reports/tests/program.hpp"
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/generator.hpp"
+#include "corpus/generator/generator.hpp"
 #include "oracles/judge.hpp"
 #include "reports/tests/mistaken_subject.hpp"
-#include "reports/triage/quantities.hpp"
-#include "reports/triage/ratios.hpp"
-#include "reports/triage/touch_cases.hpp"
+#include "reports/triage/geometry/quantities.hpp"
+#include "reports/triage/geometry/ratios.hpp"
+#include "reports/triage/trials/touch_cases.hpp"
 
 namespace nearmiss {
 namespace {

@@ -7,24 +7,24 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/catalogue/roles.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
-#include "reports/triage/border.hpp"
-#include "reports/triage/cause.hpp"
-#include "reports/triage/crossings.hpp"
-#include "reports/triage/magnitudes.hpp"
-#include "reports/triage/quantities.hpp"
-#include "reports/triage/ratios.hpp"
-#include "reports/triage/readings.hpp"
-#include "reports/triage/regions.hpp"
-#include "reports/triage/scales.hpp"
-#include "reports/triage/written_constant.hpp"
+#include "reports/triage/causes/cause.hpp"
+#include "reports/triage/geometry/magnitudes.hpp"
+#include "reports/triage/geometry/quantities.hpp"
+#include "reports/triage/geometry/ratios.hpp"
+#include "reports/triage/hypotheses/readings.hpp"
+#include "reports/triage/hypotheses/regions.hpp"
+#include "reports/triage/hypotheses/written_constant.hpp"
+#include "reports/triage/trials/border.hpp"
+#include "reports/triage/trials/crossings.hpp"
+#include "reports/triage/trials/scales.hpp"
 
 namespace nearmiss {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <sstream>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
-#include "corpus/store.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/engine/answer_sample.hpp"
 #include "reports/engine/properties.hpp"

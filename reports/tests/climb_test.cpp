@@ -6,10 +6,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/float_order.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/neighbours.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/search/float_order.hpp"
+#include "corpus/search/neighbours.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/climb.hpp"
 #include "reports/tests/program.hpp"

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
-#include "corpus/store.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"

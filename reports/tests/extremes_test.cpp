@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/generator/sweep.hpp"
 #include "corpus/scenes/scene_cases.hpp"
-#include "corpus/sweep.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/engine/map_cases.hpp"
 #include "reports/tests/program.hpp"

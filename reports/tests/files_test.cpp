@@ -12,8 +12,8 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/files.hpp"
+#include "corpus/files/files.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/tests/mistaken_subject.hpp"
 #include "reports/tests/program.hpp"

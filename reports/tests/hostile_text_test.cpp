@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/printable.hpp"
 #include "reports/findings/encoded.hpp"
 #include "reports/findings/pretty_json.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/tests/program.hpp"

@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/codec.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "corpus/scenes/scene_file.hpp"
-#include "corpus/source_folder.hpp"
-#include "corpus/store.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/advice/profile.hpp"
 #include "reports/engine/relation_report.hpp"
@@ -25,10 +25,10 @@
 #include "reports/page/page_data.hpp"
 #include "reports/page/scene.hpp"
 #include "reports/tests/program.hpp"
-#include "reports/triage/cause_json.hpp"
-#include "reports/triage/minimise.hpp"
-#include "reports/triage/run_diff.hpp"
-#include "reports/triage/sources.hpp"
+#include "reports/triage/causes/cause_json.hpp"
+#include "reports/triage/comparison/run_diff.hpp"
+#include "reports/triage/examination/sources.hpp"
+#include "reports/triage/minimisation/minimise.hpp"
 #include "reports/triage/triage_json.hpp"
 
 namespace nearmiss {

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
-#include "corpus/store.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/signature.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
-#include "reports/triage/minimise.hpp"
+#include "reports/triage/minimisation/minimise.hpp"
 
 namespace nearmiss {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/generator/generator.hpp"
 #include "impl/subject/provenance.hpp"
-#include "reports/triage/cause.hpp"
+#include "reports/triage/causes/cause.hpp"
 
 namespace nearmiss {
 

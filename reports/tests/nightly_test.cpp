@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/fuzz_night.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/page/night_triage.hpp"

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 

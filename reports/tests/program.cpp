@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/page/error_plot.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/report_text.hpp"

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/fit.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/relation_report.hpp"
 #include "reports/engine/replay.hpp"

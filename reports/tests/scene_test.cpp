@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "corpus/scenes/scene_file.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"

@@ -9,8 +9,8 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/storage/codec.hpp"
 
 namespace nearmiss {
 

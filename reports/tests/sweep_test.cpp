@@ -9,10 +9,10 @@
 #include <random>
 #include <thread>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
-#include "corpus/generator.hpp"
-#include "corpus/source_folder.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/files/source_folder.hpp"
+#include "corpus/generator/generator.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/provenance.hpp"
 #include "oracles/judge.hpp"
 #include "reports/engine/sweep.hpp"

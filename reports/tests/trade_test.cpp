@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vector>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"

@@ -7,12 +7,12 @@
 #include <regex>
 #include <sstream>
 
-#include "corpus/codec.hpp"
-#include "corpus/feature_regions.hpp"
+#include "corpus/generator/feature_regions.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
-#include "reports/triage/baseline.hpp"
-#include "reports/triage/severity.hpp"
+#include "reports/triage/comparison/baseline.hpp"
+#include "reports/triage/examination/severity.hpp"
 
 namespace nearmiss {
 namespace {

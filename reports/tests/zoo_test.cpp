@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/findings/encoded.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"

@@ -1,7 +1,7 @@
 #include "reports/trade/sources.hpp"
 
-#include "corpus/fit.hpp"
-#include "corpus/generator.hpp"
+#include "corpus/generator/fit.hpp"
+#include "corpus/generator/generator.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 
 namespace nearmiss {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "corpus/codec.hpp"
+#include "corpus/storage/codec.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/findings/pretty_json.hpp"

@@ -14,7 +14,7 @@
 #include "reports/findings/hash.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/examined_cases.hpp"
+#include "reports/triage/examination/examined_cases.hpp"
 
 namespace nearmiss {
 

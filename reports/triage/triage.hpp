@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "reports/triage/cause.hpp"
-#include "reports/triage/severity.hpp"
-#include "reports/triage/sources.hpp"
+#include "reports/triage/causes/cause.hpp"
+#include "reports/triage/examination/severity.hpp"
+#include "reports/triage/examination/sources.hpp"
 
 namespace nearmiss {
 

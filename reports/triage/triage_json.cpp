@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/codec.hpp"
-#include "corpus/file_value.hpp"
+#include "corpus/files/file_value.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/findings/encoded.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/cause_json.hpp"
+#include "reports/triage/causes/cause_json.hpp"
 #include "reports/triage/triage_text.hpp"
 
 namespace nearmiss {

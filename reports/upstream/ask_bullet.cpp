@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "impl/adapters/motion.hpp"
 #include "reports/upstream/asking.hpp"
 

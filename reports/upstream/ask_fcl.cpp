@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "impl/adapters/motion.hpp"
 #include "reports/upstream/asking.hpp"
 

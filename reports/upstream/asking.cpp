@@ -6,7 +6,7 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "impl/adapters/motion.hpp"
 
 namespace nearmiss {

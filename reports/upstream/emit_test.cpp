@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
 #include "reports/findings/encoded.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"

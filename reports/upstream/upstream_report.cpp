@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "corpus/codec.hpp"
-#include "corpus/errors.hpp"
+#include "corpus/files/errors.hpp"
+#include "corpus/storage/codec.hpp"
 #include "reports/findings/encoded.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report_text.hpp"

@@ -1,0 +1,236 @@
+#include "corpus/generator/generator.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <deque>
+#include <stdexcept>
+
+#include "corpus/generator/case_builder.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::size_t most_mutators = 64;
+
+std::string_view parent(std::string_view name) { return name.substr(0, name.rfind('.')); }
+std::string_view last(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+std::string_view first(std::string_view name) { return name.substr(0, name.find('.')); }
+
+/// The number of fields from i on that have the same parent and the names x, y, z, w in this order.
+std::size_t components_at(const std::vector<Field>& fields, std::size_t i) {
+  constexpr std::string_view names[] = {"x", "y", "z", "w"};
+  std::size_t n = 0;
+  while (n < 4 && i + n < fields.size() && last(fields[i + n].name) == names[n] &&
+         parent(fields[i + n].name) == parent(fields[i].name)) {
+    ++n;
+  }
+  return n;
+}
+
+std::uint64_t hash(std::string_view text) {  // FNV-1a
+  std::uint64_t h = 0xcbf29ce484222325;
+  for (unsigned char c : text) h = (h ^ c) * 0x100000001b3;
+  return h;
+}
+
+Operand& operand_of(std::vector<Operand>& operands, std::string_view name) {
+  for (Operand& t : operands) {
+    if (t.name == name) return t;
+  }
+  operands.push_back({std::string(name), {}, {}});
+  return operands.back();
+}
+
+bool is_movable(Role role) { return role == Role::position || role == Role::velocity || role == Role::direction; }
+
+/// The plan of a query, made once per thread.
+const Plan& plan_of(const Query& query) {
+  static thread_local std::deque<Plan> plans;
+  for (const Plan& p : plans) {
+    if (p.query == &query) return p;
+  }
+  return plans.emplace_back(query);
+}
+
+/// Whether all numbers are within the magnitudes that generator.hpp states.
+bool moderate(const CaseBuilder& d) {
+  const double largest = std::ldexp(1.0, d.orders(18, 60)), smallest = 1 / largest;
+  for (const auto& group : d.plan.numbers) {
+    double m = 0;
+    for (std::size_t i : group) m = std::max(m, std::abs(d[i]));
+    if (m > largest || (m > 0 && m < smallest)) return false;
+  }
+  return true;
+}
+
+void apply(CaseBuilder& d, const std::bitset<most_mutators>& chosen, std::vector<std::string_view>& names) {
+  const std::span<const Mutator> table = mutators();
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (chosen[i] && table[i].apply(d)) names.push_back(table[i].name);
+  }
+}
+
+std::size_t count_of_ordinary_mutators() {
+  static const auto count =
+      std::size_t(std::count_if(mutators().begin(), mutators().end(), [](const Mutator& m) { return !m.extreme; }));
+  return count;
+}
+
+std::bitset<most_mutators> choose(Random& random, int count, std::size_t among) {
+  std::bitset<most_mutators> chosen;
+  for (; count > 0; --count) chosen.set(random.below(among));
+  return chosen;
+}
+
+/// Chooses one of the extreme mutators.
+std::bitset<most_mutators> choose_extreme(Random& random) {
+  std::bitset<most_mutators> chosen;
+  const std::size_t ordinary = count_of_ordinary_mutators();
+  chosen.set(ordinary + random.below(mutators().size() - ordinary));
+  return chosen;
+}
+
+/// Half of the mutated cases start on a grid, where touches and ties are exact.
+std::bitset<most_mutators> choose_for_new_case(Random& random) {
+  constexpr std::size_t small_lattice = 0, dyadic_grid = 1;
+  auto chosen = choose(random, random.between(1, 4), count_of_ordinary_mutators());
+  if (random.one_in(2)) chosen.set(random.one_in(3) ? dyadic_grid : small_lattice);
+  return chosen;
+}
+
+bool attempt(Case& c, const Plan& plan, Random& random) {
+  c.moves.clear();
+  CaseBuilder builder(plan, c.scalar, random, c.values);
+  draw_scene(builder);
+  if (random.one_in(2)) apply(builder, choose_for_new_case(random), c.moves);
+  if (!moderate(builder)) return false;
+  constexpr std::size_t one_extreme_in = 40;
+  if (random.one_in(one_extreme_in)) apply(builder, choose_extreme(random), c.moves);
+  const bool finite = std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); });
+  return finite && !c.query->broken(c.values);
+}
+
+}  // namespace
+
+Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
+  const std::vector<Field>& fields = q.inputs;
+  std::vector<Operand> all;
+  for (std::size_t i = 0; i < fields.size(); ++i) numbers[std::size_t(fields[i].role)].push_back(i);
+  for (std::size_t i = 0; i < fields.size();) {
+    const Role role = fields[i].role;
+    Operand& operand = operand_of(all, first(fields[i].name));
+    const std::size_t n = components_at(fields, i);
+    if (n == 4 && role == Role::rotation) {
+      rotations.push_back(i);
+    } else if (role == Role::size) {
+      for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) {
+        sizes.push_back(k);
+        operand.sizes.push_back(k);
+      }
+    } else if (n == 3 && is_movable(role)) {
+      if (role == Role::position && fields[i].name.ends_with(".max.x")) upper.insert(upper.end(), {i, i + 1, i + 2});
+      const std::size_t v = vectors.size();
+      vectors.push_back({i, role});
+      movable.push_back(v);
+      (role == Role::position ? positions : role == Role::velocity ? velocities : directions).push_back(v);
+      if (role == Role::position) operand.positions.push_back(v);
+    } else {
+      for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) lone.push_back(k);
+    }
+    i += std::max<std::size_t>(n, 1);
+  }
+  std::copy_if(all.begin(), all.end(), std::back_inserter(operands),
+               [](const Operand& t) { return !t.positions.empty(); });
+}
+
+[[gnu::noinline]] double rounded_to(Scalar scalar, double x) {
+  return scalar == Scalar::float32 ? double(float(x)) : x;
+}
+
+void CaseBuilder::step_ulps(std::size_t i, int ulps) {
+  const double toward = ulps > 0 ? HUGE_VAL : -HUGE_VAL;
+  for (int k = std::abs(ulps); k > 0; --k) {
+    values_[i] =
+        is_float() ? double(std::nextafter(float(values_[i]), float(toward))) : std::nextafter(values_[i], toward);
+  }
+}
+
+void CaseBuilder::repair() {
+  const auto all_zero = [&](std::size_t begin, std::size_t n) {
+    return std::all_of(&values_[begin], &values_[begin] + n, [](double x) { return x == 0; });
+  };
+  for (std::size_t v : plan.directions) {
+    const std::size_t begin = plan.vectors[v].begin;
+    const std::size_t k = random.below(3);
+    if (all_zero(begin, 3)) set(begin + k, random.sign());
+  }
+  for (std::size_t begin : plan.rotations) {
+    if (all_zero(begin, 4)) set(begin + 3, 1);
+  }
+  for (std::size_t i : plan.upper) {  // an axis-aligned box: the three numbers before are its lower corner
+    const double lower = values_[i - 3], upper = values_[i];
+    if (upper < lower) set(i - 3, upper), set(i, lower);
+  }
+}
+
+void generate(Case& into, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
+  const Plan& plan = plan_of(query);
+  // Each part passes through the mixer, so that streams of neighbouring seeds are unrelated.
+  Random random(Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar)).bits() ^ Random(index).bits());
+  into.query = &query;
+  into.scalar = scalar;
+  into.values.resize(query.inputs.size());
+  into.origin = "generator";
+  into.seed = seed;
+  into.index = index;
+  constexpr int attempts = 1000;
+  for (int i = 0; i < attempts; ++i) {
+    if (attempt(into, plan, random)) return;
+  }
+  throw std::logic_error("generator: no valid case of " + std::string(query.name) + " in 1000 attempts");
+}
+
+Case generate(const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
+  Case c;
+  generate(c, query, scalar, seed, index);
+  return c;
+}
+
+void mutate(Case& c, std::uint64_t seed) {
+  Random random(seed);
+  const std::vector<double> before = c.values;
+  const std::size_t moves_before = c.moves.size();
+  constexpr int attempts = 16;
+  for (int i = 0; i < attempts; ++i) {
+    CaseBuilder builder(plan_of(*c.query), c.scalar, random, c.values);
+    apply(builder, choose(random, random.between(1, 3), mutators().size()), c.moves);
+    if (c.moves.size() > moves_before && !c.query->broken(c.values)) return;
+    c.values = before;
+    c.moves.resize(moves_before);
+  }
+}
+
+std::span<const MutatorName> mutator_names() {
+  static const std::vector<MutatorName> names = [] {
+    std::vector<MutatorName> all;
+    for (const Mutator& m : mutators()) all.push_back({m.name, m.what, m.extreme});
+    return all;
+  }();
+  return names;
+}
+
+bool has_extreme_mutator(const Case& c) {
+  return std::any_of(mutators().begin(), mutators().end(), [&](const Mutator& m) {
+    return m.extreme && std::find(c.moves.begin(), c.moves.end(), m.name) != c.moves.end();
+  });
+}
+
+std::string_view known_mutator(std::string_view name) {
+  for (const Mutator& m : mutators()) {
+    if (m.name == name) return m.name;
+  }
+  return {};
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,182 @@
+#include "reports/triage/geometry/case_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "oracles/judge.hpp"
+#include "oracles/requirements.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+class GeometryReader {
+ public:
+  GeometryReader(const Case& c, const Answer* right) : c_(c), right_(right), q_(*c.query), parts_(parts_of(*c.query)) {}
+
+  CaseGeometry result() {
+    read_inputs();
+    read_edges();
+    read_blocks();
+    read_answer();
+    add_lines_of_centers();
+    return std::move(g_);
+  }
+
+ private:
+  LongVector at(std::size_t i) const { return {c_.values[i], c_.values[i + 1], c_.values[i + 2]}; }
+  std::string operand_of(std::size_t i) const { return q_.inputs[i].name.substr(0, q_.inputs[i].name.find('.')); }
+  /// "sphere.center" of "sphere.center.x".
+  std::string vector_at(std::size_t i) const {
+    const std::string& name = q_.inputs[i].name;
+    return name.size() > 2 ? name.substr(0, name.size() - 2) : name;
+  }
+  bool is_vector(std::size_t i) const { return q_.inputs[i].name.ends_with(".x") && i + 2 < q_.inputs.size(); }
+
+  void read_inputs() {
+    for (std::size_t i = 0; i < q_.inputs.size(); ++i) {
+      const Role role = q_.inputs[i].role;
+      if (role == Role::size && q_.inputs[i].name.ends_with("radius"))
+        g_.radii.emplace_back(operand_of(i), c_.values[i]);
+      if (!is_vector(i)) continue;
+      if (role == Role::position) g_.places.push_back({vector_at(i), operand_of(i), at(i), true, is_corner(i), i});
+      if (role == Role::velocity || role == Role::direction) g_.directions.push_back({vector_at(i), at(i)});
+      if (role == Role::velocity && !g_.velocity) g_.velocity = at(i);
+      const bool is_plane =
+          role == Role::direction && i + 3 < q_.inputs.size() && q_.inputs[i + 3].role == Role::offset;
+      if (is_plane) g_.planes.push_back({operand_of(i), at(i), c_.values[i + 3]});
+    }
+  }
+  bool is_corner(std::size_t i) const {
+    const auto has = [i](const auto& list) {
+      return std::any_of(list.begin(), list.end(),
+                         [i](const auto& all) { return std::find(all.begin(), all.end(), i) != all.end(); });
+    };
+    const bool of_box = std::any_of(parts_.aaboxes.begin(), parts_.aaboxes.end(),
+                                    [i](std::size_t lower) { return i == lower || i == lower + 3; });
+    return of_box || has(parts_.segments) || has(parts_.triangles);
+  }
+  void add_edge(std::size_t a, std::size_t b) {
+    if (!edges_.insert(std::minmax(a, b)).second) return;
+    const std::string end = vector_at(b);
+    const std::string name = vector_at(a) + " " + end.substr(end.find('.') + 1);
+    g_.edges.push_back({name, operand_of(a), at(a), at(b), a, b});
+    g_.directions.push_back({name, at(b) - at(a)});
+  }
+  void read_edges() {
+    for (const auto& s : parts_.segments) add_edge(s[0], s[1]);
+    for (const auto& t : parts_.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) add_edge(t[k], t[(k + 1) % 3]);
+      const std::array corners{at(t[0]), at(t[1]), at(t[2])};
+      g_.triangles.push_back({operand_of(t[0]), corners, t});
+      g_.directions.push_back(
+          {"the normal of " + operand_of(t[0]), cross(corners[1] - corners[0], corners[2] - corners[0])});
+    }
+  }
+  std::size_t number(const std::string& name) const {
+    const auto found = std::find_if(q_.inputs.begin(), q_.inputs.end(), [&](const Field& f) { return f.name == name; });
+    return std::size_t(found - q_.inputs.begin());
+  }
+  void read_blocks() {
+    for (const std::size_t lower : parts_.aaboxes) {
+      const LongVector low = at(lower), high = at(lower + 3);
+      g_.blocks.push_back({operand_of(lower), (low + high) * 0.5L, (high - low) * 0.5L});
+    }
+    for (const std::size_t i : parts_.quaternions) {
+      const std::string operand = operand_of(i);
+      const std::size_t center = number(operand + ".center.x"), half = number(operand + ".half.x");
+      if (center >= q_.inputs.size() || half >= q_.inputs.size()) continue;
+      g_.blocks.push_back({operand, at(center), at(half), axes_at(i)});
+      for (int k = 0; k < 3; ++k)
+        g_.directions.push_back(
+            {"axis " + std::to_string(k) + " of " + operand, g_.blocks.back().axes[std::size_t(k)]});
+    }
+  }
+  std::array<LongVector, 3> axes_at(std::size_t i) const {
+    long double x = c_.values[i], y = c_.values[i + 1], z = c_.values[i + 2], w = c_.values[i + 3];
+    const long double n = std::sqrt(x * x + y * y + z * z + w * w);
+    x /= n, y /= n, z /= n, w /= n;
+    return {{{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+             {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+             {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}}};
+  }
+
+  /// The numbers of the answer; none where its decision is no.
+  std::vector<long double> numbers_of_answer() const {
+    if (right_ != nullptr) {
+      if (right_->status != Answer::Status::answered || !right_->yes) return {};
+      return {right_->values.begin(), right_->values.begin() + right_->count};
+    }
+    std::vector<long double> numbers;
+    const Truth truth = q_.outputs.empty() ? Truth{} : truth_of(c_);
+    for (const Alternative& a : truth.alternatives) {
+      if (!a.yes || a.many_normals) continue;
+      for (std::size_t i = 0; i < a.count; ++i)
+        numbers.push_back((static_cast<long double>(a.values[i].low) + a.values[i].high) / 2);
+      break;
+    }
+    return numbers;
+  }
+  void read_answer() {
+    const std::vector<long double> numbers = numbers_of_answer();
+    for (std::size_t k = 0; k < q_.layout.parts.size(); ++k) read_member(k, numbers);
+    add_moved_place(!numbers.empty());
+  }
+  void read_member(std::size_t k, const std::vector<long double>& numbers) {
+    const Layout::Part& p = q_.layout.parts[k];
+    const auto value = [&](std::size_t i) { return i < numbers.size() ? numbers[i] : 0.0L; };
+    const bool known = p.end <= numbers.size();
+    const bool is_vector = p.end - p.begin == 3;
+    const LongVector v = is_vector ? LongVector{value(p.begin), value(p.begin + 1), value(p.begin + 2)} : LongVector{};
+    const std::string name = "the answer's " + q_.member_name(k);
+    if (p.role == Role::position && is_vector) g_.places.push_back({name, "", v, known});
+    if (p.role == Role::normal && is_vector) g_.directions.push_back({name, v, known});
+    if (p.role == Role::time) g_.time = std::max(0.0L, value(p.begin));
+    if (p.role == Role::depth) g_.depth = std::abs(value(p.begin));
+    if (p.role != Role::weight) return;
+    for (std::size_t i = p.begin; i < p.end; ++i) g_.weights.emplace_back(q_.outputs[i].name, std::abs(value(i)));
+  }
+  /// The first place at the time of the contact, or at the given time.
+  void add_moved_place(bool known) {
+    if (!g_.velocity || g_.places.empty()) return;
+    const auto given =
+        std::find_if(q_.inputs.begin(), q_.inputs.end(), [](const Field& f) { return f.role == Role::time; });
+    const bool is_given = given != q_.inputs.end() && q_.kind == Kind::direction;
+    if (!is_given && q_.kind != Kind::impact) return;
+    const long double time = is_given ? c_.values[std::size_t(given - q_.inputs.begin())] : g_.time;
+    const CaseGeometry::Place& start = g_.places.front();
+    g_.places.push_back(
+        {start.name + " at the time", start.operand, start.at + *g_.velocity * time, is_given || known});
+  }
+  void add_lines_of_centers() {
+    for (std::size_t b = 0; b < g_.places.size(); ++b) {
+      for (std::size_t a = 0; a < b; ++a) {
+        const auto &from = g_.places[a], &to = g_.places[b];
+        if (from.is_corner || to.is_corner || from.name + " at the time" == to.name) continue;
+        g_.directions.push_back({from.name + " to " + to.name, to.at - from.at, from.known && to.known});
+      }
+    }
+  }
+
+  const Case& c_;
+  const Answer* right_;
+  const Query& q_;
+  const Parts& parts_;
+  std::set<std::pair<std::size_t, std::size_t>> edges_;
+  CaseGeometry g_;
+};
+
+}  // namespace
+
+long double CaseGeometry::radius_of(const std::string& operand) const {
+  for (const auto& [name, radius] : radii) {
+    if (name == operand) return radius;
+  }
+  return 0;
+}
+
+CaseGeometry geometry_of(const Case& c, const Answer* right) { return GeometryReader(c, right).result(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,120 @@
+#include "reports/triage/hypotheses/convention.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/findings/text.hpp"
+#include "reports/triage/hypotheses/readings.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+class Convention : public TestOfCause {
+ public:
+  using TestOfCause::TestOfCause;
+
+  std::optional<Named> named() {
+    if (trials().base().answer.status != Answer::Status::answered) return std::nullopt;
+    std::vector<std::string> by_chance;
+    for (const Reading& reading : readings()) {
+      if (reading.decides && !asked_.is_wrong_decision()) continue;
+      const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
+      if (!fits.value_or(is_undefined())) continue;
+      const Support s = support_of(reading);
+      const bool holds = s.holds(!reading.decides) && (gives_numbers() || s.against_it == 0);
+      if (fits ? holds : s.holds_without_case()) return named_reading(reading, s);
+      if (!fits) continue;
+      by_chance.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
+                                      of_text(s.explained, s.with_finding), s.for_it, s.against_it));
+    }
+    const std::string which =
+        by_chance.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance));
+    saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
+        "None explains the answers." + which);
+    return std::nullopt;
+  }
+
+ private:
+  /// A number of the answer is not finite, as that of 0 / 0: readings say nothing about it.
+  bool is_undefined() const { return trials().base().finding.disagreement == Disagreement::not_finite; }
+  /// A right answer without numbers is right by chance in half of the cases.
+  bool gives_numbers() const { return trials().query().kind != Kind::decision; }
+  /// How the subject's answers fit a reading.
+  struct Support {
+    std::size_t with_finding = 0, explained = 0;  ///< cases with the finding, and those that the reading explains
+    std::size_t for_it = 0;      ///< generated cases with a wrong answer that is right under the reading
+    std::size_t wrong = 0;       ///< generated cases with a wrong answer, of which the reading says something
+    std::size_t against_it = 0;  ///< generated cases with a right answer that is wrong under the reading
+
+    /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
+    bool holds(bool is_of_numbers) const {
+      constexpr std::size_t least = 4, least_generated = 2, many = 16;
+      const auto nearly = is_of_numbers ? all_but_few : nearly_all;
+      const bool is_rare = explained >= many && explained == with_finding && for_it == wrong;  // among generated cases
+      return explained >= least && nearly(explained, with_finding) && for_it >= (is_rare ? 1 : least_generated) &&
+             nearly(for_it, for_it + against_it);
+    }
+    /// Other numbers may explain most answers of a wrong formula by chance: more than a few exceptions count.
+    static bool all_but_few(std::size_t part, std::size_t all) {
+      constexpr std::size_t one_in = 32;
+      return nearly_all(part, all) && all - part <= 1 + all / one_in;
+    }
+    /// Where the reading says nothing about the case, it must explain nearly all wrong answers, and make none wrong.
+    bool holds_without_case() const {
+      constexpr std::size_t least = 16;
+      return for_it >= least && nearly_all(for_it, wrong) && against_it == 0;
+    }
+  };
+  /// The answer would be wrong under the reading if the reading made a difference.
+  static bool contradicts(const Reading& reading, const Trial& t) {
+    if (t.outcome == Outcome::right) return true;
+    return reading.decides && t.answer.status == Answer::Status::answered && t.answer.yes == t.finding.truth_yes;
+  }
+  /// A reading of the decision alone says nothing about the cases in which it makes no difference.
+  static void count_finding(const Reading& reading, std::optional<bool> fits, Support& s) {
+    s.with_finding += fits || !reading.decides;
+    s.explained += fits.value_or(false);
+  }
+  /// A start in contact is a branch of its own in many implementations, and so is each value of a flag. A reading of
+  /// the flag itself is about both values.
+  bool is_of_another_branch(const Reading& reading, const Case& c) const {
+    const auto& inputs = c.query->inputs;
+    const bool is_of_flag = reading.name.starts_with("flag");
+    for (std::size_t i = 0; i < inputs.size() && !is_of_flag; ++i) {
+      if (inputs[i].role == Role::flag && c.values[i] != question().values[i]) return true;
+    }
+    return starts_in_contact(c) != starts_in_contact(question());
+  }
+  Support support_of(const Reading& reading) {
+    Support s;
+    for (const Trial& t : asked_.similar())
+      count_finding(reading, reading.right(t.question, t.answer, asked_.is_right()), s);
+    for (const Trial& t : asked_.sample()) {
+      if (t.outcome == Outcome::none) continue;
+      if (t.outcome == Outcome::right && is_of_another_branch(reading, t.question)) continue;
+      const std::optional<bool> fits = reading.right(t.question, t.answer, asked_.is_right());
+      s.against_it += contradicts(reading, t) && !fits.value_or(true);
+      s.for_it += t.outcome != Outcome::right && fits.value_or(false);
+      s.wrong += t.outcome != Outcome::right && fits.has_value();
+      if (t.outcome == Outcome::same) count_finding(reading, fits, s);
+    }
+    return s;
+  }
+
+  Named named_reading(const Reading& reading, const Support& s) {
+    saw(fmt::format("The answers were judged as if {}.", reading.what),
+        fmt::format("The answer to the case is right then, and so are those to {} other cases with the finding. Of the "
+                    "generated cases, {} wrong answers become right, and {} right ones become wrong.",
+                    of_text(s.explained, s.with_finding), s.for_it, s.against_it));
+    return {reading.kind, std::string(reading.name), fmt::format("The answer is right if {}.", reading.what)};
+  }
+};
+
+}  // namespace
+
+Tested convention_of(AskedCases& asked) {
+  Convention test(asked);
+  return test.finished(test.named());
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,71 @@
+#include "reports/triage/hypotheses/logic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nearmiss {
+
+namespace {
+
+class Logic : public TestOfCause {
+ public:
+  using TestOfCause::TestOfCause;
+
+  /// Nothing that changes arithmetic alone changes the finding.
+  std::optional<Named> named() {
+    const bool no_flip = std::none_of(asked_.scans().begin(), asked_.scans().end(),
+                                      [](const ScaleScan& s) { return s.has_clean_flip(); });
+    if (asked_.has_small_errors() || !stays_beside_zeros()) return std::nullopt;
+    if (asked_.is_exact() && no_flip)
+      return Named{CauseKind::logic, "",
+                   "The subject's arithmetic is exact here, and its answer is wrong at every scale."};
+    const std::vector<Trial>& near = asked_.neighbours();
+    const std::vector<Trial> around = trials().ask(relative_neighbours(question(), cases, order, asked_.seed() + 2));
+    const std::size_t all = around.size() - count(around, Outcome::none);
+    saw("Cases were asked whose numbers differ by up to a ten-thousandth.",
+        fmt::format("{} are wrong.", of_text(wrong_of(around), all)));
+    const bool stays = !asked_.roundings().empty() && wrong_of(asked_.roundings()) == asked_.roundings().size() &&
+                       nearly_all(wrong_of(near), near.size() - count(near, Outcome::none)) &&
+                       nearly_all(wrong_of(around), all);
+    if (!stays) return std::nullopt;
+    if (!no_flip && asked_.errs_to_both_sides())
+      return Named{
+          CauseKind::logic, "",
+          "The answer stays wrong in every rounding mode and for all cases nearby, depends on the scale, and errs "
+          "to both sides: the subject may compare numbers of different units."};
+    if (!no_flip) return std::nullopt;
+    return Named{
+        CauseKind::logic, "",
+        "The answer stays wrong in every rounding mode, at every scale and for all cases nearby: the mistake is in "
+        "the logic."};
+  }
+
+ private:
+  static constexpr std::size_t cases = 64;
+  static constexpr int order = 13;  ///< moves by up to 2^-order
+
+  /// With the finding, or with another.
+  static std::size_t wrong_of(std::span<const Trial> trials) {
+    return count(trials, Outcome::same) + count(trials, Outcome::other);
+  }
+  /// Two thirds of the cases are wrong in which each zero, at random, is a small number: the finding is none of a
+  /// limiting case. Where it needs one of the zeros, half are wrong.
+  bool stays_beside_zeros() {
+    const std::vector<Trial> beside = trials().ask(with_moved_zeros(question(), cases, order, asked_.seed() + 3));
+    const std::size_t all = beside.size() - count(beside, Outcome::none);
+    if (all == 0) return true;
+    saw("Cases were asked whose zeros are small numbers instead.",
+        fmt::format("{} are wrong.", of_text(wrong_of(beside), all)));
+    return 3 * wrong_of(beside) >= 2 * all;
+  }
+};
+
+}  // namespace
+
+Tested logic_of(AskedCases& asked) {
+  Logic test(asked);
+  return test.finished(test.named());
+}
+
+}  // namespace nearmiss

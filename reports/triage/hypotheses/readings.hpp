@@ -1,0 +1,37 @@
+/// The closed table of alternative readings of a query: other meanings of its inputs or of its answer.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "reports/triage/causes/cause.hpp"
+
+namespace nearmiss {
+
+/// Whether nothing is proved against an answer to a case.
+using IsRight = std::function<bool(const Case&, const Answer&)>;
+
+struct Reading {
+  std::string_view name;  ///< "normal reversed": the key of the cause
+  std::string_view what;  ///< completes "the answer is right if "
+  CauseKind kind = CauseKind::convention;
+  bool decides = false;  ///< it is about the decision alone
+  /// Whether the answer is right under this reading; empty where the reading makes no difference to the case.
+  std::optional<bool> (*right)(const Case& c, const Answer& a, const IsRight& is_right) = nullptr;
+};
+
+std::span<const Reading> readings();
+/// Those about the front of a plane or triangle, or the frame of a box; they are among readings().
+std::span<const Reading> readings_of_frames();
+/// Those that change the inputs; they are among readings().
+std::span<const Reading> readings_of_inputs();
+/// Those that take a value of the answer for another one, or for that of another contact; they are among readings().
+std::span<const Reading> readings_of_values();
+/// The first member with this role that the answer gives; nullptr if there is none, or the answer is no.
+const Layout::Part* given_part(const Case& c, const Answer& a, Role role);
+/// Whether something moves and touches, or overlaps, at the start.
+bool starts_in_contact(const Case& c);
+
+}  // namespace nearmiss

@@ -1,0 +1,224 @@
+#include "reports/triage/hypotheses/rounding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corpus/relations/exact_sums.hpp"
+#include "reports/triage/trials/border.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// "Some, and not nearly all": 1 to 9 of 10.
+bool is_mixed(std::size_t part, std::size_t all) { return 10 * part >= all && 10 * part <= 9 * all && part > 0; }
+
+class RoundingErrors : public TestOfCause {
+ public:
+  using TestOfCause::TestOfCause;
+
+  /// The kernels of `collide` in exact real numbers are its tier Certified.
+  std::optional<Named> certified() {
+    const Subject& s = trials().subject();
+    if (!s.own || !s.name.starts_with("collide-")) return std::nullopt;
+    const Subject* exact =
+        find_subject(s.scalar == Scalar::float32 ? "collide-certified-float" : "collide-certified-double");
+    if (exact == nullptr) return std::nullopt;
+    const Answer answer = trials().workers().ask(*exact, question());
+    const bool is_right = trials().is_right(question(), answer);
+    saw("The same kernel was run in exact real numbers (" + exact->name + ").",
+        is_right ? "It is right." : "It has no right answer either.");
+    if (is_right)
+      return Named{CauseKind::rounding, "", "The kernel is right over the real numbers: its rounding is not."};
+    return Named{CauseKind::logic, "", "The kernel is wrong over the real numbers too: the mistake is in its logic."};
+  }
+
+  /// Only where there are enough other cases: one case may lie on the border of a tolerance.
+  std::optional<Named> rounding_mode() {
+    if (asked_.similar().size() < least_others) return std::nullopt;
+    return with_roundings();
+  }
+  std::optional<Named> with_roundings() {
+    const bool may_round = has_varying_errors();
+    auto named = by_roundings(may_round);
+    asked_.set_rounding_seen({may_round, others_depend_});
+    return named;
+  }
+
+  std::optional<Named> rounding() {
+    const std::vector<Trial>& near = asked_.neighbours();
+    const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
+    if (asked_.similar().size() < least_others) {
+      if (count(near, Outcome::same) == 0) {
+        saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
+            "None has the finding: the case lies on a border, and says nothing about rounding.");
+        return std::nullopt;
+      }
+      if (auto named = with_roundings()) return named;
+    }
+    const auto [may_round, others_depend] = asked_.rounding_seen();
+    saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
+        fmt::format("{} have the finding, and {} are right.", count(near, Outcome::same), right));
+    if (asked_.is_exact()) {
+      saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
+      return std::nullopt;
+    }
+    if (is_mixed(right, all) && others_depend && may_round) {
+      if (!are_on_two_sides(question(), near))
+        return Named{CauseKind::rounding, "",
+                     "The answer is unstable: it is right or wrong by the last bits of the inputs."};
+      saw("A plane was sought that separates these cases with the finding from those without.",
+          "There is one: the case lies on a border, and the answer is not right or wrong by chance.");
+    }
+    return far_from_the_origin();
+  }
+
+ private:
+  static constexpr std::size_t least_others = 4;
+  static constexpr double least_moved =
+      0.25;  ///< of a number that consists of rounding errors, as a share of its error
+
+  /// Whether the errors differ of the cases a few ulps away with the finding, as rounding errors do. True for a wrong
+  /// decision, which has no error.
+  bool has_varying_errors() {
+    constexpr std::size_t least = 4, enough = 8;
+    constexpr double spread = 1.25;
+    double low = INFINITY, high = 0;
+    std::size_t seen = 0;
+    for (const Trial& t : asked_.neighbours()) {
+      if (t.outcome != Outcome::same || seen == enough) continue;
+      const Finding full = trials().in_full(t);
+      const MemberFinding* member = full.headline_member();
+      if (member == nullptr || member->worst < 0 || !(member->forward_absolute > 0)) return true;
+      low = std::min(low, member->forward_absolute), high = std::max(high, member->forward_absolute), ++seen;
+    }
+    if (seen == 0) return asked_.is_wrong_decision();
+    saw(fmt::format("The errors of {} cases were compared whose numbers are a few ulps away.", seen),
+        fmt::format("They are between {:.4g} and {:.4g}.", low, high));
+    return seen >= least && high >= spread * low;
+  }
+  /// How far the worst number of the answer moves between the roundings, as a share of its error.
+  double moved_by_rounding(const Trial& base, std::span<const Trial> roundings) const {
+    const Finding full = trials().in_full(base);
+    const MemberFinding* worst = full.headline_member();
+    if (worst == nullptr || worst->worst < 0 || !(worst->forward_absolute > 0)) return 0;
+    double furthest = 0;
+    for (const Trial& t : roundings) {
+      const bool is_wrong = t.outcome == Outcome::same || t.outcome == Outcome::other;
+      const bool comparable =
+          is_wrong && t.answer.status == Answer::Status::answered && t.answer.yes == base.answer.yes;
+      const double by = t.answer.values[std::size_t(worst->worst)] - base.answer.values[std::size_t(worst->worst)];
+      if (comparable && std::isfinite(by)) furthest = std::max(furthest, std::abs(by));
+    }
+    return furthest / worst->forward_absolute;
+  }
+  std::optional<Named> by_roundings(bool may_round) {
+    if (asked_.roundings().empty()) {
+      saw("The subject answers behind pipes.", "It cannot be asked in other rounding modes.");
+      return std::nullopt;
+    }
+    const std::size_t right = count(asked_.roundings(), Outcome::right),
+                      same = count(asked_.roundings(), Outcome::same);
+    const double moved = moved_by_rounding(trials().base(), asked_.roundings());
+    saw("The case was asked in the four rounding modes.",
+        fmt::format(
+            "The finding is there in {}, and the answer is right in {}. The worst number moves by {:.2g} % of its "
+            "error.",
+            same, right, 100 * moved));
+    const bool depends = (right > 0 && may_round) || moved >= least_moved;
+    others_depend_ = holds_for_others(depends);
+    const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
+    if (!others_depend_ || !may_be_named) return std::nullopt;
+    if (moved >= least_moved)
+      return Named{CauseKind::rounding, "",
+                   "The error changes with the rounding mode: it consists of rounding errors."};
+    return Named{CauseKind::rounding, "",
+                 depends ? "The answer is right in another rounding mode."
+                         : "Other answers with the finding are right in another rounding mode."};
+  }
+  /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
+  /// by chance.
+  bool holds_for_others(bool case_depends) {
+    std::size_t all = 0, depend = 0;
+    for (const Trial& t : asked_.similar()) {
+      if (trials().is_over()) break;
+      all += 1, depend += depends_on_rounding(t);
+    }
+    saw("The other cases with the finding were asked in the four rounding modes.",
+        fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
+    return all < least_others ? case_depends : 2 * depend >= all;
+  }
+  bool depends_on_rounding(const Trial& base) const {
+    std::vector<Trial> asked;
+    for (const Rounding r : {Rounding::to_nearest, Rounding::downward, Rounding::upward, Rounding::toward_zero})
+      asked.push_back(trials().ask({&base.question, 1}, r).front());
+    return count(asked, Outcome::right) > 0 || moved_by_rounding(base, asked) >= least_moved;
+  }
+
+  /// Exactly moved toward the origin, in steps that halve the distance.
+  std::optional<Named> far_from_the_origin() {
+    const std::vector<Case> cases = moved_to_the_origin();
+    if (cases.empty()) return std::nullopt;
+    const std::vector<Trial> moved = trials().ask(cases);
+    const std::size_t first = std::size_t(
+        std::find_if(moved.begin(), moved.end(), [](const Trial& t) { return t.outcome != Outcome::same; }) -
+        moved.begin());
+    const std::size_t right = std::size_t(std::count_if(moved.begin() + std::ptrdiff_t(first), moved.end(),
+                                                        [](const Trial& t) { return t.outcome == Outcome::right; }));
+    saw("The scene was moved exactly toward the origin, by halves of its distance.",
+        fmt::format("The finding stays in {} of {} steps, and then {} are right.", first, moved.size(), right));
+    constexpr std::size_t least = 3, least_with_finding = 2;  // a case on a border loses the finding by any change
+    if (first < least_with_finding || right < least || right != moved.size() - first) return std::nullopt;
+    return Named{
+        CauseKind::rounding, "far from the origin",
+        "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances."};
+  }
+  bool others_depend_ = true;  ///< on the rounding mode, where the subject can be asked in another
+
+  std::vector<Case> moved_to_the_origin() const {
+    const Query& q = trials().query();
+    std::vector<Case> cases;
+    if (std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::offset; }))
+      return cases;
+    const auto first =
+        std::find_if(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::position; });
+    if (first == q.inputs.end()) return cases;
+    const std::size_t at = std::size_t(first - q.inputs.begin());
+    const double* place = &question().values[at];
+    for (int m = 1; m <= 24; ++m) {
+      Case c = question();
+      for (std::size_t i = 0; i < c.values.size(); ++i) {
+        if (q.inputs[i].role != Role::position) continue;
+        const std::size_t k = std::size_t(q.inputs[i].name.back() - 'x');
+        const auto kept = metamorphic::exact_product(place[k], std::ldexp(1.0, -m), c.scalar);
+        const auto shift = kept ? metamorphic::exact_sum(*kept, -place[k], c.scalar) : std::nullopt;
+        const auto moved = shift ? metamorphic::exact_sum(c.values[i], *shift, c.scalar) : std::nullopt;
+        if (!moved) return cases;
+        c.values[i] = *moved;
+      }
+      if (c.values != question().values) cases.push_back(std::move(c));
+    }
+    return cases;
+  }
+};
+
+}  // namespace
+
+Tested certified_of(AskedCases& asked) {
+  RoundingErrors test(asked);
+  return test.finished(test.certified());
+}
+
+Tested rounding_mode_of(AskedCases& asked) {
+  RoundingErrors test(asked);
+  return test.finished(test.rounding_mode());
+}
+
+Tested rounding_of(AskedCases& asked) {
+  RoundingErrors test(asked);
+  return test.finished(test.rounding());
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,89 @@
+#include "reports/triage/hypotheses/unsupported.hpp"
+
+#include <fmt/format.h>
+
+#include <span>
+
+#include "corpus/generator/fit.hpp"
+#include "corpus/generator/generator.hpp"
+#include "oracles/judge.hpp"
+#include "reports/triage/hypotheses/regions.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+class Unsupported : public TestOfCause {
+ public:
+  using TestOfCause::TestOfCause;
+
+  std::optional<Named> named() {
+    for (const Region& region : regions_of(trials().query())) {
+      if (!region.has(question())) continue;
+      if (auto named = tested(region)) return named;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t of_each_side = 64;  ///< generated cases inside and outside of a region
+  static constexpr std::size_t least = 6;
+  static constexpr std::size_t most_outside = 1;  ///< with the same finding, which then does not need the region
+
+  /// Generated cases inside or outside of the region; those with the exact decision of the case alone, if so wanted.
+  std::vector<Trial> cases_of(const Region& region, bool inside, bool of_one_decision = false) {
+    constexpr std::uint64_t most_tries = 4000;
+    const Preconditions required = trials().subject().offering(trials().query().name).required;
+    std::vector<Case> cases;
+    Case c;
+    for (std::uint64_t i = 0; i < most_tries && cases.size() < of_each_side; ++i) {
+      generate_inside(c, trials().query(), trials().subject().scalar, asked_.seed() + 1, i, required);
+      if (has_extreme_mutator(c) || region.has(c) != inside) continue;
+      if (!of_one_decision || exact_decision(c) == trials().base().finding.truth_yes) cases.push_back(c);
+    }
+    return trials().ask(cases);
+  }
+  /// Nearly all answers inside are wrong, and nearly all outside are right.
+  static bool divides(std::span<const Trial> in, std::span<const Trial> out) {
+    const std::size_t in_all = in.size() - count(in, Outcome::none), out_all = out.size() - count(out, Outcome::none);
+    return in_all >= least && out_all >= least && nearly_all(in_all - count(in, Outcome::right), in_all) &&
+           nearly_all(count(out, Outcome::right), out_all) && count(out, Outcome::same) <= most_outside;
+  }
+  static Named always_wrong(const Region& region) {
+    return {CauseKind::unsupported, region.name,
+            fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
+  }
+  std::optional<Named> tested(const Region& region) {
+    const std::vector<Trial> in = cases_of(region, true), out = cases_of(region, false);
+    const std::size_t in_right = count(in, Outcome::right), out_right = count(out, Outcome::right);
+    const std::size_t in_all = in.size() - count(in, Outcome::none), out_all = out.size() - count(out, Outcome::none);
+    saw(fmt::format("Generated cases with and without {} were asked.", region.name),
+        fmt::format("Wrong are {} with it, and {} without it.", of_text(in_all - in_right, in_all),
+                    of_text(out_all - out_right, out_all)));
+    if (in_all < least || out_all < least) return std::nullopt;
+    if (divides(in, out)) return always_wrong(region);
+    if (asked_.is_wrong_decision() && in_all > in_right && count(out, Outcome::same) <= most_outside) {
+      const std::vector<Trial> in_one = cases_of(region, true, true), out_one = cases_of(region, false, true);
+      saw(fmt::format("Only cases with the exact decision {} were asked.",
+                      trials().base().finding.truth_yes ? "yes" : "no"),
+          fmt::format("Right are {} with {}, and {} without it.", of_text(count(in_one, Outcome::right), in_one.size()),
+                      region.name, of_text(count(out_one, Outcome::right), out_one.size())));
+      if (divides(in_one, out_one)) return always_wrong(region);
+    }
+    constexpr std::size_t least_outside = of_each_side / 2;
+    const bool only_here = out_all >= least_outside && region.is_special && out_right == out_all &&
+                           in_all - in_right >= least && !nearly_all(in_right, in_all);
+    if (!only_here) return std::nullopt;
+    return Named{CauseKind::unsupported, region.name,
+                 fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
+  }
+};
+
+}  // namespace
+
+Tested unsupported_of(AskedCases& asked) {
+  Unsupported test(asked);
+  return test.finished(test.named());
+}
+
+}  // namespace nearmiss
