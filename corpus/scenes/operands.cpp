@@ -38,7 +38,8 @@ FieldsOfInput group_at(const std::vector<Field>& inputs, std::size_t begin) {
   for (; g.end < inputs.size() && before_point(inputs[g.end].name) == g.name; ++g.end) {
     const std::string& name = inputs[g.end].name;
     if (name.size() == g.name.size()) return {g.name, "", begin + 1};
-    g.fields += (g.fields.empty() ? "" : " ") + name.substr(g.name.size() + 1);
+    if (!g.fields.empty()) g.fields += ' ';
+    g.fields.append(name, g.name.size() + 1);
   }
   return g;
 }
