@@ -18,11 +18,6 @@ using SubjectFunction = Subject (*)();
 /// order of their addition. Each function returns its subject with this query alone.
 extern const SubjectFunction subjects_of_query[];
 
-/// The counters of numeric features (fuzz/feedback.hpp). libFuzzer finds them by their section, which must be part of
-/// the program and not of a shared library. It clears them before each execution.
-inline constexpr std::size_t feature_counters = std::size_t{1} << 14;
-extern "C" std::uint8_t nearmiss_feature_counters[feature_counters];
-
 /// A function that aborts. Its name contains query, subject and kind of the finding, and is the frame of a stack trace
 /// by which a fuzzing service tells findings apart.
 struct AbortFrame {
@@ -72,10 +67,6 @@ extern const std::span<const AbortFrame> abort_frames;
 /// SUBJECTS(X, query) calls X(query, identifier, name) for each subject.
 #define NEARMISS_FUZZ_TARGET(query, SUBJECTS)                                                                  \
   const char* const nearmiss::fuzzed_query = #query;                                                           \
-  extern "C" {                                                                                                 \
-  __attribute__((section("__libfuzzer_extra_counters")))                                                       \
-  std::uint8_t nearmiss_feature_counters[nearmiss::feature_counters];                                          \
-  }                                                                                                            \
   extern "C" [[gnu::noinline]] void nearmiss_abort() { std::abort(); }                                         \
   NEARMISS_SANITIZER_OPTIONS SUBJECTS(NEARMISS_ABORT_FUNCTIONS, query)                                         \
       NEARMISS_ABORT_FUNCTIONS(query, any_other_subject, nullptr) namespace {                                  \

@@ -18,7 +18,7 @@ void change(Case& c, unsigned seed);
 /// Gives the case shapes, vectors or numbers of the other one.
 void cross_over(Case& c, const Case& other, unsigned seed);
 
-/// Tells change() how bad the answers to a case are (see badness()).
+/// Tells change() how bad the answers to a case are.
 void remember(const Case& c, double badness);
 
 }  // namespace nearmiss::fuzz

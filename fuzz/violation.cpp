@@ -13,7 +13,6 @@
 #include "corpus/storage/codec.hpp"
 #include "fuzz/asked.hpp"
 #include "fuzz/fuzzed_query.hpp"
-#include "fuzz/statistics.hpp"
 
 namespace nearmiss::fuzz {
 
@@ -70,7 +69,6 @@ const AbortFrame* frame_of(const std::string& subject, std::string_view kind) {
 }
 
 [[noreturn]] void abort_with(const Case& c, const Subject& subject, const std::string& note, std::string kind) {
-  write_statistics();
   std::replace(kind.begin(), kind.end(), ' ', '_');
   std::fprintf(stderr, "%s\n%s%s", note.c_str(), case_file(c, note).c_str(), case_to_cpp(c).c_str());
   if (const AbortFrame* frame = frame_of(subject.name, kind)) frame->abort();
