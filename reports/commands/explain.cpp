@@ -13,7 +13,7 @@
 #include "reports/engine/run.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/causes/cause.hpp"
+#include "reports/triage/hypotheses/cause_of.hpp"
 
 namespace nearmiss {
 

@@ -9,6 +9,7 @@
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/output.hpp"
 #include "reports/engine/run.hpp"
+#include "reports/engine/tally.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
 
@@ -27,12 +28,14 @@ class RunCommand : public Command {
          "against each answer. Subjects that compute in the same scalar get the same cases, and the same seed "
          "gives the same cases on every machine. A subject with preconditions ('nearmiss list --why') gets "
          "cases that meet them.",
-         "The run folder receives index.json with all counts, written from the start and also after an "
-         "interrupt. It also receives findings/QUERY/SUBJECT-FAULT-ID.json for the violations: for each "
-         "query, subject and fault (for a breakage, its reason) the first 8, then those that are at least "
-         "twice as bad as any before. All others are only counted. An existing folder keeps its reports; its "
-         "index.json then describes the newest run. Only one run at a time can use a folder. Where a file "
-         "cannot be written, for example on a full disk, the run ends and its index says \"failed\".",
+         fmt::format("The run folder receives index.json with all counts, written from the start and also after an "
+                     "interrupt. It also receives findings/QUERY/SUBJECT-FAULT-ID.json for the violations: for each "
+                     "query, subject and fault (for a breakage, its reason) the first {} of each variant, up to {}, "
+                     "then those that are at least twice as bad as any before. All others are only counted. An "
+                     "existing folder keeps its reports; its "
+                     "index.json then describes the newest run. Only one run at a time can use a folder. Where a file "
+                     "cannot be written, for example on a full disk, the run ends and its index says \"failed\".",
+                     FindingRetention::first_few, FindingRetention::most_of_a_kind),
          "The table has one row for each query and subject, with counts of answers. AGREE: nothing is proved "
          "against them. NOT PROVED: they differ, but are not proved to differ by more than was promised. "
          "FALSE HIT, FALSE MISS, WRONG: proved to differ by more than was promised, by a wrong yes, a wrong "

@@ -13,7 +13,7 @@
 #include "corpus/generator/fit.hpp"
 #include "corpus/generator/generator.hpp"
 #include "impl/subject/provenance.hpp"
-#include "reports/triage/causes/cause.hpp"
+#include "reports/triage/hypotheses/cause_of.hpp"
 
 namespace nearmiss {
 

@@ -45,10 +45,6 @@ struct CauseLimits {
   std::chrono::duration<double> time = std::chrono::seconds(20);
 };
 
-/// Tests hypotheses, the most specific first, and names the first whose test passed. The report must have a bad finding
-/// (is_bad). The result is the same in every run, unless a limit of time ends the search.
-Cause cause_of(const Report& report, const Subject& subject, const CauseLimits& limits, Workers& workers);
-
 std::string_view name_of(CauseKind kind);
 /// {"kind", "key", "text", "evidence": [{"test", "result"}], "questions"}
 nlohmann::ordered_json cause_to_json(const Cause& cause);

@@ -12,6 +12,7 @@
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/version.hpp"
 #include "reports/triage/causes/cause_json.hpp"
+#include "reports/triage/hypotheses/cause_of.hpp"
 #include "reports/triage/minimisation/minimise.hpp"
 
 namespace nearmiss {
