@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Compares a generated page with what its generator would write now, without the measured figures.
+"""What the generators of pages share; and a program that compares a generated page with what its generator would write now,
+without the measured figures.
 
 The frame of a page is its headings, its prose, the headers of its tables, and in each row the cells that name something.
 Every number in prose counts as a figure.
@@ -71,6 +72,26 @@ def check(path, expected, masks=(), text=None):
     lines = differences(path.read_text() if text is None else text, expected, masks)
     for line in lines:
         print(f"{path}:{line}")
+    return 1 if lines else 0
+
+
+def options_of(description, build=None):
+    """The parser of a generator, with --check and, where it has a default, --build."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    if build:
+        parser.add_argument("--build", type=pathlib.Path, default=build)
+    parser.add_argument("--check", action="store_true")
+    return parser
+
+
+def write_or_check(path, text, generator, check):
+    """Writes a page without figures, or prints how the stored one differs from it. Returns the exit code."""
+    if not check:
+        path.write_text(text)
+        return 0
+    ours = path.read_text().splitlines() if path.exists() else []
+    lines = list(difflib.unified_diff(ours, text.splitlines(), path.name, generator, "", "", 0, ""))
+    print("\n".join(lines), end="\n" if lines else "")
     return 1 if lines else 0
 
 
