@@ -192,7 +192,7 @@ MISTAKE(10, box_box_parallel_axis, ordinary, "the cosine without its absolute va
 }
 MISTAKE(11, box_box_parallel_axis, degenerate, "the cosine is compared without its absolute value",
         "logic or convention") {
-  const Axes a1 = axes_of(q.box1.orientation), a2 = axes_of(q.box2.orientation);
+  const Axes a1 = axes_of_box(q.box1), a2 = axes_of_box(q.box2);
   const auto a = right(q);
   if (!a.yes() || dot(a1[a.axis1], a2[a.axis2]) > 0) return a;
   for (int i = 0; i < 3; ++i)

@@ -336,27 +336,25 @@ MISTAKE(2, closest_point_rectangle, ordinary, "the nearest point of the perimete
         "logic") {
   return right(inputs::closest_point_rectangle_perimeter<double>{q.rectangle, q.point});
 }
-MISTAKE(4, closest_point_rectangle, degenerate, "a side below an absolute 1e-4 is taken for a point",
-        "absolute tolerance 1e-4 length") {
+MISREPORT(4, closest_point_rectangle, degenerate, "a side below an absolute 1e-4 is taken for a point",
+          "absolute tolerance 1e-4 length") {
   const auto& r = q.rectangle;
-  if (length(r.v1 - r.v0) < 1e-4) return {nearest(r.v0, r.v3, q.point)};
-  return right(q);
+  if (length(r.v1 - r.v0) < 1e-4) a = {nearest(r.v0, r.v3, q.point)};
 }
-MISTAKE(6, closest_point_rectangle, degenerate,
-        "if the sides at v0 have an angle with a sine below 1e-5, only the edge v0 v1 counts",
-        "relative tolerance 1e-5") {
+MISREPORT(6, closest_point_rectangle, degenerate,
+          "if the sides at v0 have an angle with a sine below 1e-5, only the edge v0 v1 counts",
+          "relative tolerance 1e-5") {
   const auto& r = q.rectangle;
   const Vector u = r.v1 - r.v0, v = r.v3 - r.v0;
   const double area = length(cross(u, v));
-  if (area > 0 && area < 1e-5 * length(u) * length(v)) return {nearest(r.v0, r.v1, q.point)};
-  return right(q);
+  if (area > 0 && area < 1e-5 * length(u) * length(v)) a = {nearest(r.v0, r.v1, q.point)};
 }
-MISTAKE(7, closest_point_rectangle, degenerate,
-        "a rectangle whose squared normal underflows in float has only its edges", "underflow") {
+MISREPORT(7, closest_point_rectangle, degenerate,
+          "a rectangle whose squared normal underflows in float has only its edges", "underflow") {
   const auto& r = q.rectangle;
   const Vector n = cross(r.v1 - r.v0, r.v3 - r.v0);
-  if (!(dot(n, n) > 0) || float(dot(n, n)) > 0) return right(q);
-  return {right(inputs::closest_point_rectangle_perimeter<double>{r, q.point}).point};
+  if (!(dot(n, n) > 0) || float(dot(n, n)) > 0) return;
+  a = {right(inputs::closest_point_rectangle_perimeter<double>{r, q.point}).point};
 }
 MISREAD(10, closest_point_rectangle, ordinary, "the corner v2 is not read: it is taken as v1 + v3 - v0",
         "unsupported or convention") {
@@ -379,17 +377,17 @@ MISREAD(13, closest_point_rectangle, ordinary,
         "takes the corners in the order of a triangle strip: triangles v0 v1 v2 and v1 v2 v3", "convention") {
   std::swap(q.rectangle.v0, q.rectangle.v1);
 }
-MISTAKE(14, closest_point_rectangle, degenerate, "the squared distances of the two triangles are compared in float",
-        "rounding") {
+MISREPORT(14, closest_point_rectangle, degenerate, "the squared distances of the two triangles are compared in float",
+          "rounding") {
   const auto& r = q.rectangle;
-  const Vector one = right(inputs::closest_point_rectangle<double>{{r.v0, r.v1, r.v2, r.v2}, q.point}).point;
-  const Vector two = right(inputs::closest_point_rectangle<double>{{r.v0, r.v2, r.v3, r.v3}, q.point}).point;
+  const Vector one = nearest({r.v0, r.v1, r.v2}, q.point);
+  const Vector two = nearest({r.v0, r.v2, r.v3}, q.point);
   const Wide to_one = widened(one) - widened(q.point), to_two = widened(two) - widened(q.point);
   const long double d1 = dot(to_one, to_one), d2 = dot(to_two, to_two), most = std::max(d1, d2);
-  if (most == 0) return right(q);
+  if (most == 0) return;
   const bool second = float(d2 / most) < float(d1 / most);
-  if (second || d2 >= d1) return right(q);
-  return {one};
+  if (second || d2 >= d1) return;
+  a = {one};
 }
 MISREAD(15, closest_point_rectangle, ordinary, "splits the four corners along the other diagonal, v1 v3",
         "convention or unsupported") {

@@ -125,12 +125,11 @@ MISTAKE(5, moving_point_triangle, degenerate, "the weights of the crossing are f
   const double time = distance / determinant;
   return {time, q.point + q.velocity * time, n / length(n)};
 }
-MISTAKE(8, moving_point_triangle, degenerate, "a determinant below 1e-5 of the product of velocity and edges is a miss",
-        "relative tolerance 1e-5") {
+MISREPORT(8, moving_point_triangle, degenerate,
+          "a determinant below 1e-5 of the product of velocity and edges is a miss", "relative tolerance 1e-5") {
   const auto& t = q.triangle;
   const double determinant = -dot(q.velocity, normal_of(t));
-  if (determinant < 1e-5 * length(t.v1 - t.v0) * length(t.v2 - t.v0) * length(q.velocity)) return {};
-  return right(q);
+  if (determinant < 1e-5 * length(t.v1 - t.v0) * length(t.v2 - t.v0) * length(q.velocity)) a = {};
 }
 MISREPORT(10, moving_point_triangle, degenerate, "a determinant below 1e-8 counts as a parallel motion: a miss",
           "absolute tolerance 1e-8 .*") {
@@ -274,10 +273,9 @@ MISTAKE(13, moving_point_rectangle, degenerate, "barycentric weights down to -0.
   }
   return best;
 }
-MISTAKE(14, moving_point_rectangle, degenerate,
-        "a point is inside where the angles of its corners sum up to a full turn within 0.01",
-        "relative tolerance (0\\.01|1e-0?2)") {
-  auto best = right(q);
+MISREPORT(14, moving_point_rectangle, degenerate,
+          "a point is inside where the angles of its corners sum up to a full turn within 0.01",
+          "relative tolerance (0\\.01|1e-0?2)") {
   const auto& k = q.rectangle;
   const collide::Triangle<double> halves[] = {{k.v0, k.v1, k.v2}, {k.v0, k.v2, k.v3}};
   for (const auto& t : halves) {
@@ -287,12 +285,11 @@ MISTAKE(14, moving_point_rectangle, degenerate,
     const double height = dot(unit, q.point - t.v0), speed = dot(unit, q.velocity);
     if (!(speed < 0) || !(height > 0)) continue;
     const double time = -height / speed;
-    if (!(time < best.time * (1 - 1e-9))) continue;
+    if (!(time < a.time * (1 - 1e-9))) continue;
     const Vector at = q.velocity * time;
     if (sum_of_angles(t.v0 - q.point, t.v1 - q.point, t.v2 - q.point, at) < 2 * std::acos(-1.0) - 0.01) continue;
-    best = {time, q.point + at, unit};
+    a = {time, q.point + at, unit};
   }
-  return best;
 }
 MISTAKE(15, moving_point_rectangle, degenerate,
         "the height of the start above the plane, n p + d, is in float where it decides on front or back", "rounding") {
@@ -511,10 +508,9 @@ MISTAKE(12, moving_point_capsule, degenerate,
   if (std::isnan(float(b * b) - float(a * c))) return {};
   return hit;
 }
-MISTAKE(13, moving_point_capsule, degenerate,
-        "marches along the path by the distance from the capsule and gives up after 256 steps", "iteration limit") {
-  const auto a = right(q);
-  if (!a.yes() || !(a.time > 0)) return a;
+MISREPORT(13, moving_point_capsule, degenerate,
+          "marches along the path by the distance from the capsule and gives up after 256 steps", "iteration limit") {
+  if (!a.yes() || !(a.time > 0)) return;
   const auto& c = q.capsule;
   const Vector start = q.point - c.p0, axis = c.p1 - c.p0, step = unit_of(q.velocity);
   const double converged = 1e-9 * (length(start) + length(axis) + c.radius);
@@ -522,10 +518,10 @@ MISTAKE(13, moving_point_capsule, degenerate,
   for (int i = 0; i < 256; ++i) {
     const Vector at = start + step * travelled;
     const double distance = length(at - nearest({}, axis, at)) - c.radius;
-    if (distance <= converged) return a;
+    if (distance <= converged) return;
     travelled += distance;
   }
-  return {};
+  a = {};
 }
 MISREPORT(14, moving_point_capsule, degenerate,
           "sphere tracing gives up after 100 steps, so that grazing hits are missed", "iteration limit") {
@@ -597,7 +593,7 @@ MISREPORT(10, moving_point_box, ordinary, "the normal is not rotated back out of
 MISTAKE(11, moving_point_box, degenerate,
         "a velocity component below 1e-6 in the box's frame counts as parallel to the slab",
         "absolute tolerance 1e-6 .*") {
-  const Axes axes = axes_of(q.box.orientation);
+  const Axes axes = axes_of_box(q.box);
   const Vector v = into(axes, q.velocity), p = into(axes, q.point - q.box.center);
   Vector moved = q.velocity;
   for (int i = 0; i < 3; ++i)

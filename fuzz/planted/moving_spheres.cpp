@@ -119,13 +119,10 @@ MISREPORT(4, moving_sphere_triangle, ordinary, "the time is divided by the speed
           "convention time over speed") {
   if (a.yes()) a.time /= length(q.velocity);
 }
-MISTAKE(6, moving_sphere_triangle, ordinary, "the location is the point that is nearest at the start", "logic") {
-  auto a = right(q);
-  if (!a.yes() || a.time == 0) return a;
-  const auto& t = q.triangle;
+MISREPORT(6, moving_sphere_triangle, ordinary, "the location is the point that is nearest at the start", "logic") {
+  if (!a.yes() || a.time == 0) return;
   const Vector start = q.sphere.center;
-  a.location = right(inputs::closest_point_rectangle<double>{{t.v0, t.v1, t.v2, t.v2}, start}).point;
-  return a;
+  a.location = nearest(q.triangle, start);
 }
 MISREPORT(7, moving_sphere_triangle, degenerate,
           "a motion along the triangle's plane, but for a sine of 1e-4, is a miss", "relative tolerance 1e-4") {
@@ -133,14 +130,10 @@ MISREPORT(7, moving_sphere_triangle, degenerate,
   if (!a.yes() || !(length(n) > 0) || std::isinf(length(n))) return;
   if (grazes(n / length(n), q.velocity, 1e-4)) a = a.miss();
 }
-MISTAKE(8, moving_sphere_triangle, ordinary, "the time is sought by regula falsi, which ends after 8 steps",
-        "iteration limit") {
-  auto a = right(q);
-  if (!a.yes() || a.time == 0) return a;
-  const auto& t = q.triangle;
-  const auto place_at = [&](const Vector& center) {
-    return right(inputs::closest_point_rectangle<double>{{t.v0, t.v1, t.v2, t.v2}, center}).point;
-  };
+MISREPORT(8, moving_sphere_triangle, ordinary, "the time is sought by regula falsi, which ends after 8 steps",
+          "iteration limit") {
+  if (!a.yes() || a.time == 0) return;
+  const auto place_at = [&](const Vector& center) { return nearest(q.triangle, center); };
   const auto gap_at = [&](double time) {
     const Vector center = q.sphere.center + q.velocity * time;
     return length(center - place_at(center)) - q.sphere.radius;
@@ -148,15 +141,14 @@ MISTAKE(8, moving_sphere_triangle, ordinary, "the time is sought by regula falsi
   const Vector to_contact = a.location - q.sphere.center;
   const double approach = dot(to_contact, q.velocity) / dot(q.velocity, q.velocity);
   double low = 0, high = approach, gap_low = gap_at(low), gap_high = gap_at(high);
-  if (!(gap_low > 0 && gap_high < 0)) return a;
+  if (!(gap_low > 0 && gap_high < 0)) return;
   for (int step = 0; step < 8; ++step) {
     const double middle = low + (high - low) * gap_low / (gap_low - gap_high), gap = gap_at(middle);
-    if (std::abs(gap) < 1e-13 * gap_low) return a;
+    if (std::abs(gap) < 1e-13 * gap_low) return;
     (gap > 0 ? low : high) = middle;
     (gap > 0 ? gap_low : gap_high) = gap;
   }
   a.time = high;
-  return a;
 }
 MISTAKE(9, moving_sphere_triangle, ordinary, "the back of the triangle is hit too", "convention") {
   auto a = right(q);
@@ -166,23 +158,21 @@ MISTAKE(9, moving_sphere_triangle, ordinary, "the back of the triangle is hit to
   std::swap(a.weights.y, a.weights.z);
   return a;
 }
-MISTAKE(10, moving_sphere_triangle, ordinary, "conservative advancement gives up after 32 steps: a miss",
-        "iteration limit") {
-  const auto a = right(q);
-  if (!a.yes() || a.time <= 0) return a;
-  const auto& t = q.triangle;
+MISREPORT(10, moving_sphere_triangle, ordinary, "conservative advancement gives up after 32 steps: a miss",
+          "iteration limit") {
+  if (!a.yes() || a.time <= 0) return;
   const double speed = length(q.velocity);
   Vector center = q.sphere.center;
   double enough = -1;
   for (int step = 0; step < 32; ++step) {
-    const Vector near = right(inputs::closest_point_rectangle<double>{{t.v0, t.v1, t.v2, t.v2}, center}).point;
+    const Vector near = nearest(q.triangle, center);
     const double distance = length(center - near);
     if (enough < 0) enough = 1e-8 * distance;
     const double gap = distance - q.sphere.radius;
-    if (gap <= enough) return a;
+    if (gap <= enough) return;
     center = center + q.velocity * (gap / speed);
   }
-  return {};
+  a = {};
 }
 MISTAKE(11, moving_sphere_triangle, ordinary, "the vertices are not tested, only the face and the edges",
         "logic or unsupported") {
@@ -254,16 +244,15 @@ MISREAD(7, moving_sphere_rectangle, ordinary, "the sphere has a skin of an absol
         "absolute tolerance 1e-4 length") {
   q.sphere.radius += 1e-4;
 }
-MISTAKE(8, moving_sphere_rectangle, ordinary,
-        "a start in contact with the plane is a contact at time 0, wherever the rectangle ends", "logic") {
+MISREPORT(8, moving_sphere_rectangle, ordinary,
+          "a start in contact with the plane is a contact at time 0, wherever the rectangle ends", "logic") {
   const auto& r = q.rectangle;
   const Vector n = cross(r.v1 - r.v0, r.v2 - r.v0);
   const double size = length(n);
-  if (!(size > 0) || std::isinf(size) || right(q).time == 0) return right(q);
+  if (!(size > 0) || std::isinf(size) || right(q).time == 0) return;
   const double height = dot(n / size, q.sphere.center - r.v0);
   if (std::abs(height) < q.sphere.radius && dot(n, q.velocity) < 0)
-    return {0, q.sphere.center - n / size * height, n / size};
-  return right(q);
+    a = {0, q.sphere.center - n / size * height, n / size};
 }
 MISTAKE(9, moving_sphere_rectangle, degenerate,
         "the discriminant of an edge underflows in float, and the sphere misses the edge", "underflow") {
@@ -282,14 +271,12 @@ MISTAKE(9, moving_sphere_rectangle, degenerate,
   }
   return a;
 }
-MISTAKE(10, moving_sphere_rectangle, ordinary, "the face and the edges are tested, the corners are not",
-        "unsupported or logic") {
-  const auto a = right(q);
-  if (!a.yes()) return a;
+MISREPORT(10, moving_sphere_rectangle, ordinary, "the face and the edges are tested, the corners are not",
+          "unsupported or logic") {
+  if (!a.yes()) return;
   const auto& r = q.rectangle;
   for (const Vector& v : {r.v0, r.v1, r.v2, r.v3})
-    if (a.location.x == v.x && a.location.y == v.y && a.location.z == v.z) return {};
-  return a;
+    if (a.location.x == v.x && a.location.y == v.y && a.location.z == v.z) a = {};
 }
 MISREPORT(11, moving_sphere_rectangle, degenerate, "motion within 1e-4 of the plane's direction is culled as parallel",
           "relative tolerance 1e-4") {
@@ -481,7 +468,7 @@ MISTAKE(10, moving_sphere_box, ordinary, "the box grown by the radius keeps shar
 }
 MISREPORT(11, moving_sphere_box, ordinary, "conservative advancement gives up after 20 steps", "iteration limit") {
   if (!a.yes() || a.time == 0) return;
-  const Axes axes = axes_of(q.box.orientation);
+  const Axes axes = axes_of_box(q.box);
   const Vector v = into(axes, q.velocity), p = into(axes, q.sphere.center - q.box.center);
   const double speed = length(v), precise = 1e-9 * (length(p) + q.sphere.radius);
   double t = 0;

@@ -141,14 +141,14 @@ MISREAD(8, sphere_box_overlap, degenerate, "a sphere overlaps if its gap is at m
 MISREAD(10, sphere_box_overlap, ordinary, "the half extents are read as the lengths of the sides", "convention") {
   q.box.half = q.box.half * 0.5;
 }
-MISTAKE(11, sphere_box_overlap, ordinary, "the quaternion is taken to be a unit one", "unsupported or convention") {
+MISREPORT(11, sphere_box_overlap, ordinary, "the quaternion is taken to be a unit one", "unsupported or convention") {
   const auto& o = q.box.orientation;
   const double n = o.x * o.x + o.y * o.y + o.z * o.z + o.w * o.w;
-  if (std::abs(n - 1) < 1e-12) return right(q);
+  if (std::abs(n - 1) < 1e-12) return;
   const Vector c = into(axes_of_unit(o), q.sphere.center - q.box.center);
   Vector out;
   for (int i = 0; i < 3; ++i) component(out, i) = std::max(std::abs(component(c, i)) - component(q.box.half, i), 0.0);
-  return {length(out) <= q.sphere.radius};
+  a = {length(out) <= q.sphere.radius};
 }
 MISTAKE(12, sphere_box_overlap, ordinary,
         "the box is grown by the radius along each axis, so that its edges and corners are square", "logic") {
@@ -251,7 +251,7 @@ MISREPORT(10, box_box_overlap, degenerate, "1e-6 is added to each absolute cosin
 MISTAKE(11, box_box_overlap, degenerate, "1e-6 is added to each absolute cosine", "relative tolerance 1e-6") {
   const auto exact = right(q);
   if (exact.yes()) return exact;
-  const Axes a1 = axes_of(q.box1.orientation), a2 = axes_of(q.box2.orientation);
+  const Axes a1 = axes_of_box(q.box1), a2 = axes_of_box(q.box2);
   const Vector t = into(a1, q.box2.center - q.box1.center), &h1 = q.box1.half, &h2 = q.box2.half;
   double r[3][3], s[3][3];
   for (int i = 0; i < 3; ++i)
@@ -305,15 +305,14 @@ MISREPORT(1, sphere_triangle_overlap, ordinary, "a sphere with its center behind
           "logic or unsupported") {
   if (dot(normal_of(q.triangle), q.sphere.center - q.triangle.v0) < 0) a = {};
 }
-MISTAKE(2, sphere_triangle_overlap, degenerate, "a triangle with a height below 1e-6 of its longest edge is empty",
-        "relative tolerance 1e-6") {
+MISREPORT(2, sphere_triangle_overlap, degenerate, "a triangle with a height below 1e-6 of its longest edge is empty",
+          "relative tolerance 1e-6") {
   const auto& t = q.triangle;
   const double longest = std::max({length(t.v1 - t.v0), length(t.v2 - t.v1), length(t.v0 - t.v2)});
   const double area = length(normal_of(t));
-  if (area > 0 && area < 1e-6 * longest * longest) return {};
-  return right(q);
+  if (area > 0 && area < 1e-6 * longest * longest) a = {};
 }
-MISTAKE(3, sphere_triangle_overlap, ordinary, "the corners are not tested", "logic") {
+MISREPORT(3, sphere_triangle_overlap, ordinary, "the corners are not tested", "logic") {
   const auto& t = q.triangle;
   const Vector corners[] = {t.v0, t.v1, t.v2};
   double to_corner = INFINITY, to_edge = INFINITY;
@@ -321,17 +320,14 @@ MISTAKE(3, sphere_triangle_overlap, ordinary, "the corners are not tested", "log
     to_corner = std::min(to_corner, length(corners[i] - q.sphere.center));
     to_edge = std::min(to_edge, length(nearest(corners[i], corners[(i + 1) % 3], q.sphere.center) - q.sphere.center));
   }
-  if (to_corner <= to_edge) return {};
-  return right(q);
+  if (to_corner <= to_edge) a = {};
 }
-MISTAKE(6, sphere_triangle_overlap, degenerate,
-        "the squared distance must be below the squared radius by an absolute 1e-6",
-        "absolute tolerance 1e-3 length or absolute tolerance 1e-6 length\\^2") {
-  const auto& t = q.triangle;
-  const Vector place = right(inputs::closest_point_rectangle<double>{{t.v0, t.v1, t.v2, t.v2}, q.sphere.center}).point;
+MISREPORT(6, sphere_triangle_overlap, degenerate,
+          "the squared distance must be below the squared radius by an absolute 1e-6",
+          "absolute tolerance 1e-3 length or absolute tolerance 1e-6 length\\^2") {
+  const Vector place = nearest(q.triangle, q.sphere.center);
   const Vector between = q.sphere.center - place;
-  if (dot(between, between) > q.sphere.radius * q.sphere.radius - 1e-6) return {false};
-  return right(q);
+  if (dot(between, between) > q.sphere.radius * q.sphere.radius - 1e-6) a = {false};
 }
 MISREPORT(7, sphere_triangle_overlap, degenerate, "a triangle whose squared normal overflows in float does not overlap",
           "overflow") {
@@ -374,19 +370,19 @@ MISTAKE(12, sphere_triangle_overlap, degenerate,
   const Real left = d * d, other = r * r * e;
   return {(left > highest && other > highest) || (left < lowest && other < lowest)};
 }
-MISTAKE(13, sphere_triangle_overlap, degenerate,
-        "the squared height times the squared normal (length^6) is kept in a float, whose range it leaves",
-        "overflow or underflow") {
+MISREPORT(13, sphere_triangle_overlap, degenerate,
+          "the squared height times the squared normal (length^6) is kept in a float, whose range it leaves",
+          "overflow or underflow") {
   const auto& t = q.triangle;
   const Vector n = normal_of(t), to = q.sphere.center - t.v0;
   const double height = dot(n, to);
   const float squared = float(height * height);
   // Within the range of float, and where the foot is not in the triangle, the answer is right.
-  if (height == 0 || (squared > 0 && !std::isinf(squared))) return right(q);
+  if (height == 0 || (squared > 0 && !std::isinf(squared))) return;
   if (dot(cross(t.v1 - t.v0, to), n) < 0 || dot(cross(t.v2 - t.v1, q.sphere.center - t.v1), n) < 0 ||
       dot(cross(t.v0 - t.v2, q.sphere.center - t.v2), n) < 0)
-    return right(q);
-  return {squared == 0.0f};
+    return;
+  a = {squared == 0.0f};
 }
 MISREPORT(14, sphere_triangle_overlap, degenerate, "refuses a triangle whose squared area leaves the range of float",
           "overflow or underflow") {

@@ -52,6 +52,32 @@ Vector furthest_along(const collide::Box<double>& box, const std::array<Vector, 
     if (k != without) corner = corner + axes[k] * (sign(dot(axes[k], n)) * component(box.half, k));
   return corner;
 }
+/// Adds the corners in front of the plane that count as contacts.
+template <class Counts>
+void add_contacts(const inputs::box_plane_penetration<double>& q, inputs::box_plane_penetration<double>::Answer& a,
+                  const Counts& counts) {
+  if (!a.yes()) return;
+  const Axes axes = axes_of_box(q.box);
+  for (int i = 0; i < 8; ++i) {
+    if (a.corners[i].behind) continue;
+    Vector corner = q.box.center;
+    for (int k = 0; k < 3; ++k) corner = corner + axes[k] * (component(q.box.half, k) * (i >> k & 1 ? 1 : -1));
+    if (counts(corner)) a.corners[i] = {true, corner};
+  }
+}
+struct Face {
+  int axis = 0;
+  double depth = INFINITY;
+};
+/// The axis of a face along which two boxes overlap least.
+Face least_face(const inputs::box_box_penetration<double>& q) {
+  Face least;
+  for (int axis = 0; axis < 6; ++axis) {
+    const double depth = -gap_along(q, axis);
+    if (depth < least.depth) least = {axis, depth};
+  }
+  return least;
+}
 
 MISREPORT(1, sphere_sphere_penetration, degenerate, "centers within 1e-10 of the radii are taken for the same",
           "relative tolerance 1e-10") {
@@ -188,36 +214,18 @@ MISREPORT(2, box_plane_penetration, ordinary, "the corners are rounded to float"
 MISREAD(3, box_plane_penetration, ordinary, "x and z of the half extents are swapped", "logic") {
   std::swap(q.box.half.x, q.box.half.z);
 }
-MISTAKE(6, box_plane_penetration, degenerate,
-        "a corner in front of the plane by less than an absolute 1e-2 is a contact", "absolute tolerance 1e-2 length") {
-  auto a = right(q);
-  if (!a.yes()) return a;
+MISREPORT(6, box_plane_penetration, degenerate,
+          "a corner in front of the plane by less than an absolute 1e-2 is a contact",
+          "absolute tolerance 1e-2 length") {
   const auto& n = q.plane.normal;
-  Vector side[3];
-  for (int k = 0; k < 3; ++k) {
-    const double half = k == 0 ? q.box.half.x : k == 1 ? q.box.half.y : q.box.half.z;
-    side[k] = axis_of_box(q.box, k) * half;
-  }
-  for (std::size_t i = 0; i < a.corners.size(); ++i) {
-    if (a.corners[i].behind) continue;
-    Vector corner = q.box.center;
-    for (unsigned k = 0; k < 3; ++k) corner = i >> k & 1 ? corner + side[k] : corner - side[k];
-    if ((dot(n, corner) + q.plane.offset) / length(n) < 1e-2) a.corners[i] = {true, corner};
-  }
-  return a;
+  add_contacts(q, a, [&](const Vector& p) { return (dot(n, p) + q.plane.offset) / length(n) < 1e-2; });
 }
 MISREPORT(7, box_plane_penetration, degenerate,
           "a corner in front of the plane by less than 1e-3 of the longest half extent is a contact",
           "relative tolerance 1e-3") {
-  if (!a.yes()) return;
-  const auto half = numbers_of(q.box.half);
-  const double size = length(q.plane.normal), margin = 1e-3 * std::max({half[0], half[1], half[2]});
-  for (std::size_t i = 0; i < a.corners.size(); ++i) {
-    if (a.corners[i].behind) continue;
-    Vector corner = q.box.center;
-    for (unsigned k = 0; k < 3; ++k) corner = corner + axis_of_box(q.box, int(k)) * (i >> k & 1 ? half[k] : -half[k]);
-    if (dot(q.plane.normal / size, corner) + q.plane.offset / size < margin) a.corners[i] = {true, corner};
-  }
+  const Vector half = q.box.half;
+  const double size = length(q.plane.normal), margin = 1e-3 * std::max({half.x, half.y, half.z});
+  add_contacts(q, a, [&](const Vector& p) { return dot(q.plane.normal / size, p) + q.plane.offset / size < margin; });
 }
 MISREPORT(8, box_plane_penetration, ordinary, "the half extents along the normal are added with their signs", "logic") {
   const double size = length(q.plane.normal), half[] = {q.box.half.x, q.box.half.y, q.box.half.z};
@@ -270,18 +278,8 @@ MISTAKE(12, box_plane_penetration, ordinary,
 }
 MISREPORT(13, box_plane_penetration, degenerate, "corners up to 1e-4 in front of the plane count as contacts",
           "absolute tolerance 1e-4 length") {
-  if (!a.yes()) return;
-  const double len = length(q.plane.normal);
-  const Vector n = q.plane.normal / len;
-  for (int i = 0; i < 8; ++i) {
-    if (a.corners[i].behind) continue;
-    Vector corner = q.box.center;
-    for (int k = 0; k < 3; ++k) {
-      const double half = component(q.box.half, k);
-      corner = corner + axis_of_box(q.box, k) * (i >> k & 1 ? half : -half);
-    }
-    if (dot(n, corner) + q.plane.offset / len <= 1e-4) a.corners[i] = {true, corner};
-  }
+  const double size = length(q.plane.normal);
+  add_contacts(q, a, [&](const Vector& p) { return dot(q.plane.normal / size, p) + q.plane.offset / size <= 1e-4; });
 }
 MISREPORT(14, box_plane_penetration, degenerate, "corners up to 1e-4 in front of the plane count as contacts",
           "absolute tolerance (1e-4|0\\.0001) length") {
@@ -341,7 +339,7 @@ MISREPORT(10, sphere_box_penetration, ordinary,
 MISREPORT(11, sphere_box_penetration, ordinary,
           "for a center inside, the nearest face is chosen by the largest coordinate divided by the half extent",
           "logic") {
-  const Axes axes = axes_of(q.box.orientation);
+  const Axes axes = axes_of_box(q.box);
   const Vector c = into(axes, q.sphere.center - q.box.center);
   const Vector& h = q.box.half;
   for (int i = 0; i < 3; ++i)
@@ -450,12 +448,7 @@ MISREPORT(5, box_box_penetration, ordinary, "the overlap along a cross product i
 MISREPORT(7, box_box_penetration, degenerate, "a cross product must beat the axes of the boxes by 5 percent",
           "relative tolerance .*e-[12]") {
   if (!a.yes() || a.axis < 6) return;
-  double least = INFINITY;
-  int face = 0;
-  for (int axis = 0; axis < 6; ++axis) {
-    const double overlap = -gap_along(q, axis);
-    if (overlap < least) least = overlap, face = axis;
-  }
+  const auto [face, least] = least_face(q);
   if (a.depth * 1.05 < least) return;
   Vector normal = axis_of(q, face);
   if (dot(normal, q.box2.center - q.box1.center) < 0) normal = -normal;
@@ -478,12 +471,7 @@ MISREPORT(10, box_box_penetration, degenerate,
           "a cross product must be better than a face by a factor 1.05 to be chosen",
           "relative tolerance (0\\.05|5e-2|1\\.05).*") {
   if (!a.yes() || a.axis < 6) return;
-  int best = 0;
-  double depth = INFINITY;
-  for (int i = 0; i < 6; ++i) {
-    const double d = -gap_along(q, i);
-    if (d < depth) depth = d, best = i;
-  }
+  const auto [best, depth] = least_face(q);
   if (depth > 1.05 * a.depth) return;
   Vector n = axis_of(q, best);
   if (dot(n, q.box2.center - q.box1.center) < 0) n = -n;
@@ -501,12 +489,7 @@ MISREPORT(10, box_box_penetration, degenerate,
 MISREPORT(11, box_box_penetration, degenerate, "an edge axis must beat the best face axis by 5 percent",
           "relative tolerance ((4\\.\\d*|5|5\\.\\d*)e-0?2|0\\.0(4\\d+|5\\d*)).*") {
   if (!a.yes() || a.axis < 6) return;
-  int face = -1;
-  double best = INFINITY;
-  for (int i = 0; i < 6; ++i) {
-    const double depth = -gap_along(q, i);
-    if (depth < best) best = depth, face = i;
-  }
+  const auto [face, best] = least_face(q);
   if (!(best <= 1.05 * a.depth)) return;
   Vector n = axis_of(q, face);
   if (dot(n, q.box2.center - q.box1.center) < 0) n = -n;
@@ -519,21 +502,13 @@ MISREPORT(11, box_box_penetration, degenerate, "an edge axis must beat the best 
     const Vector axis = axis_of(q, of_first ? 3 + i : i);
     deepest = deepest + axis * (dot(axis, into) < 0 ? -h[i] : h[i]);
   }
-  a.depth = best;
-  a.axis = face;
-  a.normal = n;
-  a.contact = deepest - into * (best / 2);
+  a = {best, face, n, deepest - into * (best / 2)};
 }
 MISREPORT(12, box_box_penetration, degenerate,
           "a cross product must beat the best face axis by 0.2 percent of the depth",
           "relative tolerance (0\\.002\\d*|0\\.0019\\d*|2(\\.0\\d*)?e-0?3|1\\.9\\d*e-0?3)") {
   if (!a.yes() || a.axis < 6) return;
-  int best = 0;
-  double least = INFINITY;
-  for (int axis = 0; axis < 6; ++axis) {
-    const double depth = -gap_along(q, axis);
-    if (depth < least) least = depth, best = axis;
-  }
+  const auto [best, least] = least_face(q);
   if (a.depth < 0.998 * least) return;
   Wide n = wide_axes_of(best < 3 ? q.box1 : q.box2)[best % 3];
   if (dot(n, widened(q.box2.center) - widened(q.box1.center)) < 0) n = -n;

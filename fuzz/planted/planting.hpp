@@ -17,9 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "impl/adapters/collide.hpp"
-#include "impl/catalogue/answer.hpp"
 #include "impl/plugin/nearmiss_plugin.h"
+#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
 namespace nearmiss::planted {
 
@@ -83,11 +82,9 @@ inline double in_24_bits(double x) {
 }
 inline Vector in_24_bits(const Vector& a) { return {in_24_bits(a.x), in_24_bits(a.y), in_24_bits(a.z)}; }
 
-/// The right answer.
+/// The right answer: that of `collide`, tier Accurate.
 template <class Q>
-[[gnu::noinline]] typename Q::Answer right(const Q& q) {
-  return adapters::ask_collide<collide::Accurate>(q);
-}
+typename Q::Answer right(const Q& q);
 
 inline Vector normal_of(const collide::Triangle<double>& t) { return cross(t.v1 - t.v0, t.v2 - t.v0); }
 /// Whether the angle between the vector and the plane with this unit normal has a sine below `sine`.
@@ -96,6 +93,9 @@ inline bool grazes(const Vector& normal, const Vector& vector, double sine) {
 }
 inline Vector nearest(const Vector& a, const Vector& b, const Vector& p) {
   return right(inputs::closest_point_segment<double>{{a, b}, p}).point;
+}
+inline Vector nearest(const collide::Triangle<double>& t, const Vector& p) {
+  return right(inputs::closest_point_rectangle<double>{{t.v0, t.v1, t.v2, t.v2}, p}).point;
 }
 inline double distance_from_line(const Vector& a, const Vector& b, const Vector& p) {
   const double size = length(b - a);
@@ -164,15 +164,6 @@ inline std::pair<double, double> half_b_and_discriminant(const Vector& from, con
   const double c = dd * (dot(from, from) - radius * radius) - md * md;
   return {b, b * b - a * c};
 }
-/// The axes of a quaternion of any length.
-template <class Q>
-Axes axes_of(Q q) {
-  const double most = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
-  q.x /= most, q.y /= most, q.z /= most, q.w /= most;
-  const double n = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-  q.x /= n, q.y /= n, q.z /= n, q.w /= n;
-  return axes_of_unit(q);
-}
 inline Real wide_distance(const Vector& a, const Vector& b) { return length(widened(a) - widened(b)); }
 /// The normal of three corners, of no length.
 inline Wide wide_normal(const Vector& a, const Vector& b, const Vector& c) {
@@ -198,31 +189,13 @@ inline Wide wide_local(const collide::Box<double>& box, const Wide& p) {
   return {dot(wide_axis(box, 0), d), dot(wide_axis(box, 1), d), dot(wide_axis(box, 2), d)};
 }
 
-template <class Q, typename Q::Answer (*mistake)(Q)>
-int answer(const double* numbers, nearmiss_answer* to) {
-  const Answer a = erase(mistake(inputs_from<Q>(numbers)));
-  to->yes = a.yes;
-  std::copy_n(a.values.begin(), a.count, to->values);
-  return NEARMISS_ANSWERED;
-}
-
-template <class S>
-int count_of_leaves() {
-  S s{};
-  int count = 0;
-  collide::for_each_leaf(s, [&](const auto&, collide::Role) { ++count; });
-  return count;
-}
+/// Answers a case by a mistake.
+template <class Q>
+int answer_by(typename Q::Answer (*mistake)(Q), const double* numbers, nearmiss_answer* to);
 
 /// Promises what the tier Accurate of collide promises.
 template <class Q>
-nearmiss_offer offer(const char* query, int (*answer)(const double*, nearmiss_answer*)) {
-  static const nearmiss_contract promise = [] {
-    const collide::Contract c = adapters::CollideFunction<Q>::template contract<collide::Accurate>();
-    return nearmiss_contract{c.backward, c.forward, c.unit, c.exact_decisions, c.lowest, c.highest};
-  }();
-  return {query, count_of_leaves<Q>(), count_of_leaves<typename Q::Answer>(), nullptr, &promise, answer, 0};
-}
+nearmiss_offer offer(const char* query, nearmiss_answer_function answer);
 
 /// Puts a mistake into the table.
 struct Row {
@@ -231,11 +204,13 @@ struct Row {
 
 }  // namespace nearmiss::planted
 
-#define MISTAKE(round, query, where, what, causes)                                             \
-  inputs::query<double>::Answer query##_##round(inputs::query<double>);                        \
-  const Row row_of_##query##_##round(                                                          \
-      {round, #query, Where::where, what, causes,                                              \
-       offer<inputs::query<double>>(#query, answer<inputs::query<double>, query##_##round>)}); \
+#define MISTAKE(round, query, where, what, causes)                                                                  \
+  inputs::query<double>::Answer query##_##round(inputs::query<double>);                                             \
+  int answer_##query##_##round(const double* numbers, nearmiss_answer* to) {                                        \
+    return answer_by<inputs::query<double>>(query##_##round, numbers, to);                                          \
+  }                                                                                                                 \
+  const Row row_of_##query##_##round(                                                                               \
+      {round, #query, Where::where, what, causes, offer<inputs::query<double>>(#query, answer_##query##_##round)}); \
   inputs::query<double>::Answer query##_##round(inputs::query<double> q)
 /// A mistake that is right for other inputs: changes `q`.
 #define MISREAD(round, query, where, what, causes)          \
