@@ -511,6 +511,25 @@ TEST(Cause, UnsupportedMotionAlongAnAxis) {
   EXPECT_EQ(c.key, "velocity with a component of zero");
 }
 
+/// Takes the sum of box and sphere for a box, which has corners that are not round.
+Answer with_sharp_corners(Values q) {
+  std::vector<double> sharp(q.begin(), q.end());
+  for (const std::size_t half : {10, 11, 12}) sharp[half] += sharp[3];
+  sharp[3] = 0;
+  return right("moving_sphere_passes_box", sharp);
+}
+
+/// Answers that are yes have no time that could be compared.
+TEST(Cause, AFalseHitOfADecisionAboutAMotion) {
+  const Subject s = planted("moving_sphere_passes_box", with_sharp_corners);
+  const std::vector<double> case_values{6, -5, 0, 2, -6.25, -3, -3, -1, -12, -4, 3, 4, 1, 0, 0, 0, 1, 0.5, 0};
+  const Cause c = cause(s, case_of("moving_sphere_passes_box", case_values));
+  const bool began_later = std::any_of(c.evidence.begin(), c.evidence.end(), [](const Evidence& e) {
+    return e.test.starts_with("The same motion began later");
+  });
+  EXPECT_TRUE(began_later) << text_of(c);
+}
+
 /// Wrong where the first center lies in a plane of coordinates.
 Answer wrong_in_a_plane(Values q) {
   Answer a = right("sphere_sphere_overlap", q);

@@ -203,12 +203,12 @@ class MotionSteps : public TestOfCause {
     saw("The wrong contacts of the later starts were compared.", "They are at one place.");
     return true;
   }
-  /// The given time less the exact one; empty where one of them is no contact.
+  /// The given time less the exact one; empty where one of them is no contact, and where answers have no time.
   static std::optional<double> error_of_time(const Trial& t) {
-    if (t.answer.status != Answer::Status::answered || !t.answer.yes) return std::nullopt;
-    const std::size_t time = time_of(*t.question.query);
+    const auto time = index_of_role(t.question.query->outputs, Role::time);
+    if (!time || t.answer.status != Answer::Status::answered || !t.answer.yes) return std::nullopt;
     for (const Alternative& right : truth_of(t.question).alternatives) {
-      if (right.yes) return t.answer.values[time] - (right.values[time].low + right.values[time].high) / 2;
+      if (right.yes) return t.answer.values[*time] - (right.values[*time].low + right.values[*time].high) / 2;
     }
     return std::nullopt;
   }
