@@ -1,11 +1,13 @@
 /// The table of planted mistakes. A mistake is one place: MISTAKE(round, query, where, what, causes) and the answer
 /// with the mistake to the inputs `q`.
-///   round    in which it was planted (docs/triage.md); a round has at most one mistake for each query, and is a plugin
+///   round    in which it was planted (docs/explanation/causes.md); a round is a plugin, with at most one mistake for
+///            each query
 ///   where    `degenerate`: it shows only near a degeneracy; `ordinary`: in a noticeable share of all cases
 ///   what     what is wrong
 ///   causes   those that may be named: "KIND KEY or KIND KEY", where KEY is a regular expression for the whole key and
 ///            may be missing
-/// planted.cpp has the plugin, which answers the queries of one round; fuzz/planted/causes reads the table.
+/// MISREAD and MISREPORT, below, are shorter forms. planted.cpp has the plugin, which answers the queries of one round;
+/// fuzz/planted/causes reads the table.
 #pragma once
 
 #include <algorithm>
