@@ -18,6 +18,21 @@ bool weights_allow(const Vector& a, const Vector& b, const Vector& c, const Vect
   return edge(a, b, p) / area >= -1e-6 && edge(b, c, p) / area >= -1e-6 && edge(c, a, p) / area >= -1e-6;
 }
 
+/// Counts a point as inside whose weights are at least `least`.
+void allow_weights(const inputs::point_in_triangle<double>& q, inputs::point_in_triangle<double>::Answer& a,
+                   double least) {
+  if (a.yes()) return;
+  const int axis = q.axis < 0 ? largest(q.normal) : q.axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const auto area = [&](const Vector& s, const Vector& t) {
+    return component(s, i) * component(t, j) - component(s, j) * component(t, i);
+  };
+  const Vector e1 = q.triangle.v1 - q.triangle.v0, e2 = q.triangle.v2 - q.triangle.v0, p = q.point - q.triangle.v0;
+  const double whole = area(e1, e2);
+  if (whole == 0) return;
+  const double v = area(p, e2) / whole, w = area(e1, p) / whole, u = 1 - v - w;
+  if (u >= least && v >= least && w >= least) a = {{u, v, w}, true};
+}
+
 MISREPORT(1, point_in_triangle, degenerate, "a weight below 1e-12 is taken for outside", "relative tolerance 1e-12") {
   if (std::min({a.weights.x, a.weights.y, a.weights.z}) < 1e-12) a = {};
 }
@@ -52,35 +67,11 @@ MISREPORT(9, point_in_triangle, degenerate,
 }
 MISREPORT(10, point_in_triangle, degenerate, "weights down to -1e-4 count as inside",
           "relative tolerance (1e-4|0\\.0001)") {
-  if (a.decision) return;
-  int axis = q.axis;
-  if (axis < 0) axis = largest(q.normal);
-  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-  const auto area = [&](const Vector& s, const Vector& t) {
-    return component(s, i) * component(t, j) - component(s, j) * component(t, i);
-  };
-  const Vector e1 = q.triangle.v1 - q.triangle.v0, e2 = q.triangle.v2 - q.triangle.v0, p = q.point - q.triangle.v0;
-  const double whole = area(e1, e2);
-  if (whole == 0) return;
-  const double v = area(p, e2) / whole, w = area(e1, p) / whole, u = 1 - v - w;
-  if (u >= -1e-4 && v >= -1e-4 && w >= -1e-4) a.decision = true, a.weights = {u, v, w};
+  allow_weights(q, a, -1e-4);
 }
-MISTAKE(11, point_in_triangle, degenerate, "a barycentric weight down to -1e-5 counts as inside",
-        "relative tolerance 1e-5.* or absolute tolerance 1e-5.*") {
-  const auto exact = right(q);
-  if (exact.yes()) return exact;
-  int axis = q.axis;
-  if (axis < 0) axis = largest(q.normal);
-  const auto part = [&](const Vector& a) {
-    return axis == 0 ? std::array{a.y, a.z} : axis == 1 ? std::array{a.z, a.x} : std::array{a.x, a.y};
-  };
-  const auto a = part(q.triangle.v1 - q.triangle.v0), b = part(q.triangle.v2 - q.triangle.v0),
-             p = part(q.point - q.triangle.v0);
-  const double area = a[0] * b[1] - a[1] * b[0];
-  if (area == 0) return exact;
-  const double w1 = (p[0] * b[1] - p[1] * b[0]) / area, w2 = (a[0] * p[1] - a[1] * p[0]) / area, w0 = 1 - w1 - w2;
-  if (!(w0 >= -1e-5 && w1 >= -1e-5 && w2 >= -1e-5)) return exact;
-  return {{w0, w1, w2}, true};
+MISREPORT(11, point_in_triangle, degenerate, "a barycentric weight down to -1e-5 counts as inside",
+          "relative tolerance 1e-5.* or absolute tolerance 1e-5.*") {
+  allow_weights(q, a, -1e-5);
 }
 MISTAKE(12, point_in_triangle, ordinary,
         "projects along the axis of the normal's largest signed component, without absolute values",
