@@ -35,7 +35,8 @@ extern const std::span<const AbortFrame> abort_frames;
   X(query, subject, name, false_hit) X(query, subject, name, false_miss)                  \
   X(query, subject, name, wrong_time) X(query, subject, name, negative_time)              \
   X(query, subject, name, wrong_place) X(query, subject, name, wrong_normal)              \
-  X(query, subject, name, wrong_depth) X(query, subject, name, wrong_direction)           \
+  X(query, subject, name, wrong_depth) X(query, subject, name, wrong_distance)            \
+  X(query, subject, name, wrong_size) X(query, subject, name, wrong_direction)            \
   X(query, subject, name, wrong_weight) X(query, subject, name, wrong_flag)               \
   X(query, subject, name, wrong_index) X(query, subject, name, wrong_combination)         \
   X(query, subject, name, off_the_surface) X(query, subject, name, not_finite)            \

@@ -51,7 +51,7 @@ bool is_real(Role role) { return role != Role::flag && role != Role::index; }
 
 /// Moves one number by some ulps. False, without a change, where the result breaks a rule.
 bool apply(Case& c, Step step) {
-  if (!is_real(c.query->inputs[step.number].role)) return false;
+  if (!is_real(c.role(step.number))) return false;
   const double before = c.values[step.number];
   double& x = c.values[step.number];
   x = moved_by_ulps(x, step.ulps, c.scalar);

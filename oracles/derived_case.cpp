@@ -7,19 +7,22 @@ namespace nearmiss {
 
 DerivedCase::DerivedCase(const Case& from, QueryId query)
     : from_(from), question_{&query_of(query), from.scalar, {}, from.origin, 0, 0, {}} {
-  question_.values.resize(question_.query->inputs.size());
+  question_.values.resize(question_.fields().size());
   index_.resize(question_.values.size());
 }
 
 void DerivedCase::set(std::string_view input, std::optional<std::size_t> index) {
-  const std::vector<Field>& inputs = question_.query->inputs;
+  const std::span<const Field> inputs = question_.fields();
   const auto at = std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return f.name == input; });
   if (at == inputs.end()) {
     throw std::logic_error(std::string(question_.query->name) + " has no input " + std::string(input));
   }
-  const auto i = std::size_t(at - inputs.begin());
-  index_[i] = index;
-  question_.values[i] = index ? from_.values[*index] : 0;
+  set(std::size_t(at - inputs.begin()), index);
+}
+
+void DerivedCase::set(std::size_t input, std::optional<std::size_t> index) {
+  index_[input] = index;
+  question_.values[input] = index ? from_.values[*index] : 0;
 }
 
 void DerivedCase::set_vector(const std::string& input, std::size_t begin) {

@@ -20,6 +20,8 @@ class DerivedCase {
 
   /// The input takes the number at an index of the given case; 0 without an index.
   void set(std::string_view input, std::optional<std::size_t> index);
+  /// The input with that index takes the number at an index of the given case.
+  void set(std::size_t input, std::optional<std::size_t> index);
   /// The same for its x, y and z and the numbers from `begin` on.
   void set_vector(const std::string& input, std::size_t begin);
 

@@ -32,9 +32,6 @@ bool moves(Role role) {
 
 using Magnitudes = std::array<double, 16>;  // indexed by role
 
-/// "box1.orientation" of "box1.orientation.x".
-std::string_view vector_of(std::string_view field) { return field.substr(0, field.find_last_of('.')); }
-
 Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   Magnitudes largest{};
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -66,7 +63,7 @@ class Examination {
     // One more part in 2^50 covers the rounding of the products themselves.
     const double relative = k * unit_roundoff(question_.scalar) * (1 + 0x1p-50);
     for (std::size_t i = 0; i < widening_.size(); ++i) {
-      const Role role = question_.query->inputs[i].role;
+      const Role role = question_.role(i);
       widening_[i] = moves(role) ? relative * largest_[std::size_t(role)] : 0.0;
       if (k > 0 && moves(role) && widening_[i] < 0x1p-1000) widening_[i] = std::nextafter(widening_[i], 1.0);
     }
@@ -97,18 +94,11 @@ class Examination {
       if (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest)) return false;
     }
     // Directions and rotations have no common length, so each must lie there by itself.
-    const std::vector<Field>& fields = question_.query->inputs;
-    for (std::size_t i = 0; i < fields.size();) {
-      const std::string_view vector = vector_of(fields[i].name);
+    for (const InputMember& member : question_.operands().members) {
+      if (member.role != Role::direction && member.role != Role::rotation) continue;
       double m = 0;
-      std::size_t end = i;
-      for (; end < fields.size() && fields[end].role == fields[i].role && vector_of(fields[end].name) == vector;
-           ++end) {
-        m = std::max(m, std::abs(question_.values[end]));
-      }
-      const bool by_itself = fields[i].role == Role::direction || fields[i].role == Role::rotation;
-      if (by_itself && (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest))) return false;
-      i = end;
+      for (std::size_t k = 0; k < member.count; ++k) m = std::max(m, std::abs(question_.values[member.begin + k]));
+      if (m < std::ldexp(1.0, contract.lowest) || m > std::ldexp(1.0, contract.highest)) return false;
     }
     return true;
   }
@@ -192,16 +182,17 @@ class Examination {
   mutable Preconditions ended_by_{};
 };
 
-Disagreement wrong(const Query& query, Role role, double given) {
+Disagreement wrong(Role role, double given) {
   switch (role) {
     case Role::time: return given < 0 ? Disagreement::negative_time : Disagreement::wrong_time;
     case Role::depth: return Disagreement::wrong_depth;
+    case Role::distance: return Disagreement::wrong_distance;
     case Role::normal: return Disagreement::wrong_normal;
     case Role::position: return Disagreement::wrong_place;
     case Role::flag: return Disagreement::wrong_flag;
     case Role::index: return Disagreement::wrong_index;
-    case Role::weight:
-      return query.kind == Kind::direction ? Disagreement::wrong_direction : Disagreement::wrong_weight;
+    case Role::size: return Disagreement::wrong_size;
+    case Role::weight: return Disagreement::wrong_weight;
     default: return Disagreement::wrong_direction;
   }
 }
@@ -377,7 +368,7 @@ class Judgement {
     if (decision_differs_ && !(backward && backward->above > f_.members.front().backward->above)) return;
     const Enclosure::Member& seen = here_.members[member];
     const int worst = seen.number < 0 ? int(part.begin) : seen.number;
-    MemberFinding m = member_finding(member, wrong(query_, part.role, answer_.values[std::size_t(worst)]), worst);
+    MemberFinding m = member_finding(member, wrong(part.role, answer_.values[std::size_t(worst)]), worst);
     m.backward = backward.value_or(Backward{0});
     if (!decision_differs_) m.forward_ulps = seen.ulps, m.forward_absolute = seen.absolute;
     if (scene_ != nullptr && is_of_scene(part.role)) {
@@ -394,7 +385,6 @@ class Judgement {
 
   // What a scene requires. It states lengths and times; they judge the decision, places, depths, times and flags.
 
-  static bool is_length(Role role) { return role == Role::position || role == Role::depth; }
   static bool is_of_scene(Role role) {
     return is_length(role) || role == Role::time || role == Role::flag || role == Role::index;
   }
@@ -617,7 +607,7 @@ class Judgement {
 double largest_length(const Case& question) {
   double largest = 0;
   for (std::size_t i = 0; i < question.values.size(); ++i) {
-    const Role role = question.query->inputs[i].role;
+    const Role role = question.role(i);
     if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(question.values[i]));
   }
   return largest;
@@ -701,21 +691,6 @@ double decision_margin(const Case& question, double guess) {
   return Examination(question, none).margin(rung_of({guess})).value_or(Backward{-1}).above;
 }
 
-bool exact_decision(const Case& question) {
-  const FloatingPointScope standard_modes;
-  const Answer none{};
-  const Examination x(question, none);
-  const Enclosure here = x.within(0);
-  return (here.decided() ? here : x.exactly()).may_be_yes;
-}
-
-std::optional<bool> decision_within(const Case& question, std::span<const double> moves) {
-  const FloatingPointScope standard_modes;
-  const Answer none{};
-  const Enclosure all = oracle_of(*question.query).interval(question.values, moves, none, question.scalar);
-  return all.decided() ? std::optional(all.may_be_yes) : std::nullopt;
-}
-
 Truth truth_of(const Case& question) {
   const FloatingPointScope standard_modes;
   const Answer none{};
@@ -757,6 +732,8 @@ std::string_view name_of(Disagreement d) {
     case Disagreement::wrong_place: return "wrong place";
     case Disagreement::wrong_normal: return "wrong normal";
     case Disagreement::wrong_depth: return "wrong depth";
+    case Disagreement::wrong_distance: return "wrong distance";
+    case Disagreement::wrong_size: return "wrong size";
     case Disagreement::wrong_direction: return "wrong direction";
     case Disagreement::wrong_weight: return "wrong weight";
     case Disagreement::wrong_flag: return "wrong flag";

@@ -11,6 +11,7 @@
 #include "impl/catalogue/case.hpp"
 #include "impl/subject/standard.hpp"
 #include "oracles/exact/enclosure.hpp"
+#include "oracles/exact_decision.hpp"
 #include "oracles/scene_limits.hpp"
 
 namespace nearmiss {
@@ -37,6 +38,8 @@ enum class Disagreement {
   wrong_place,
   wrong_normal,
   wrong_depth,
+  wrong_distance,
+  wrong_size,  ///< a half extent
   wrong_direction,
   wrong_weight,       ///< barycentric weights, cosines
   wrong_flag,         ///< a flag other than the decision
@@ -153,14 +156,6 @@ double estimated_backward(const Case& question, const Answer& answer, double for
 /// the same decision. Negative where the intervals cannot decide even the case itself. As in Truth, without the
 /// answers. A good `guess` at the result lowers the cost; no guess changes the result.
 double decision_margin(const Case& question, double guess = 0);
-
-/// The exact decision alone, at the least cost. Thread-safe.
-bool exact_decision(const Case& question);
-
-/// The exact decision of every input of which each number lies within `moves` (one distance per number, not negative)
-/// of the case's number, where intervals prove that it is the same for all of them. Empty: not proved. The proof allows
-/// every such input of the reals that is valid; the numbers of the case need not be numbers of its scalar. Thread-safe.
-std::optional<bool> decision_within(const Case& question, std::span<const double> moves);
 
 /// The exact answers to a case, for people: all of them, and the margin to the nearest flip of the decision.
 struct Truth {

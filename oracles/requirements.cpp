@@ -10,14 +10,14 @@
 
 #include "impl/catalogue/query_ids.hpp"
 #include "oracles/derived_case.hpp"
-#include "oracles/judge.hpp"
+#include "oracles/exact_decision.hpp"
 
 namespace nearmiss {
 
 namespace {
 
 using Long = long double;
-using Obstacle = Parts::Start::Obstacle;
+using Start = Operands::Start;
 
 static_assert(std::numeric_limits<Long>::digits >= 64 && std::numeric_limits<Long>::max_exponent >= 16384,
               "the slacks below are derived from them; no square of a double overflows or underflows");
@@ -28,58 +28,6 @@ constexpr Long most_epsilons = 4;
 /// Each check below does at most 16 operations in long double, each with a relative error of at most 2^-63 in any
 /// rounding mode.
 constexpr Long rounding = 0x1p-58L;
-
-/// The fields of one top-level member.
-struct Operand {
-  std::string_view name;
-  std::size_t begin, count;
-};
-
-std::vector<Operand> operands_of(const Query& q) {
-  std::vector<Operand> operands;
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
-    const std::string_view whole = q.inputs[i].name, name = whole.substr(0, whole.find('.'));
-    if (operands.empty() || operands.back().name != name) operands.push_back({name, i, 0});
-    ++operands.back().count;
-  }
-  return operands;
-}
-
-/// The index of the operand's field with that name; empty where it has none.
-std::optional<std::size_t> field(const Query& q, const Operand& t, std::string_view member) {
-  for (std::size_t i = t.begin; i < t.begin + t.count; ++i) {
-    const std::string_view name = q.inputs[i].name;
-    if (name.size() == t.name.size() + 1 + member.size() && name.ends_with(member)) return i;
-  }
-  return std::nullopt;
-}
-
-/// The kind of obstacle that the operand is.
-std::optional<Obstacle> obstacle_of(const Query& q, const Operand& t) {
-  const auto has = [&](std::string_view member) { return field(q, t, member).has_value(); };
-  if (has("offset")) return Obstacle::plane;
-  if (has("v3.x")) return Obstacle::rectangle;
-  if (has("v2.x")) return Obstacle::triangle;
-  if (has("p1.x")) return Obstacle::capsule;
-  if (has("half.x")) return Obstacle::box;
-  if (has("min.x")) return Obstacle::aabox;
-  if (has("radius")) return Obstacle::sphere;
-  return std::nullopt;
-}
-
-std::optional<Parts::Start> start_of(const Query& q, const std::vector<Operand>& operands) {
-  const Operand& mover = operands.front();
-  const bool is_ray = field(q, mover, "origin.x").has_value();
-  const bool moves =
-      std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::velocity; });
-  if (!is_ray && !moves) return std::nullopt;
-  for (const Operand& t : operands) {
-    const auto obstacle = obstacle_of(q, t);
-    if (&t == &mover || !obstacle) continue;
-    return Parts::Start{mover.begin, field(q, mover, "radius"), *obstacle, t.begin, t.count};
-  }
-  return std::nullopt;
-}
 
 using Vector = std::array<Long, 3>;
 
@@ -104,7 +52,7 @@ bool is_unit(const Case& c, std::size_t begin, std::size_t count) {
 
 /// True if v3 can move along the first side, and v2 to the fourth corner of the parallelogram, so that the corners form
 /// a rectangle and no coordinate moves too far.
-bool is_rectangle(const Case& c, const Parts::Corners& corners) {
+bool is_rectangle(const Case& c, const Operands::Corners& corners) {
   const Vector v0 = vector(c, corners[0]), v1 = vector(c, corners[1]), v2 = vector(c, corners[2]),
                v3 = vector(c, corners[3]);
   const Long magnitude = std::max({largest(v0), largest(v1), largest(v2), largest(v3)});
@@ -159,7 +107,7 @@ bool is_not_zero(const Neighbourhood& n, std::size_t begin) {
   return any;
 }
 
-bool has_no_zero_sizes(const Neighbourhood& n, const Parts& parts) {
+bool has_no_zero_sizes(const Neighbourhood& n, const Operands& parts) {
   const auto each = [](const auto& list, auto holds) { return std::all_of(list.begin(), list.end(), holds); };
   const auto has_sides = [&](std::size_t i) {
     return n.less(i, i + 3) && n.less(i + 1, i + 4) && n.less(i + 2, i + 5);
@@ -173,8 +121,7 @@ bool has_no_zero_sizes(const Neighbourhood& n, const Parts& parts) {
 /// they touch.
 class StartAsCase {
  public:
-  StartAsCase(const Neighbourhood& n, const Parts::Start& start, QueryId query)
-      : n_(n), start_(start), derived_(n.c, query) {}
+  StartAsCase(const Neighbourhood& n, const Start& start, QueryId query) : n_(n), start_(start), derived_(n.c, query) {}
 
   void set(std::string_view to, std::optional<std::size_t> index) { derived_.set(to, index); }
   void set_ball(const std::string& to) {
@@ -183,21 +130,14 @@ class StartAsCase {
   }
   /// The numbers of the obstacle, which has the same members there; a member with the name `first` takes that with the
   /// name `second`.
-  void set_obstacle(const std::string& to, std::span<const Renamed> renamed = {}) {
-    for (const Field& f : derived_.question().query->inputs) {
-      if (!f.name.starts_with(to + '.')) continue;
-      std::string member = f.name.substr(to.size() + 1);
+  void set_obstacle(std::string_view to, std::span<const Renamed> renamed = {}) {
+    const Operand& operand = *derived_.question().operands().find(to);
+    for (const ShapeMember& m : operand.traits().members) {
       const auto other =
-          std::find_if(renamed.begin(), renamed.end(), [&](const Renamed& r) { return member.starts_with(r.first); });
-      if (other != renamed.end()) member.replace(0, other->first.size(), other->second);
-      derived_.set(f.name, obstacle_number(member));
+          std::find_if(renamed.begin(), renamed.end(), [&](const Renamed& r) { return m.name == r.first; });
+      const std::size_t from = start_.obstacle.member(other == renamed.end() ? m.name : other->second).value();
+      for (std::size_t k = 0; k < m.count; ++k) derived_.set(operand.begin + m.begin + k, from + k);
     }
-  }
-  /// The index of a number of the obstacle in the case.
-  std::size_t obstacle_number(std::string_view member) const {
-    const Query& q = *n_.c.query;
-    const std::string_view first = q.inputs[start_.begin].name;
-    return field(q, {first.substr(0, first.find('.')), start_.begin, start_.count}, member).value();
   }
   bool surely_apart() const {
     if (n_.moves.empty()) return !exact_decision(derived_.question());
@@ -207,12 +147,12 @@ class StartAsCase {
 
  private:
   const Neighbourhood& n_;
-  const Parts::Start& start_;
+  const Start& start_;
   DerivedCase derived_;
 };
 
-bool apart_from(const Neighbourhood& n, const Parts::Start& s, QueryId query, const std::string& ball,
-                const std::string& obstacle, std::span<const Renamed> renamed = {}) {
+bool apart_from(const Neighbourhood& n, const Start& s, QueryId query, const std::string& ball,
+                std::string_view obstacle, std::span<const Renamed> renamed = {}) {
   StartAsCase start(n, s, query);
   start.set_ball(ball);
   start.set_obstacle(obstacle, renamed);
@@ -221,11 +161,11 @@ bool apart_from(const Neighbourhood& n, const Parts::Start& s, QueryId query, co
 
 /// A ball at rest hits exactly what it touches or overlaps. Only the sum of the radii matters. The ball gets the larger
 /// radius, because a point inside a capsule hits nothing.
-bool apart_from_capsule(const Neighbourhood& n, const Parts::Start& s) {
+bool apart_from_capsule(const Neighbourhood& n, const Start& s) {
   StartAsCase start(n, s, QueryId::moving_sphere_capsule);
   start.set_ball("sphere");
   start.set_obstacle("capsule");
-  const std::size_t other = start.obstacle_number("radius");
+  const std::size_t other = s.obstacle.radius.value();
   if (!s.radius || n.c.values[*s.radius] < n.c.values[other]) {
     start.set("sphere.radius", other);
     start.set("capsule.radius", s.radius);
@@ -233,37 +173,40 @@ bool apart_from_capsule(const Neighbourhood& n, const Parts::Start& s) {
   return start.surely_apart();
 }
 
-bool apart_from_aabox(const Neighbourhood& n, const Parts::Start& s) {
-  const StartAsCase start(n, s, QueryId::sphere_sphere_overlap);
-  const std::size_t low = start.obstacle_number("min.x"), high = start.obstacle_number("max.x");
+bool apart_from_aabox(const Neighbourhood& n, const Start& s) {
+  const std::size_t low = s.obstacle.positions[0], high = s.obstacle.positions[1];
   bool any = false;
   for (std::size_t k = 0; k < 3; ++k) any = any || n.less(s.place + k, low + k) || n.less(high + k, s.place + k);
   return any;
 }
 
 /// Both triangles of a rectangle count.
-bool apart_from_rectangle(const Neighbourhood& n, const Parts::Start& s) {
+bool apart_from_rectangle(const Neighbourhood& n, const Start& s) {
   constexpr std::array<Renamed, 2> second{Renamed{"v1", "v2"}, Renamed{"v2", "v3"}};
   return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle") &&
          apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle", second);
 }
 
-bool starts_outside(const Neighbourhood& n, const Parts::Start& s) {
-  switch (s.obstacle) {
-    case Obstacle::plane: return apart_from(n, s, QueryId::sphere_plane_penetration, "sphere", "plane");
-    case Obstacle::triangle: return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
-    case Obstacle::rectangle: return apart_from_rectangle(n, s);
-    case Obstacle::sphere: return apart_from(n, s, QueryId::sphere_sphere_overlap, "sphere1", "sphere2");
-    case Obstacle::capsule: return apart_from_capsule(n, s);
-    case Obstacle::box: return apart_from(n, s, QueryId::sphere_box_overlap, "sphere", "box");
-    case Obstacle::aabox: return apart_from_aabox(n, s);
+bool starts_outside(const Neighbourhood& n, const Start& s) {
+  switch (s.obstacle.shape) {
+    case Shape::plane: return apart_from(n, s, QueryId::sphere_plane_penetration, "sphere", "plane");
+    case Shape::triangle: return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
+    case Shape::rectangle: return apart_from_rectangle(n, s);
+    case Shape::sphere: return apart_from(n, s, QueryId::sphere_sphere_overlap, "sphere1", "sphere2");
+    case Shape::capsule: return apart_from_capsule(n, s);
+    case Shape::box: return apart_from(n, s, QueryId::sphere_box_overlap, "sphere", "box");
+    case Shape::aabox: return apart_from_aabox(n, s);
+    case Shape::point:
+    case Shape::segment:
+    case Shape::line:
+    case Shape::ray: break;
   }
   throw std::logic_error("no obstacle");
 }
 
 bool meets(const Neighbourhood& n, Precondition p) {
   const Case& c = n.c;
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   const auto each = [](const auto& list, auto holds) { return std::all_of(list.begin(), list.end(), holds); };
   const auto three = [&](std::size_t i) { return is_unit(c, i, 3); };
   switch (p) {
@@ -280,50 +223,8 @@ bool meets(const Neighbourhood& n, Precondition p) {
 
 }  // namespace
 
-Parts::Parts(const Query& q) {
-  const std::vector<Operand> operands = operands_of(q);
-  for (const Operand& t : operands) {
-    const auto at = [&](std::string_view member) { return field(q, t, member); };
-    if (at("v3.x")) {
-      const Corners v{*at("v0.x"), *at("v1.x"), *at("v2.x"), *at("v3.x")};
-      rectangles.push_back(v);
-      triangles.push_back({v[0], v[1], v[2]});
-      triangles.push_back({v[0], v[2], v[3]});
-    } else if (at("v2.x")) {
-      triangles.push_back({*at("v0.x"), *at("v1.x"), *at("v2.x")});
-    } else if (at("v1.x")) {
-      segments.push_back({*at("v0.x"), *at("v1.x")});
-    } else if (at("p1.x")) {
-      segments.push_back({*at("p0.x"), *at("p1.x")});
-    } else if (at("min.x")) {
-      aaboxes.push_back(*at("min.x"));
-    }
-  }
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
-    const Field& f = q.inputs[i];
-    if (f.role == Role::size) sizes.push_back(i);
-    if (!f.name.ends_with(".x") && f.name != "x") continue;
-    if (f.role == Role::rotation) quaternions.push_back(i);
-    if (f.role == Role::velocity) velocities.push_back(i);
-    if (f.role == Role::direction) (f.name.ends_with("normal.x") ? normals : directions).push_back(i);
-  }
-  start = start_of(q, operands);
-}
-
-const Parts& parts_of(const Query& query) {
-  static const std::vector<Parts> all = [] {
-    std::vector<Parts> made;
-    for (const Query& q : catalogue()) made.emplace_back(q);
-    return made;
-  }();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (&catalogue()[i] == &query) return all[i];
-  }
-  throw std::logic_error("the query is not of the catalogue");
-}
-
 bool concerns(Precondition p, const Query& query) {
-  const Parts& parts = parts_of(query);
+  const Operands& parts = query.operands;
   switch (p) {
     case Precondition::true_rectangle: return !parts.rectangles.empty();
     case Precondition::unit_normal: return !parts.normals.empty();

@@ -7,30 +7,27 @@
 #include <optional>
 #include <string_view>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/derived_case.hpp"
-#include "oracles/judge.hpp"
+#include "oracles/exact_decision.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Obstacle = Parts::Start::Obstacle;
 using Triangle = std::array<std::size_t, 3>;
 
 std::optional<std::size_t> input_named(const Query& query, std::string_view name) {
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
-    if (query.inputs[i].name == name) return i;
-  }
-  return std::nullopt;
+  const auto& members = query.operands.members;
+  const auto found = std::ranges::find(members, name, &InputMember::name);
+  return found == members.end() ? std::nullopt : std::optional(found->begin);
 }
 
 /// Looks at one case for each rule.
 class Rules {
  public:
   explicit Rules(const Case& question)
-      : c_(question), query_(*question.query), parts_(parts_of(query_)), start_(parts_.start) {}
+      : c_(question), query_(*question.query), parts_(query_.operands), start_(parts_.start) {}
 
   std::string broken() const {
     if (query_.kind == Kind::decision) return limit_of_time();
@@ -39,12 +36,8 @@ class Rules {
   }
 
  private:
-  std::string one() const {
-    return query_.traits.operands[0].empty() ? "the moving body" : std::string(query_.traits.operands[0]);
-  }
-  std::string other() const {
-    return query_.traits.operands[1].empty() ? "the fixed one" : std::string(query_.traits.operands[1]);
-  }
+  const std::string& one() const { return parts_[0].words; }
+  const std::string& other() const { return parts_[1].words; }
 
   std::string limit_of_time() const {
     const auto forever = input_named(query_, "forever");
@@ -60,7 +53,7 @@ class Rules {
       return fmt::format("{} moves from the back of {} to its front, and only the front can be hit", one(), other());
     }
     if (start_->radius) return of_start();
-    if (start_->obstacle == Obstacle::plane) return ball_meets_plane() ? moves_along() : "";
+    if (start_->obstacle.shape == Shape::plane) return ball_meets_plane() ? moves_along() : "";
     for (const Triangle& t : parts_.triangles) {
       if (ball_meets(t)) return has_area(t) ? moves_along() : fmt::format("{} has no area", other());
     }
@@ -74,8 +67,10 @@ class Rules {
     const auto exchange = [&](std::size_t a, std::size_t b) {
       std::swap_ranges(&turned.values[a], &turned.values[a] + 3, &turned.values[b]);
     };
-    if (start_->obstacle == Obstacle::plane) {
-      for (std::size_t i = start_->begin; i < start_->begin + start_->count; ++i) turned.values[i] = -turned.values[i];
+    const Operand& obstacle = start_->obstacle;
+    if (obstacle.shape == Shape::plane) {
+      for (std::size_t i = obstacle.begin; i < obstacle.begin + obstacle.count; ++i)
+        turned.values[i] = -turned.values[i];
     } else if (!parts_.rectangles.empty()) {
       exchange(parts_.rectangles.front()[1], parts_.rectangles.front()[3]);
     } else {
@@ -94,7 +89,7 @@ class Rules {
   bool ball_meets_plane() const {
     DerivedCase ball = as_ball(QueryId::moving_sphere_plane);
     ball.set_vector("plane.normal", parts_.normals.front());
-    ball.set("plane.offset", index_of_role(query_.inputs, Role::offset));
+    ball.set("plane.offset", start_->obstacle.offset);
     return exact_decision(ball.question());
   }
   bool ball_meets(const Triangle& t) const {
@@ -108,7 +103,7 @@ class Rules {
     DerivedCase ball = as_ball(QueryId::moving_sphere_triangle);
     for (std::size_t k = 0; k < 3; ++k) ball.set_vector(fmt::format("triangle.v{}", k), t[k]);
     ball.set_vector("sphere.center", t[0]);
-    const std::size_t velocity = parts_of(*ball.question().query).velocities.front();
+    const std::size_t velocity = ball.question().operands().velocities.front();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const double speed : {-1.0, 1.0}) {
         Case moving = ball.question();
@@ -122,9 +117,9 @@ class Rules {
 
   std::string of_start() const {
     if (meets(c_, Precondition::starts_outside)) return "";
-    if (start_->obstacle == Obstacle::aabox) return fmt::format("{} starts in {}", one(), other());
+    if (start_->obstacle.shape == Shape::aabox) return fmt::format("{} starts in {}", one(), other());
     if (exact_decision(at_rest())) return fmt::format("{} starts in touch with {} and moves away", one(), other());
-    if (start_->obstacle == Obstacle::sphere && input_named(query_, "solid"))
+    if (start_->obstacle.shape == Shape::sphere && input_named(query_, "solid"))
       return fmt::format("{} does not move, and so never leaves {}", one(), other());
     return fmt::format("{} starts inside {}", one(), other());
   }
@@ -136,8 +131,8 @@ class Rules {
 
   const Case& c_;
   const Query& query_;
-  const Parts& parts_;
-  const std::optional<Parts::Start>& start_;
+  const Operands& parts_;
+  const std::optional<Operands::Start>& start_;
 };
 
 }  // namespace

@@ -14,12 +14,11 @@ namespace {
 constexpr int far_below_rounding = 300;  // 2^-300: below the lowest bit of any two doubles of one scene
 
 /// The position inputs of the first operand that has any, so that the operand moves as a whole.
-std::vector<std::size_t> places_of_first_thing(const Query& query) {
-  const auto thing = [&](std::size_t i) { return query.inputs[i].name.substr(0, query.inputs[i].name.find('.')); };
+std::vector<std::size_t> places_of_first_operand(const Query& query) {
   std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
-    if (query.inputs[i].role != Role::position) continue;
-    if (places.empty() || thing(i) == thing(places.front())) places.push_back(i);
+  for (const Operand& o : query.operands) {
+    for (const std::size_t at : o.positions) places.insert(places.end(), {at, at + 1, at + 2});
+    if (!places.empty()) break;
   }
   return places;
 }
@@ -27,7 +26,7 @@ std::vector<std::size_t> places_of_first_thing(const Query& query) {
 double largest_place_or_size(const Case& c) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
   }
   return largest;
@@ -43,9 +42,9 @@ bool may_flip_next_door(const Case& c) {
 
 bool touches_exactly(const Case& question) {
   const Query& query = *question.query;
-  const std::vector<std::size_t> places = places_of_first_thing(query);
+  const std::vector<std::size_t> places = places_of_first_operand(query);
   const double scale = largest_place_or_size(question);
-  if (!decides(query.kind) || places.size() % 3 != 0 || places.empty() || scale == 0) return false;
+  if (!decides(query.kind) || places.empty() || scale == 0) return false;
   if (!may_flip_next_door(question)) return false;
   constexpr std::array<std::array<double, 3>, 2> directions{
       {{0.6180339887, 0.7548776662, -0.2915026221}, {-0.3027756377, 0.4142135624, 0.8546376797}}};

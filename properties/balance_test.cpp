@@ -32,14 +32,14 @@ class AnsweredCase {
   AnsweredCase(const Case& c, const Alternative& a) : case_(c), alternative_(a) {}
 
   std::optional<Vector> given(const std::string& name) const {
-    return three(case_.query->inputs, name, [&](std::size_t i) { return case_.values[i]; });
+    return three(case_.fields(), name, [&](std::size_t i) { return case_.values[i]; });
   }
   std::optional<Vector> answered(const std::string& name) const {
     return three(case_.query->outputs, name, [&](std::size_t i) { return middle(i); });
   }
   double given_number(const std::string& name) const {
     for (std::size_t i = 0; i < case_.values.size(); ++i) {
-      if (case_.query->inputs[i].name == name) return case_.values[i];
+      if (case_.name(i) == name) return case_.values[i];
     }
     return 0;
   }
@@ -53,9 +53,9 @@ class AnsweredCase {
  private:
   double middle(std::size_t i) const { return alternative_.values[i].low / 2 + alternative_.values[i].high / 2; }
   template <class Number>
-  std::optional<Vector> three(const std::vector<Field>& fields, const std::string& name, Number number) const {
+  std::optional<Vector> three(std::span<const Field> fields, const std::string& name, Number number) const {
     for (std::size_t i = 0; i + 2 < fields.size(); ++i) {
-      const bool there = &fields == &case_.query->inputs || i + 2 < alternative_.count;
+      const bool there = fields.data() == case_.fields().data() || i + 2 < alternative_.count;
       if (fields[i].name == name + ".x" && there) return Vector{number(i), number(i + 1), number(i + 2)};
     }
     return std::nullopt;
@@ -196,7 +196,7 @@ Balance balance_of(const Query& query, Scalar scalar, int cases) {
 
 /// The features of each query: the parts of a shape on which its answers can lie. Empty for queries without features.
 std::vector<std::string> features_of(const Query& query) {
-  const auto has = [](const std::vector<Field>& fields, std::string_view beginning) {
+  const auto has = [](std::span<const Field> fields, std::string_view beginning) {
     return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.name.starts_with(beginning); });
   };
   if (has(query.outputs, "weights")) return {"face", "edge", "vertex"};

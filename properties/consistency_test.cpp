@@ -22,8 +22,7 @@ constexpr std::uint64_t cases_per_query = 1500;
 
 bool is_yes(const char* query, const Values& values) {
   const Case c{find_query(query), Scalar::float64, values, "", 0, 0, {}};
-  if (c.query->inputs.size() != values.size())
-    throw std::logic_error(std::string(query) + ": another number of inputs");
+  if (c.fields().size() != values.size()) throw std::logic_error(std::string(query) + ": another number of inputs");
   return truth_is_yes(c);
 }
 

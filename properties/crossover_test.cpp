@@ -106,7 +106,7 @@ bool flips_nearby(Case c, std::size_t number) {
 
 bool any_flips_nearby(const Case& c, const Case& before) {
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     const bool candidate = c.values == before.values || c.values[i] != before.values[i];
     if (candidate && role != Role::flag && role != Role::index && flips_nearby(c, i)) return true;
   }

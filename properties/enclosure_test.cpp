@@ -35,7 +35,7 @@ std::optional<Case> perturbed(const Case& c, std::span<const double> widening, s
   for (std::size_t i = 0; i < p.values.size(); ++i) {
     double x = c.values[i] + widening[i] * wobble(salt, i);
     while (std::abs(x - c.values[i]) > widening[i]) x = std::nextafter(x, c.values[i]);
-    p.values[i] = c.query->inputs[i].role == Role::size ? std::max(0.0, x) : x;
+    p.values[i] = c.role(i) == Role::size ? std::max(0.0, x) : x;
   }
   if (p.query->broken(p.values)) return std::nullopt;
   return p;

@@ -133,7 +133,7 @@ std::optional<Case> of_subnormals(Case c) {
   for (const double x : c.values) largest = std::max(largest, std::abs(x));
   const int least = c.scalar == Scalar::float32 ? -149 : -1074, bits = 8;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::flag || role == Role::index) continue;
     c.values[i] = std::ldexp(std::nearbyint(std::ldexp(c.values[i], bits - std::ilogb(largest))), least);
   }

@@ -13,14 +13,13 @@ namespace {
 using bodies::Body;
 using bodies::Point;
 using bodies::Real;
-using Obstacle = Parts::Start::Obstacle;
 
 Point point_at(const Case& c, std::size_t i) { return {c.values[i], c.values[i + 1], c.values[i + 2]}; }
 bodies::Vector exactly(const Case& c, std::size_t i) { return {point_at(c, i), 0}; }
 
 // Rectangles.
 
-bool has_rectangle(const Query& q) { return !parts_of(q).rectangles.empty(); }
+bool has_rectangle(const Query& q) { return !q.operands.rectangles.empty(); }
 
 bool is_true_rectangle(const Case& c) { return meets(c, Precondition::true_rectangle); }
 
@@ -30,7 +29,7 @@ struct Sides {
 };
 
 Sides sides_of(const Case& c) {
-  const Parts::Corners r = parts_of(*c.query).rectangles.front();
+  const Operands::Corners r = c.operands().rectangles.front();
   const Point v0 = point_at(c, r[0]), e = bodies::minus(point_at(c, r[1]), v0),
               f = bodies::minus(point_at(c, r[3]), v0), diagonal = bodies::minus(point_at(c, r[2]), v0);
   const bool sides = bodies::length(e) > 0 && bodies::length(f) > 0;
@@ -50,7 +49,7 @@ bool is_tilted_rectangle(const Case& c) {
 
 // Pairs of boxes.
 
-bool has_two_boxes(const Query& q) { return parts_of(q).quaternions.size() == 2; }
+bool has_two_boxes(const Query& q) { return q.operands.quaternions.size() == 2; }
 
 /// The box whose rotation begins at `quaternion`: its center and half extents are the six numbers before.
 Body box_at(const Case& c, std::size_t quaternion) {
@@ -87,7 +86,7 @@ Separation separation_of(const Body& a, const Body& b) {
 
 /// Whether the nearly parallel edges decide, by at most an eighth of the thinnest half extent.
 bool is_decided_by_crossed_edges(const Case& c, bool apart) {
-  const auto& at = parts_of(*c.query).quaternions;
+  const auto& at = c.operands().quaternions;
   const Body a = box_at(c, at[0]), b = box_at(c, at[1]);
   const Separation s = separation_of(a, b);
   const Real thinnest = std::min({a.half[0], a.half[1], a.half[2], b.half[0], b.half[1], b.half[2]});
@@ -103,9 +102,9 @@ bool overlaps_by_crossed_edges(const Case& c) { return is_decided_by_crossed_edg
 /// The moving point or ball of a case, and its obstacle.
 class Encounter {
  public:
-  explicit Encounter(const Case& c) : case_(c), start_(*parts_of(*c.query).start) {
+  explicit Encounter(const Case& c) : case_(c), start_(*c.operands().start) {
     from_ = point_at(c, start_.place);
-    velocity_ = point_at(c, parts_of(*c.query).velocities.front());
+    velocity_ = point_at(c, c.operands().velocities.front());
     radius_ = start_.radius ? c.values[*start_.radius] : 0;
     make_bodies();
   }
@@ -113,7 +112,7 @@ class Encounter {
   /// The distance of the surfaces at a time: negative inside a solid, and for a point behind something flat.
   Real distance(Real time) const { return distance_at(bodies::plus(from_, velocity_, time)); }
   Real distance_at(const Point& x) const {
-    const Real least = start_.obstacle == Obstacle::plane ? std::abs(above_plane(x)) : distance_of_bodies(x);
+    const Real least = start_.obstacle.shape == Shape::plane ? std::abs(above_plane(x)) : distance_of_bodies(x);
     return radius_ == 0 && is_behind(x) ? -least : least - radius_;
   }
 
@@ -126,7 +125,7 @@ class Encounter {
   Real scale() const {
     Real most = 0;
     for (std::size_t i = 0; i < case_.values.size(); ++i) {
-      const Role role = case_.query->inputs[i].role;
+      const Role role = case_.role(i);
       if (role == Role::position || role == Role::size) most = std::max(most, std::abs(Real(case_.values[i])));
     }
     return most;
@@ -143,40 +142,44 @@ class Encounter {
     return least;
   }
   Real above_plane(const Point& x) const {
-    const Point n = point_at(case_, start_.begin);
-    return (bodies::dot(n, x) + case_.values[start_.begin + 3]) / bodies::length(n);
+    const Point n = point_at(case_, start_.obstacle.begin);
+    return (bodies::dot(n, x) + case_.values[start_.obstacle.begin + 3]) / bodies::length(n);
   }
   bool is_behind(const Point& x) const {
-    if (start_.obstacle == Obstacle::plane) return above_plane(x) < 0;
-    if (start_.obstacle != Obstacle::triangle && start_.obstacle != Obstacle::rectangle) return false;
+    if (start_.obstacle.shape == Shape::plane) return above_plane(x) < 0;
+    if (start_.obstacle.shape != Shape::triangle && start_.obstacle.shape != Shape::rectangle) return false;
     const std::vector<Point>& v = bodies_.front().corners;
     const Point normal = bodies::cross(bodies::minus(v[1], v[0]), bodies::minus(v[2], v[0]));
     return bodies::dot(normal, bodies::minus(x, v[0])) < 0;
   }
   void make_bodies() {
-    const std::size_t i = start_.begin;
+    const std::size_t i = start_.obstacle.begin;
     const auto corner = [&](std::size_t k) { return exactly(case_, i + 3 * k); };
-    switch (start_.obstacle) {
-      case Obstacle::plane: return;
-      case Obstacle::sphere: return bodies_.push_back(bodies::ball(corner(0), {case_.values[i + 3], 0}));
-      case Obstacle::capsule: return bodies_.push_back(bodies::hull({corner(0), corner(1)}, {case_.values[i + 6], 0}));
-      case Obstacle::box: return bodies_.push_back(box_at(case_, i + 6));
-      case Obstacle::aabox: return bodies_.push_back(bodies::upright_box(corner(0), corner(1)));
-      case Obstacle::triangle: return bodies_.push_back(bodies::hull({corner(0), corner(1), corner(2)}));
-      case Obstacle::rectangle:
+    switch (start_.obstacle.shape) {
+      case Shape::plane:
+      case Shape::point:  // these four are no obstacles
+      case Shape::segment:
+      case Shape::line:
+      case Shape::ray: return;
+      case Shape::sphere: return bodies_.push_back(bodies::ball(corner(0), {case_.values[i + 3], 0}));
+      case Shape::capsule: return bodies_.push_back(bodies::hull({corner(0), corner(1)}, {case_.values[i + 6], 0}));
+      case Shape::box: return bodies_.push_back(box_at(case_, i + 6));
+      case Shape::aabox: return bodies_.push_back(bodies::upright_box(corner(0), corner(1)));
+      case Shape::triangle: return bodies_.push_back(bodies::hull({corner(0), corner(1), corner(2)}));
+      case Shape::rectangle:
         bodies_.push_back(bodies::hull({corner(0), corner(1), corner(2)}));
         bodies_.push_back(bodies::hull({corner(0), corner(2), corner(3)}));
     }
   }
 
   const Case& case_;
-  const Parts::Start& start_;
+  const Operands::Start& start_;
   Point from_{}, velocity_{};
   Real radius_ = 0;
   std::vector<Body> bodies_;
 };
 
-bool has_motion(const Query& q) { return parts_of(q).start && !parts_of(q).velocities.empty(); }
+bool has_motion(const Query& q) { return q.operands.start && !q.operands.velocities.empty(); }
 
 /// Below an ulp of double, above the rounding of a distance in long double.
 constexpr Real exact_within = 0x1p-57L;
@@ -212,7 +215,7 @@ bool starts_on_surface_inwards(const Case& c) { return way_from_surface(c) == Wa
 bool starts_on_surface_along(const Case& c) { return way_from_surface(c) == Way::along; }
 bool starts_on_surface_outwards(const Case& c) { return way_from_surface(c) == Way::out; }
 
-bool moves_past_capsule(const Query& q) { return has_motion(q) && parts_of(q).start->obstacle == Obstacle::capsule; }
+bool moves_past_capsule(const Query& q) { return has_motion(q) && q.operands.start->obstacle.shape == Shape::capsule; }
 
 /// The motion starts at least eight lengths away, is at most a tenth of a radian off the axis, and comes within an
 /// eighth of the radii to a touch.
@@ -236,7 +239,7 @@ bool has_limit(const Query& q) {
 
 double first_of_role(const Case& c, Role role) {
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == role) return c.values[i];
+    if (c.role(i) == role) return c.values[i];
   }
   return 0;
 }

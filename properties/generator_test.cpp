@@ -129,7 +129,8 @@ INSTANTIATE_FOR_EVERY_QUERY(Every, Generator, testing::ValuesIn(every_query()), 
 /// A query that the catalogue does not have: a rule between two positions, as for a box given by its corners.
 const Query& corners_query() {
   static const Query made_up = [] {
-    Query q{QueryId{}, "corners", Kind::decision, {}, {}, {}, nullptr, {}};
+    Query q{QueryId{}, "corners", Kind::decision, {}, {}, {}, {}, nullptr, {}};
+    q.operands = operands_of({{"box", Shape::aabox, Role::inherited, 6}});
     for (const char* name : {"box.min.x", "box.min.y", "box.min.z", "box.max.x", "box.max.y", "box.max.z"}) {
       q.inputs.push_back({name, Role::position});
     }

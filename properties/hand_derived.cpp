@@ -96,7 +96,7 @@ std::string_view vector_of(std::string_view name) {
 /// The inputs or the answer of a query while their fields are read.
 class NumberFields {
  public:
-  explicit NumberFields(const std::vector<Field>& fields) : fields_(&fields), values_(fields.size()) {}
+  explicit NumberFields(std::span<const Field> fields) : fields_(fields), values_(fields.size()) {}
 
   /// Reads "NAME = VALUE; NAME = VALUE" and replaces what an earlier call has set.
   void read(const std::vector<std::string_view>& assignments) {
@@ -111,30 +111,30 @@ class NumberFields {
   std::optional<std::string_view> missing() const {
     const auto at = std::find(values_.begin(), values_.end(), std::nullopt);
     if (at == values_.end()) return std::nullopt;
-    return vector_of((*fields_)[std::size_t(at - values_.begin())].name);
+    return vector_of(fields_[std::size_t(at - values_.begin())].name);
   }
   const std::vector<std::optional<double>>& values() const { return values_; }
 
  private:
   void assign(std::string_view name, std::string_view value, std::set<std::size_t>& set) {
     const auto below = [&](const Field& field) { return is_below(field.name, name); };
-    const auto first = std::find_if(fields_->begin(), fields_->end(), below);
-    if (first == fields_->end()) throw BadLine(fmt::format("the query has no number \"{}\"", name));
-    std::size_t at = std::size_t(first - fields_->begin());
-    const std::size_t end = std::size_t(std::find_if_not(first, fields_->end(), below) - fields_->begin());
+    const auto first = std::find_if(fields_.begin(), fields_.end(), below);
+    if (first == fields_.end()) throw BadLine(fmt::format("the query has no number \"{}\"", name));
+    std::size_t at = std::size_t(first - fields_.begin());
+    const std::size_t end = std::size_t(std::find_if_not(first, fields_.end(), below) - fields_.begin());
     for (const std::string_view item : split(value, ',')) {
       if (at == end) throw BadLine(fmt::format("{} has too many numbers", name));
       for (const double x : item_values(item, at)) {
-        if (!set.insert(at).second) throw BadLine(fmt::format("{} is set twice", (*fields_)[at].name));
+        if (!set.insert(at).second) throw BadLine(fmt::format("{} is set twice", fields_[at].name));
         values_[at++] = x;
       }
     }
-    if (at != end) throw BadLine(fmt::format("{} has too few numbers: {} is missing", name, (*fields_)[at].name));
+    if (at != end) throw BadLine(fmt::format("{} has too few numbers: {} is missing", name, fields_[at].name));
   }
   /// The numbers of "1" or "(1, 2, 3)", as many as the vector or scalar that begins at `at` has.
   std::vector<double> item_values(std::string_view item, std::size_t at) const {
-    const std::string_view whole = vector_of((*fields_)[at].name);
-    const auto count = std::count_if(fields_->begin() + std::ptrdiff_t(at), fields_->end(),
+    const std::string_view whole = vector_of(fields_[at].name);
+    const auto count = std::count_if(fields_.begin() + std::ptrdiff_t(at), fields_.end(),
                                      [&](const Field& field) { return vector_of(field.name) == whole; });
     std::vector<double> values;
     if (count > 1) {
@@ -150,7 +150,7 @@ class NumberFields {
     return values;
   }
 
-  const std::vector<Field>* fields_;
+  std::span<const Field> fields_;
   std::vector<std::optional<double>> values_;
 };
 

@@ -29,17 +29,16 @@ void expect_no_genuine_hit(const Pairing& pairing, double bad) {
   for (std::uint64_t i = 0; i < 300; ++i) {
     const Case c = generate(*query, subject->scalar, 77, i);
     for (std::size_t at = 0; at < c.values.size(); ++at) {
-      if (!counts(query->inputs[at].role)) continue;
+      if (!counts(c.role(at))) continue;
       // A time limit may be infinite. It has no meaning for queries without a limit.
-      if (query->inputs[at].name == "limit" && bad == std::numeric_limits<double>::infinity()) continue;
+      if (c.name(at) == "limit" && bad == std::numeric_limits<double>::infinity()) continue;
       std::vector<double> values = c.values;
       values[at] = bad;
       for (std::size_t flag = 0; flag < values.size(); ++flag) {
-        if (query->inputs[flag].name == "forever") values[flag] = 0;
+        if (c.name(flag) == "forever") values[flag] = 0;
       }
       const Answer answer = offering.answer(values);
-      ASSERT_FALSE(looks_genuine(*query, answer))
-          << query->inputs[at].name << " = " << bad << " in case " << i << " of seed 77";
+      ASSERT_FALSE(looks_genuine(*query, answer)) << c.name(at) << " = " << bad << " in case " << i << " of seed 77";
     }
   }
 }

@@ -75,7 +75,7 @@ std::size_t input(const Query& q, std::string_view name) {
 /// A point has normals in every direction, and so have two operands of size 0 where they meet.
 bool has_no_size_somewhere(const Case& c) {
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::size && c.values[i] == 0) return true;
+    if (c.role(i) == Role::size && c.values[i] == 0) return true;
   }
   return false;
 }
@@ -154,7 +154,7 @@ bool lies_on_the_surface(const Case& c, const Answer& a) {
     return std::abs(reached - radius) <= rounding + 4 * ulp(radius, c.scalar);
   }
   const std::size_t n = input(*c.query, "plane.normal.x");
-  if (n == c.query->inputs.size()) return true;
+  if (n == c.fields().size()) return true;
   long double value = c.values[n + 3], bound = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     value += static_cast<long double>(c.values[n + k]) * a.values[x + k];

@@ -47,7 +47,7 @@ struct Exchange {
 
 Exchange asked(const char* query, Numbers inputs, bool yes, const Numbers& answer, Scalar scalar = Scalar::float64) {
   Exchange a{{find_query(query), scalar, std::move(inputs), "built", 0, 0, {}}, {}};
-  EXPECT_EQ(a.question.values.size(), a.question.query->inputs.size()) << query;
+  EXPECT_EQ(a.question.values.size(), a.question.fields().size()) << query;
   EXPECT_FALSE(a.question.query->broken(a.question.values)) << query;
   a.answer.yes = yes;
   a.answer.given = (std::uint64_t{1} << answer.size()) - 1;

@@ -48,7 +48,7 @@ TEST(SceneRanges, ExcludeWhatIsNoCaseOfTheScene) {
       Case other = c;
       double largest = 0;
       for (std::size_t i = 0; i < c.values.size(); ++i) {
-        if (c.query->inputs[i].role != role) continue;
+        if (c.role(i) != role) continue;
         largest = std::max(largest, std::abs(other.values[i]));
         other.values[i] = rounded_to(c.scalar, 1e6 * other.values[i]);
       }

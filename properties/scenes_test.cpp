@@ -182,7 +182,7 @@ TEST(Scenes, CasesLieInTheWorldOfTheScene) {
     const bool ray = query_plan(*m.query)->direction.has_value();  // which may start anywhere in the cube
     const double most = scene.distance.most.value + scene.extent.value * (ray ? 2 : 1) + reach + 1;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (c.query->inputs[i].role != Role::position) continue;
+      if (c.role(i) != Role::position) continue;
       EXPECT_LE(std::abs(c.values[i]), most) << scene.name << " " << c.query->name;
     }
   });
@@ -224,8 +224,8 @@ TEST(Scenes, HitsAndMissesAreMixed) {
 
 TEST(Scenes, TheNormalOfASurfacePointBoundsTheSolid) {
   constexpr double rounding = 0x1p-45;  // some roundings of numbers of about 1
-  for (const ShapeType type : all_shape_types) {
-    if (type == ShapeType::plane) continue;
+  for (const Shape type : scene_shapes) {
+    if (type == Shape::plane) continue;
     const Sourced one{1, "test"};
     const Shapes shapes{"solid", type, one, {{0.25, "test"}, one, true}, {}};
     Random random(std::uint64_t(type) + 1);

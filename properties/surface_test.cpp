@@ -154,7 +154,7 @@ class PlaceByHand : public testing::TestWithParam<Placed> {};
 TEST_P(PlaceByHand, IsToldFromOneOffTheSurface) {
   const Placed& p = GetParam();
   const Case c{find_query(p.query), Scalar::float64, p.inputs, "hand", 0, 0, {}};
-  ASSERT_EQ(c.values.size(), c.query->inputs.size());
+  ASSERT_EQ(c.values.size(), c.fields().size());
   ASSERT_EQ(p.answer.size(), c.query->outputs.size());
   Answer a;
   a.yes = true;
@@ -196,7 +196,7 @@ std::optional<Case> perturbed(const Case& c, std::span<const double> wide, std::
   for (std::size_t i = 0; i < p.values.size(); ++i) {
     double x = c.values[i] + wide[i] * wobble(salt, i);
     while (std::abs(x - c.values[i]) > wide[i]) x = std::nextafter(x, c.values[i]);
-    p.values[i] = c.query->inputs[i].role == Role::size ? std::max(0.0, x) : x;
+    p.values[i] = c.role(i) == Role::size ? std::max(0.0, x) : x;
   }
   if (p.query->broken(p.values)) return std::nullopt;
   return p;

@@ -75,7 +75,7 @@ class SmallLattice {
     if (kind < 5) std::shuffle(v.begin(), v.end(), random_);
     return v;
   }
-  void add_next(const std::vector<Field>& fields, std::vector<double>& values) {
+  void add_next(std::span<const Field> fields, std::vector<double>& values) {
     const Field& f = fields[values.size()];
     switch (f.role) {
       case Role::flag: return values.push_back(below(2));

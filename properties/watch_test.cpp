@@ -242,7 +242,8 @@ TEST_P(Watch, WhatIsWrongIsTold) {
     std::vector<Reference> all{right_answer(c)};
     const bool has_choice = random_ != before;  // otherwise this answer is the only one
     const auto have_in_common = [&](const Layout::Part& part) {
-      const bool is_unique = part.role == Role::time || (part.role == Role::depth && all.front().yes);
+      const bool is_unique =
+          part.role == Role::time || part.role == Role::distance || (part.role == Role::depth && all.front().yes);
       if (is_unique) return true;
       while (has_choice && all.size() < draws && alike(all, part)) all.push_back(right_answer(c));
       return alike(all, part);

@@ -42,33 +42,18 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Three consecutive numbers x, y, z.
-struct VectorField {
-  std::size_t begin;
-  Role role;
-};
-
-/// A top-level member of the inputs: a shape, a point, a velocity. `sizes` are indices into the values, `positions`
-/// indices into Plan::vectors.
-struct Operand {
-  std::string name;
-  std::vector<std::size_t> positions;
-  std::vector<std::size_t> sizes;
-};
-
-/// The structure of a query's inputs, derived from names and roles.
+/// The inputs of a query, listed as the mutators need them. A vector is named by its first number.
 struct Plan {
   explicit Plan(const Query& q);
 
   const Query* query;
   std::uint64_t name_hash;
-  std::vector<VectorField> vectors;
   std::vector<std::size_t> rotations;  ///< index of the x of each quaternion x, y, z, w
   std::vector<std::size_t> sizes;      ///< one entry per number
   std::vector<std::size_t> upper;      ///< one entry per number of an axis-aligned box's upper corner
   std::vector<std::size_t> lone;       ///< numbers outside of vectors, sizes and rotations: times, flags, indices
   std::vector<Operand> operands;       ///< those with a position, in order
-  std::vector<std::size_t> positions, velocities, directions, movable;  ///< indices into vectors; movable: all three
+  std::vector<std::size_t> positions, velocities, directions, movable;  ///< movable: all three
   std::array<std::vector<std::size_t>, 16> numbers;                     ///< by role
 };
 
@@ -97,12 +82,9 @@ class CaseBuilder {
   void step_ulps(std::size_t i, int ulps);
 
   using Numbers = std::array<double, 3>;
-  Numbers vector(std::size_t v) const {
-    const std::size_t i = plan.vectors[v].begin;
-    return {values_[i], values_[i + 1], values_[i + 2]};
-  }
+  Numbers vector(std::size_t v) const { return {values_[v], values_[v + 1], values_[v + 2]}; }
   void set_vector(std::size_t v, const Numbers& x) {
-    for (std::size_t k = 0; k < 3; ++k) set(plan.vectors[v].begin + k, x[k]);
+    for (std::size_t k = 0; k < 3; ++k) set(v + k, x[k]);
   }
   /// A vector with components in [-reach, reach].
   Numbers random_vector(double reach) {

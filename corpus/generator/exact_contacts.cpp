@@ -42,15 +42,9 @@ Frame draw_frame(CaseBuilder& d) {
   return frame_of(turned);
 }
 
-bool is_upright_box(const CaseBuilder& d, const Operand& operand) {
-  const auto& upper = d.plan.upper;
-  return operand.positions.size() == 2 &&
-         std::find(upper.begin(), upper.end(), d.plan.vectors[operand.positions[1]].begin) != upper.end();
-}
-
 /// The dimension of the operand without its radius: 0 for a sphere, 1 for a capsule, 2 for a triangle, 3 for a box.
-std::size_t dimension_of(const CaseBuilder& d, const Operand& operand) {
-  if (operand.sizes.size() == 3 || is_upright_box(d, operand)) return 3;
+std::size_t dimension_of(const Operand& operand) {
+  if (operand.half || operand.shape == Shape::aabox) return 3;
   return std::min<std::size_t>(operand.positions.size() - 1, 2);
 }
 
@@ -88,10 +82,10 @@ void put_corners(CaseBuilder& d, const Operand& operand, const Block& b) {
 }
 
 void put(CaseBuilder& d, const Operand& operand, const Block& b) {
-  if (operand.sizes.size() == 3) return put_box(d, operand, b);
-  if (operand.sizes.size() == 1) d.set(operand.sizes[0], b.radius);
+  if (operand.half) return put_box(d, operand, b);
+  if (operand.radius) d.set(*operand.radius, b.radius);
   if (operand.positions.size() == 1) return d.set_vector(operand.positions[0], b.center);
-  if (!is_upright_box(d, operand)) return put_corners(d, operand, b);
+  if (operand.shape != Shape::aabox) return put_corners(d, operand, b);
   d.set_vector(operand.positions[0], b.at(plus({}, b.half, -1)));
   d.set_vector(operand.positions[1], b.at(b.half));
 }
@@ -177,9 +171,9 @@ Contact touch_plane(CaseBuilder& d, const Operand& mover, std::size_t offset) {
 }
 
 Contact touch_operand(CaseBuilder& d, const Operand& mover, const Operand& other) {
-  Block b = draw_block(d, dimension_of(d, other), d.vector(other.positions[0]));
-  if (is_upright_box(d, other)) b.frame = frame_of({0, 0, 0, 1});
-  const bool round = other.sizes.size() == 1, triangle = other.positions.size() == 3;
+  Block b = draw_block(d, dimension_of(other), d.vector(other.positions[0]));
+  if (other.shape == Shape::aabox) b.frame = frame_of({0, 0, 0, 1});
+  const bool round = other.radius.has_value(), triangle = other.shape == Shape::triangle;
   Contact c = touch(d, mover, round, triangle, b, draw_outward(d));
   put(d, other, c.block);
   return c;
@@ -214,7 +208,7 @@ Numbers motion(CaseBuilder& d, const Contact& c, double outwards) {
 
 bool true_rectangle(CaseBuilder& d) {
   for (const Operand& operand : d.plan.operands) {
-    if (operand.positions.size() != 4) continue;
+    if (operand.shape != Shape::rectangle) continue;
     Block b = draw_block(d, 2, d.vector(d.random.pick(operand.positions)));
     if (d.random.one_in(4)) b.half[0] *= d.random.power_of_two(1, 4);
     put(d, operand, b);

@@ -33,13 +33,13 @@ bool are_parallel(const Vector& a, const Vector& b) {
 }
 
 bool has_zero_size(const Case& c) {
-  const std::vector<std::size_t>& sizes = parts_of(*c.query).sizes;
+  const std::vector<std::size_t>& sizes = c.operands().sizes;
   return std::any_of(sizes.begin(), sizes.end(), [&](std::size_t i) { return c.values[i] == 0; });
 }
 
 /// Everything that has an extent beyond its radii and half extents: those are taken as 1.
 bool has_something_flat(const Case& c) {
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   if (parts.segments.empty() && parts.triangles.empty() && parts.aaboxes.empty()) return false;
   Case solid = c;
   for (const std::size_t i : parts.sizes) solid.values[i] = 1;
@@ -47,7 +47,7 @@ bool has_something_flat(const Case& c) {
 }
 
 bool has_two_places_alike(const Case& c) {
-  const std::vector<Field>& inputs = c.query->inputs;
+  const std::span<const Field> inputs = c.fields();
   const auto operand = [&](std::size_t i) {
     return std::string_view(inputs[i].name).substr(0, inputs[i].name.find('.'));
   };
@@ -65,7 +65,7 @@ bool has_two_places_alike(const Case& c) {
 
 /// The velocities, directions and normals of a case, and its segments where the difference of their ends is exact.
 std::vector<Vector> lines_of(const Case& c) {
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   std::vector<Vector> lines;
   for (const auto* list : {&parts.velocities, &parts.directions, &parts.normals}) {
     for (const std::size_t i : *list) lines.push_back(vector_at(c, i));
@@ -99,7 +99,7 @@ bool maps_axes_to_axes(const double* q) {
 }
 
 bool has_something_turned(const Case& c) {
-  const std::vector<std::size_t>& all = parts_of(*c.query).quaternions;
+  const std::vector<std::size_t>& all = c.operands().quaternions;
   return std::any_of(all.begin(), all.end(), [&](std::size_t i) { return !maps_axes_to_axes(&c.values[i]); });
 }
 

@@ -35,7 +35,7 @@ bool finite(const Case& c) {
 
 class Fitting {
  public:
-  explicit Fitting(Case& c) : c_(c), parts_(parts_of(*c.query)), random_(hash_of(c)) {}
+  explicit Fitting(Case& c) : c_(c), parts_(c.operands()), random_(hash_of(c)) {}
 
   void rectangles() {
     for (const auto& r : parts_.rectangles) {
@@ -63,15 +63,15 @@ class Fitting {
       const long double length = length_of(begin, count);
       for (std::size_t i = begin; i < begin + count; ++i) set(i, double(c_.values[i] / length));
       const std::size_t offset = begin + count;  // of a plane, which keeps its place
-      const bool plane = offset < c_.values.size() && c_.query->inputs[offset].role == Role::offset;
+      const bool plane = offset < c_.values.size() && c_.role(offset) == Role::offset;
       if (plane) set(offset, double(c_.values[offset] / length));
     }
   }
   void moves() {
     for (const std::size_t v : parts_.velocities) {
       if (get(v) != Vector{0, 0, 0}) continue;
-      const Vector towards = parts_.start && parts_.start->obstacle != Parts::Start::Obstacle::plane
-                                 ? get(parts_.start->begin) - get(parts_.start->place)
+      const Vector towards = parts_.start && parts_.start->obstacle.shape != Shape::plane
+                                 ? get(parts_.start->obstacle.begin) - get(parts_.start->place)
                                  : Vector{};
       set(v, towards);
       if (get(v) == Vector{0, 0, 0}) set(v + random_.below(3), random_.sign());
@@ -89,7 +89,7 @@ class Fitting {
     if (!leave(from, axis)) set(parts_.start->place, from);
   }
 
-  const Parts& parts() const { return parts_; }
+  const Operands& parts() const { return parts_; }
 
  private:
   Vector get(std::size_t i) const { return {c_.values[i], c_.values[i + 1], c_.values[i + 2]}; }
@@ -105,7 +105,7 @@ class Fitting {
   double largest_of(Role role) const {
     double most = 0;
     for (std::size_t i = 0; i < c_.values.size(); ++i) {
-      if (c_.query->inputs[i].role == role) most = std::max(most, std::abs(c_.values[i]));
+      if (c_.role(i) == role) most = std::max(most, std::abs(c_.values[i]));
     }
     return most;
   }
@@ -131,14 +131,14 @@ class Fitting {
   }
 
   /// v1 stays, v2 turns to a right angle as far as rounding allows, v3 completes the parallelogram.
-  void right_angle(const Parts::Corners& r) {
+  void right_angle(const Operands::Corners& r) {
     const Vector e = get(r[1]) - get(r[0]), g = get(r[2]) - get(r[1]);
     if (!(dot(e, e) > 0)) return;
     set(r[2], get(r[1]) + (g - e * (dot(g, e) / dot(e, e))));
     set(r[3], get(r[0]) + (get(r[2]) - get(r[1])));
   }
   /// Exact corners: integer multiples of an orthogonal frame of small integers, on a grid.
-  void on_a_grid(const Parts::Corners& r) {
+  void on_a_grid(const Operands::Corners& r) {
     static constexpr std::array<std::array<Vector, 2>, 6> frames = {{{{{1, 0, 0}, {0, 1, 0}}},
                                                                      {{{0, 0, 1}, {1, 0, 0}}},
                                                                      {{{0, 1, 0}, {0, 0, 1}}},
@@ -179,7 +179,7 @@ class Fitting {
   }
 
   Case& c_;
-  const Parts& parts_;
+  const Operands& parts_;
   Random random_;
 };
 

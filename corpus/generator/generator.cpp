@@ -13,33 +13,10 @@ namespace {
 
 constexpr std::size_t most_mutators = 64;
 
-std::string_view parent(std::string_view name) { return name.substr(0, name.rfind('.')); }
-std::string_view last(std::string_view name) { return name.substr(name.rfind('.') + 1); }
-std::string_view first(std::string_view name) { return name.substr(0, name.find('.')); }
-
-/// The number of fields from i on that have the same parent and the names x, y, z, w in this order.
-std::size_t components_at(const std::vector<Field>& fields, std::size_t i) {
-  constexpr std::string_view names[] = {"x", "y", "z", "w"};
-  std::size_t n = 0;
-  while (n < 4 && i + n < fields.size() && last(fields[i + n].name) == names[n] &&
-         parent(fields[i + n].name) == parent(fields[i].name)) {
-    ++n;
-  }
-  return n;
-}
-
 std::uint64_t hash(std::string_view text) {  // FNV-1a
   std::uint64_t h = 0xcbf29ce484222325;
   for (unsigned char c : text) h = (h ^ c) * 0x100000001b3;
   return h;
-}
-
-Operand& operand_of(std::vector<Operand>& operands, std::string_view name) {
-  for (Operand& t : operands) {
-    if (t.name == name) return t;
-  }
-  operands.push_back({std::string(name), {}, {}});
-  return operands.back();
 }
 
 bool is_movable(Role role) { return role == Role::position || role == Role::velocity || role == Role::direction; }
@@ -114,34 +91,23 @@ bool attempt(Case& c, const Plan& plan, Random& random) {
 }  // namespace
 
 Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
-  const std::vector<Field>& fields = q.inputs;
-  std::vector<Operand> all;
-  for (std::size_t i = 0; i < fields.size(); ++i) numbers[std::size_t(fields[i].role)].push_back(i);
-  for (std::size_t i = 0; i < fields.size();) {
-    const Role role = fields[i].role;
-    Operand& operand = operand_of(all, first(fields[i].name));
-    const std::size_t n = components_at(fields, i);
-    if (n == 4 && role == Role::rotation) {
-      rotations.push_back(i);
-    } else if (role == Role::size) {
-      for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) {
-        sizes.push_back(k);
-        operand.sizes.push_back(k);
-      }
-    } else if (n == 3 && is_movable(role)) {
-      if (role == Role::position && fields[i].name.ends_with(".max.x")) upper.insert(upper.end(), {i, i + 1, i + 2});
-      const std::size_t v = vectors.size();
-      vectors.push_back({i, role});
-      movable.push_back(v);
-      (role == Role::position ? positions : role == Role::velocity ? velocities : directions).push_back(v);
-      if (role == Role::position) operand.positions.push_back(v);
+  for (std::size_t i = 0; i < q.inputs.size(); ++i) numbers[std::size_t(q.inputs[i].role)].push_back(i);
+  for (const InputMember& m : q.operands.members) {
+    if (m.role == Role::rotation) {
+      rotations.push_back(m.begin);
+    } else if (m.is_vector() && is_movable(m.role)) {
+      movable.push_back(m.begin);
+      (m.role == Role::position ? positions : m.role == Role::velocity ? velocities : directions).push_back(m.begin);
     } else {
-      for (std::size_t k = i; k < i + std::max<std::size_t>(n, 1); ++k) lone.push_back(k);
+      auto& list = m.role == Role::size ? sizes : lone;
+      for (std::size_t k = 0; k < m.count; ++k) list.push_back(m.begin + k);
     }
-    i += std::max<std::size_t>(n, 1);
   }
-  std::copy_if(all.begin(), all.end(), std::back_inserter(operands),
-               [](const Operand& t) { return !t.positions.empty(); });
+  for (const Operand& operand : q.operands) {
+    if (!operand.positions.empty()) operands.push_back(operand);
+    if (operand.shape == Shape::aabox)
+      upper.insert(upper.end(), {operand.begin + 3, operand.begin + 4, operand.begin + 5});
+  }
 }
 
 [[gnu::noinline]] double rounded_to(Scalar scalar, double x) {
@@ -161,9 +127,8 @@ void CaseBuilder::repair() {
     return std::all_of(&values_[begin], &values_[begin] + n, [](double x) { return x == 0; });
   };
   for (std::size_t v : plan.directions) {
-    const std::size_t begin = plan.vectors[v].begin;
     const std::size_t k = random.below(3);
-    if (all_zero(begin, 3)) set(begin + k, random.sign());
+    if (all_zero(v, 3)) set(v + k, random.sign());
   }
   for (std::size_t begin : plan.rotations) {
     if (all_zero(begin, 4)) set(begin + 3, 1);

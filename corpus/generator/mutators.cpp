@@ -53,13 +53,13 @@ bool shared_coordinate(CaseBuilder& d) {
   if (d.plan.positions.size() < 2) return false;
   const auto [to, from] = d.two_of(d.plan.positions);
   const std::size_t k = d.random.below(3);
-  d.set(d.plan.vectors[to].begin + k, d.vector(from)[k]);
+  d.set(to + k, d.vector(from)[k]);
   return true;
 }
 
 bool zero_component(CaseBuilder& d) {
   if (d.plan.movable.empty()) return false;
-  const std::size_t begin = d.plan.vectors[d.random.pick(d.plan.movable)].begin;
+  const std::size_t begin = d.random.pick(d.plan.movable);
   d.set(begin + d.random.below(3), 0);
   d.repair();
   return true;
@@ -190,7 +190,7 @@ bool axis_velocity(CaseBuilder& d) {
 bool scaled_velocity(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
   const double factor = d.random.power_of_two(-d.orders(8, 30), d.orders(8, 30));
-  const std::size_t begin = d.plan.vectors[d.random.pick(d.plan.velocities)].begin;
+  const std::size_t begin = d.random.pick(d.plan.velocities);
   for (std::size_t k = 0; k < 3; ++k) d.scale(begin + k, factor);
   return true;
 }
@@ -210,7 +210,7 @@ bool aimed_at_corner(CaseBuilder& d) {
   if (d.plan.velocities.empty()) return false;
   const Operand* box = nullptr;
   for (const Operand& t : d.plan.operands) {
-    if (t.sizes.size() == 3) box = &t;
+    if (t.half) box = &t;
   }
   if (box == nullptr || d.plan.positions.empty()) return false;
   for (std::size_t begin : d.plan.rotations) {
@@ -232,7 +232,7 @@ bool aimed_at_corner(CaseBuilder& d) {
 bool some_direction(CaseBuilder& d, std::size_t but, Numbers& out) {
   const auto& list = d.plan.movable;
   const std::size_t v = list[d.random.below(list.size())];
-  if (d.plan.vectors[v].role != Role::position) {
+  if (d.plan.query->inputs[v].role != Role::position) {
     out = d.vector(v);
     return v != but;
   }
@@ -389,7 +389,7 @@ bool touching_pair(CaseBuilder& d, const Operand*& a, const Operand*& b) {
 /// The extent of the operand along axis k, for a sphere or an unrotated box.
 double reach_along(const CaseBuilder& d, const Operand& operand, std::size_t k) {
   if (operand.sizes.empty()) return 0;
-  return d[operand.sizes[operand.sizes.size() == 3 ? k : 0]];
+  return d[operand.half ? *operand.half + k : operand.sizes[0]];
 }
 
 bool touch_by_size(CaseBuilder& d) {
@@ -399,7 +399,7 @@ bool touch_by_size(CaseBuilder& d) {
   const double from = d.vector(d.random.pick(a->positions))[k];
   const double apart = std::abs(from - d.vector(d.random.pick(b->positions))[k]);
   const double rest = apart - reach_along(d, *b, k);
-  const std::size_t size = a->sizes[a->sizes.size() == 3 ? k : d.random.below(a->sizes.size())];
+  const std::size_t size = a->half ? *a->half + k : a->sizes[d.random.below(a->sizes.size())];
   d.set(size, rest > 0 ? rest : apart);
   return true;
 }
@@ -424,13 +424,13 @@ bool touch_at_edge_or_vertex(CaseBuilder& d) {
   const std::size_t first = d.random.below(operands.size());
   const Operand& round = operands[first];
   const Operand& other = operands[(first + 1 + d.random.below(operands.size() - 1)) % operands.size()];
-  if (round.sizes.size() != 1) return false;
+  if (!round.radius) return false;
   const auto& sides = whole_diagonals[d.random.below(std::size(whole_diagonals))];
   const std::size_t turn = d.random.below(3);
   const double step = d.unit * d.random.power_of_two(-6, -2);
   Numbers at = d.vector(d.random.pick(other.positions));
   double reach = sides[3] * step;
-  const bool box = other.sizes.size() == 3;
+  const bool box = other.half.has_value();
   if (box) identity_rotation(d);
   for (std::size_t k = 0; k < 3; ++k) {
     const double side = d.random.sign(), apart = sides[(k + turn) % 3] * step;
@@ -440,7 +440,7 @@ bool touch_at_edge_or_vertex(CaseBuilder& d) {
                                       : 0.125 * d.random.between(-8, 8) * d[other.sizes[k]];
     at[k] += side * (corner + apart);
   }
-  if (!box && other.sizes.size() == 1) {  // two spheres or capsules share the distance
+  if (!box && other.radius) {  // two spheres or capsules share the distance
     const double theirs = 0.125 * d.random.between(0, 8) * reach;
     d.set(other.sizes[0], theirs);
     reach -= theirs;
@@ -454,7 +454,7 @@ bool touch_at_edge_or_vertex(CaseBuilder& d) {
 bool touch_by_diagonals(CaseBuilder& d) {
   std::vector<const Operand*> boxes;
   for (const Operand& t : d.plan.operands) {
-    if (t.sizes.size() == 3) boxes.push_back(&t);
+    if (t.half) boxes.push_back(&t);
   }
   if (boxes.size() < 2) return false;
   const auto& sides = whole_diagonals[d.random.below(std::size(whole_diagonals))];
@@ -488,13 +488,13 @@ bool mirrored(CaseBuilder& d) {
     x[k] = plane - (x[k] - plane);
     d.set_vector(at(start + to), x);
   };
-  if (count == 3) d.set(d.plan.vectors[at(start)].begin + k, plane);
+  if (count == 3) d.set(at(start) + k, plane);
   if (count == 2) mirror(0, 1);
   if (count == 3) mirror(1, 2);
   if (count == 4) {
     const bool folded = d.random.one_in(2);  // along its diagonal from the first corner
     if (folded) {
-      for (std::size_t i : {0, 2}) d.set(d.plan.vectors[shape.positions[i]].begin + k, plane);
+      for (std::size_t i : {0, 2}) d.set(shape.positions[i] + k, plane);
       Numbers x = d.vector(shape.positions[1]);
       x[k] = plane - (x[k] - plane);
       d.set_vector(shape.positions[3], x);
@@ -503,7 +503,7 @@ bool mirrored(CaseBuilder& d) {
       mirror(0, 3);
     }
   }
-  for (std::size_t v : d.plan.velocities) d.set(d.plan.vectors[v].begin + k, 0);
+  for (std::size_t v : d.plan.velocities) d.set(v + k, 0);
   return true;
 }
 
@@ -513,7 +513,7 @@ bool touch_by_plane(CaseBuilder& d) {
   if (offsets.empty() || d.plan.operands.empty()) return false;
   const std::size_t at = d.random.pick(offsets), k = d.random.below(3);  // its normal is the three numbers before
   const Operand& operand = d.random.pick(d.plan.operands);
-  if (operand.sizes.size() == 3) identity_rotation(d);
+  if (operand.half) identity_rotation(d);
   const double length = d.random.power_of_two(-1, 1), side = d.random.sign(), over = d.random.sign();
   for (std::size_t i = 0; i < 3; ++i) d.set(at - 3 + i, i == k ? side * length : 0.0);
   const double reached = d.vector(d.random.pick(operand.positions))[k] + over * reach_along(d, operand, k);

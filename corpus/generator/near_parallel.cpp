@@ -121,14 +121,14 @@ double reach(const CaseBuilder& d, const CrossedBoxes& c) {
 bool choose_boxes(const CaseBuilder& d, CrossedBoxes& c) {
   std::size_t count = 0;
   for (const Operand& t : d.plan.operands) {
-    if (t.sizes.size() == 3 && count < 2) c.box[count++] = &t;
+    if (t.half && count < 2) c.box[count++] = &t;
   }
   return count == 2 && d.plan.rotations.size() == 2;
 }
 
 const Operand* capsule_of(const CaseBuilder& d) {
   for (const Operand& t : d.plan.operands) {
-    if (t.positions.size() == 2 && t.sizes.size() == 1) return &t;
+    if (t.shape == Shape::capsule) return &t;
   }
   return nullptr;
 }

@@ -66,7 +66,7 @@ void put_rectangle(CaseBuilder& d, const Operand& operand, const Placed& at) {
 
 void put(CaseBuilder& d, const Operand& operand, const Placed& at) {
   const bool single = operand.positions.size() == 1;
-  if (operand.positions.size() == 4 && d.random.one_in(2)) return put_rectangle(d, operand, at);
+  if (operand.shape == Shape::rectangle && d.random.one_in(2)) return put_rectangle(d, operand, at);
   for (std::size_t v : operand.positions) {
     d.set_vector(v, single ? at.center : plus(at.center, d.random_vector(1.5 * d.unit)));
   }

@@ -19,21 +19,19 @@ constexpr double ratios[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 
 constexpr double angles[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16};
 
 bool has(const Query& query, Role role) {
-  return std::any_of(query.inputs.begin(), query.inputs.end(), [&](const Field& f) { return f.role == role; });
+  return std::ranges::find(query.operands.members, role, &InputMember::role) != query.operands.members.end();
 }
 
 /// A direction, and another direction or an edge near which it is placed.
 bool turns_a_direction(const Query& query) {
-  const auto numbers = [&](Role role) {
-    return std::count_if(query.inputs.begin(), query.inputs.end(), [&](const Field& f) { return f.role == role; });
-  };
-  return numbers(Role::direction) >= 6 || (numbers(Role::direction) > 0 && numbers(Role::position) >= 9);
+  const auto vectors = [&](Role role) { return std::ranges::count(query.operands.members, role, &InputMember::role); };
+  return vectors(Role::direction) >= 2 || (vectors(Role::direction) > 0 && vectors(Role::position) >= 3);
 }
 
 /// The numbers of a case in double, rounded to the scalar only at the end.
 class MovedCase {
  public:
-  MovedCase(const Case& c, std::uint64_t seed) : fields_(c.query->inputs), values(c.values), random_(seed) {}
+  MovedCase(const Case& c, std::uint64_t seed) : fields_(c.fields()), values(c.values), random_(seed) {}
 
   void apply(ExtremeAxis axis, double x) {
     switch (axis) {
@@ -46,7 +44,7 @@ class MovedCase {
   }
 
  private:
-  const std::vector<Field>& fields_;
+  const std::span<const Field> fields_;
 
  public:
   std::vector<double> values;

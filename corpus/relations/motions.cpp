@@ -12,27 +12,16 @@ namespace nearmiss::metamorphic {
 
 namespace {
 
-/// The index of the moving operand's position; empty if no operand moves.
-std::optional<std::size_t> moving_position(const Case& c) {
-  const auto& fields = c.query->inputs;
-  const std::size_t velocity = index_of(fields, "velocity.x");
-  if (velocity == fields.size()) return std::nullopt;
-  for (std::size_t i = 0; i < velocity; ++i) {
-    if (fields[i].role == Role::position) return i;
-  }
-  return std::nullopt;
-}
-
 /// The case at a later time, if it is exact.
 std::optional<Case> later(const Case& c, double time) {
-  const auto at = moving_position(c);
-  if (!at) return std::nullopt;
-  const std::size_t velocity = index_of(c.query->inputs, "velocity.x");
+  const Operand& mover = c.operands()[0];
+  if (!mover.velocity) return std::nullopt;
   Case other = c;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto moved = exact_step(c.values[*at + k], time, c.values[velocity + k], c.scalar);
+    const std::size_t at = mover.positions[0] + k;
+    const auto moved = exact_step(c.values[at], time, c.values[*mover.velocity + k], c.scalar);
     if (!moved) return std::nullopt;
-    other.values[*at + k] = *moved;
+    other.values[at] = *moved;
   }
   return other;
 }
@@ -44,7 +33,7 @@ std::optional<FollowUps> later_start(const Case& c, std::uint64_t seed) {
   const double shift = Random(seed).power_of_two(-6, 0);
   const auto other = later(c, shift);
   if (!other || other->values == c.values) return std::nullopt;
-  const std::size_t time = index_of(c.query->outputs, "time");
+  const std::size_t time = time_of(*c.query);
   const Scalar scalar = c.scalar;
   FollowUps follow_ups = ordered({*other}, [=](const Answer& own, std::span<const Answer> others) {
     const Answer& shifted = others[0];

@@ -17,13 +17,9 @@ int swapped_box_axis(int axis) {
   return 6 + 3 * ((axis - 6) % 3) + (axis - 6) / 3;
 }
 
-/// The index of the first two directions.
 bool nearly_parallel_directions(const Case& c) {
-  std::vector<long double> v;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::direction) v.push_back(c.values[i]);
-  }
-  const long double ax = v.at(0), ay = v.at(1), az = v.at(2), bx = v.at(3), by = v.at(4), bz = v.at(5);
+  const double *a = &c.values[c.operands().directions.at(0)], *b = &c.values[c.operands().directions.at(1)];
+  const long double ax = a[0], ay = a[1], az = a[2], bx = b[0], by = b[1], bz = b[2];
   const long double cx = ay * bz - az * by, cy = az * bx - ax * bz, cz = ax * by - ay * bx;
   constexpr long double beyond_rounding = 0x1p-40L;
   return cx * cx + cy * cy + cz * cz <= beyond_rounding * (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz);
@@ -33,17 +29,11 @@ bool nearly_parallel_directions(const Case& c) {
 
 std::optional<FollowUps> turned_corners(const Case& c, std::uint64_t) {
   Case other = c;
-  const auto triangles = triangles_of(c), rectangles = rectangles_of(c);
-  for (const std::string& t : triangles) {
-    exchange(other, t + ".v0", t + ".v1");
-    exchange(other, t + ".v1", t + ".v2");
+  for (const Operand& o : c.operands()) {
+    if (o.shape == Shape::triangle) reorder(other, o, {1, 2, 0});
+    if (o.shape == Shape::rectangle) reorder(other, o, {2, 3, 0, 1});
+    if (o.shape == Shape::segment || o.shape == Shape::capsule) reorder(other, o, {1, 0});
   }
-  for (const std::string& t : rectangles) {
-    exchange(other, t + ".v0", t + ".v2");
-    exchange(other, t + ".v1", t + ".v3");
-  }
-  for (const std::string& t : operands_with(c, "v1", "v2")) exchange(other, t + ".v0", t + ".v1");
-  for (const std::string& t : operands_with(c, "p1", "p2")) exchange(other, t + ".p0", t + ".p1");
   if (other.values == c.values) return std::nullopt;
   const Query& query = *c.query;
   return counterpart(std::move(other), [&query](const Answer& own) {
@@ -63,8 +53,7 @@ std::optional<FollowUps> turned_corners(const Case& c, std::uint64_t) {
 std::optional<FollowUps> reversed_corners(const Case& c, std::uint64_t) {
   if (c.query->traits.one_sided) return std::nullopt;
   Case other = c;
-  for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
-  for (const std::string& t : rectangles_of(c)) exchange(other, t + ".v1", t + ".v3");
+  reverse_corners(other);
   if (other.values == c.values) return std::nullopt;
   const Query& query = *c.query;
   return counterpart(std::move(other), [&query](const Answer& own) {
@@ -78,23 +67,17 @@ std::optional<FollowUps> reversed_corners(const Case& c, std::uint64_t) {
   });
 }
 
-/// Exchanges the operands whose names end with 1 and 2.
+/// Exchanges the two operands.
 std::optional<FollowUps> swapped(const Case& c, std::uint64_t) {
   const Query& query = *c.query;
   const Exchange allowed = query.traits.exchange;
   if (allowed == Exchange::none) return std::nullopt;
   if (allowed == Exchange::unless_nearly_parallel && nearly_parallel_directions(c)) return std::nullopt;
   Case other = c;
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
-    const std::string& name = query.inputs[i].name;
-    const std::size_t dot = name.find('.');
-    if (dot != std::string::npos && dot > 0 && name[dot - 1] == '1') {
-      std::string twin = name;
-      twin[dot - 1] = '2';
-      std::swap(other.values[i], value(other, twin));
-    } else if (query.inputs[i].role == Role::index) {
-      other.values[i] = swapped_box_axis(int(c.values[i]));
-    }
+  const Operand &one = c.operands()[0], &two = c.operands()[1];
+  std::swap_ranges(&other.values[one.begin], &other.values[one.begin] + one.count, &other.values[two.begin]);
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (c.role(i) == Role::index) other.values[i] = swapped_box_axis(int(c.values[i]));
   }
   return counterpart(std::move(other), [&query](const Answer& own) {
     Answer a = own;
@@ -124,7 +107,7 @@ std::optional<FollowUps> reversed_directions(const Case& c, std::uint64_t) {
   if (!c.query->traits.directions_are_lines) return std::nullopt;
   Case other = c;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::direction) other.values[i] = -c.values[i];
+    if (c.role(i) == Role::direction) other.values[i] = -c.values[i];
   }
   return counterpart(std::move(other), [](const Answer& a) { return a; });
 }

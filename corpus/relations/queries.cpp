@@ -44,7 +44,7 @@ FollowUps same_answer(const Case& c, const Link& link) {
 /// A hit of the first query is a hit of the second, no later; at the same time, unless it may be earlier.
 FollowUps hit_at_the_same_time(const Case& c, const Link& link, bool or_earlier = false) {
   Case other = recast(c, link);
-  const std::size_t ours = index_of(c.query->outputs, "time"), theirs = index_of(other.query->outputs, "time");
+  const std::size_t ours = time_of(*c.query), theirs = time_of(*other.query);
   return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
     if (!own.yes) return Agreement::same;
     if (!others[0].yes) return Agreement::decisions_differ;
@@ -55,15 +55,16 @@ FollowUps hit_at_the_same_time(const Case& c, const Link& link, bool or_earlier 
   });
 }
 
-bool are_equal(const Case& c, const std::string& a, const std::string& b) {
-  for (const char* k : {".x", ".y", ".z"}) {
-    if (value(c, a + k) != value(c, b + k)) return false;
-  }
-  return true;
+/// The two ends of the capsule are one point.
+bool is_ball(const Case& c) {
+  const Operand& capsule = *c.operands().find(Shape::capsule);
+  return std::equal(&c.values[capsule.positions[0]], &c.values[capsule.positions[0]] + 3,
+                    &c.values[capsule.positions[1]]);
 }
 
-bool has_no_extents(const Case& c) {
-  return value(c, "box.half.x") == 0 && value(c, "box.half.y") == 0 && value(c, "box.half.z") == 0;
+bool box_has_no_extents(const Case& c) {
+  const std::vector<std::size_t>& sizes = c.operands().find(Shape::box)->sizes;
+  return std::all_of(sizes.begin(), sizes.end(), [&](std::size_t i) { return c.values[i] == 0; });
 }
 
 /// The times of the answers to two halves and to the whole, as far as they can be compared.
@@ -87,11 +88,11 @@ std::optional<FollowUps> prepared(const Case& c, std::uint64_t) {
 /// point that starts there: then only the times are compared.
 std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::capsule_as_sphere);
-  if (link != nullptr && are_equal(c, "capsule.p0", "capsule.p1")) {
+  if (link != nullptr && is_ball(c)) {
     return link->times_alone ? hit_at_the_same_time(c, *link) : same_answer(c, *link);
   }
   link = link_of(c, Link::Kind::box_as_point);
-  if (link == nullptr || !has_no_extents(c)) return std::nullopt;
+  if (link == nullptr || !box_has_no_extents(c)) return std::nullopt;
   return same_answer(c, *link);
 }
 
@@ -100,7 +101,7 @@ std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
 std::optional<FollowUps> sphere_as_point(const Case& c, std::uint64_t) {
   if (const Link* link = link_of(c, Link::Kind::point_as_sphere)) return hit_at_the_same_time(c, *link, true);
   const Link* link = link_of(c, Link::Kind::sphere_as_point);
-  if (link == nullptr || value(c, "sphere.radius") != 0) return std::nullopt;
+  if (link == nullptr || c.values[*c.operands()[0].radius] != 0) return std::nullopt;
   return same_answer(c, *link);
 }
 
@@ -112,7 +113,7 @@ std::optional<FollowUps> two_triangles(const Case& c, std::uint64_t) {
   constexpr std::array<Link::Renamed, 3> second = {
       {{"triangle.v0", "rectangle.v0"}, {"triangle.v1", "rectangle.v2"}, {"triangle.v2", "rectangle.v3"}}};
   const bool impact = c.query->kind == Kind::impact;
-  const std::size_t ours = index_of(c.query->outputs, "time"), theirs = index_of(query_of(link->to).outputs, "time");
+  const std::size_t ours = time_of(*c.query), theirs = time_of(query_of(link->to));
   return ordered({recast(c, *link, first), recast(c, *link, second)},
                  [=, scalar = c.scalar](const Answer& own, std::span<const Answer> halves) {
                    if (own.yes != (halves[0].yes || halves[1].yes)) return Agreement::decisions_differ;
@@ -152,12 +153,14 @@ std::optional<FollowUps> hits_pass(const Case& c, std::uint64_t) {
 
 /// A point hits a flat one-sided shape from at most one of its two sides.
 std::optional<FollowUps> other_side(const Case& c, std::uint64_t) {
-  if (!c.query->traits.one_sided || !has(c, "point.x") || !rectangles_of(c).empty()) return std::nullopt;
+  const Operands& operands = c.operands();
+  const bool is_of_point = operands[0].shape == Shape::point && operands.rectangles.empty();
+  if (!c.query->traits.one_sided || !is_of_point) return std::nullopt;
   Case other = c;
-  for (const char* name : {"plane.normal.x", "plane.normal.y", "plane.normal.z", "plane.offset"}) {
-    if (has(c, name)) value(other, name) = -value(c, name);
+  if (const Operand* plane = operands.find(Shape::plane)) {
+    for (std::size_t i = plane->begin; i < plane->begin + plane->count; ++i) other.values[i] = -c.values[i];
   }
-  for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
+  reverse_corners(other);
   return ordered({std::move(other)}, [](const Answer& own, std::span<const Answer> others) {
     return own.yes && others[0].yes ? Agreement::decisions_differ : Agreement::same;
   });

@@ -34,7 +34,7 @@ const Link* link_of(const Case& c, Link::Kind kind) {
 
 Case recast(const Case& c, const Link& link, std::span<const Link::Renamed> renamed) {
   Case other{&query_of(link.to), c.scalar, {}, c.origin, c.seed, c.index, c.moves};
-  for (const Field& f : other.query->inputs) {
+  for (const Field& f : other.fields()) {
     const std::string name = name_here(f.name, link, renamed);
     const bool w = f.role == Role::rotation && last(f.name) == "w";
     const double otherwise = f.name == link.set.name ? link.set.value : w ? 1.0 : 0.0;

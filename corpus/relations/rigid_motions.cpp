@@ -16,20 +16,18 @@ using Vector = std::array<double, 3>;
 
 /// Adds `shift` to every position and moves planes with it; false if that is not exact.
 bool translate(Case& c, const Vector& shift) {
-  const auto& fields = c.query->inputs;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (fields[i].role == Role::position && vector_at(fields, i)) {
+  for (const Operand& o : c.operands()) {
+    for (const std::size_t i : o.positions) {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto sum = exact_sum(c.values[i + k], shift[k], c.scalar);
         if (!sum) return false;
         c.values[i + k] = *sum;
       }
-    } else if (fields[i].role == Role::offset) {  // it follows the plane's normal
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto moved = exact_step(c.values[i], -c.values[i - 3 + k], shift[k], c.scalar);
-        if (!moved) return false;
-        c.values[i] = *moved;
-      }
+    }
+    for (std::size_t k = 0; o.offset && k < 3; ++k) {
+      const auto moved = exact_step(c.values[*o.offset], -c.values[*o.direction + k], shift[k], c.scalar);
+      if (!moved) return false;
+      c.values[*o.offset] = *moved;
     }
   }
   return true;
@@ -102,30 +100,24 @@ std::optional<double> exact_combination(const std::array<int, N>& factors, const
 /// The case rotated and scaled by `factor`; empty if that is not exact.
 std::optional<Case> turned(const Case& c, const WholeRotation& r) {
   Case other = c;
-  const auto& fields = c.query->inputs;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    std::optional<double> x = c.values[i];
-    switch (fields[i].role) {
-      case Role::position:
-      case Role::velocity:
-      case Role::direction: {
-        const std::size_t k = std::size_t(last(fields[i].name)[0] - 'x');
-        x = exact_combination(r.rows[k], &c.values[i - k], c.scalar);
-        break;
+  const auto [a, b, d, w] = r.quaternion;  // the product of both, one row per component
+  const std::array<std::array<int, 4>, 4> product{{{w, -d, b, a}, {d, w, -a, b}, {-b, a, w, d}, {-a, -b, -d, w}}};
+  for (const InputMember& m : c.operands().members) {
+    const double* numbers = &c.values[m.begin];
+    for (std::size_t k = 0; k < m.count; ++k) {
+      std::optional<double> x = numbers[k];
+      switch (m.role) {
+        case Role::position:
+        case Role::velocity:
+        case Role::direction: x = exact_combination(r.rows[k], numbers, c.scalar); break;
+        case Role::rotation: x = exact_combination(product[k], numbers, c.scalar); break;
+        case Role::size: x = exact_product(r.factor, numbers[k], c.scalar); break;
+        case Role::offset: x = exact_product(r.factor * r.factor, numbers[k], c.scalar); break;
+        default: break;
       }
-      case Role::rotation: {
-        const auto [a, b, d, w] = r.quaternion;  // the product of both, one row per component
-        const std::array<std::array<int, 4>, 4> product{{{w, -d, b, a}, {d, w, -a, b}, {-b, a, w, d}, {-a, -b, -d, w}}};
-        const std::size_t k = std::string_view("xyzw").find(last(fields[i].name));
-        x = exact_combination(product[k], &c.values[i - k], c.scalar);
-        break;
-      }
-      case Role::size: x = exact_product(r.factor, c.values[i], c.scalar); break;
-      case Role::offset: x = exact_product(r.factor * r.factor, c.values[i], c.scalar); break;
-      default: break;
+      if (!x) return std::nullopt;
+      other.values[m.begin + k] = *x;
     }
-    if (!x) return std::nullopt;
-    other.values[i] = *x;
   }
   return other;
 }
@@ -135,9 +127,7 @@ std::optional<Case> turned(const Case& c, const WholeRotation& r) {
 std::optional<FollowUps> rotated(const Case& c, std::uint64_t seed) {
   // A projection along a coordinate axis, or an axis-aligned box, changes under rotation. Directions and normals are
   // not exact after rotation.
-  const auto& fields = c.query->inputs;
-  const bool upright =
-      std::any_of(fields.begin(), fields.end(), [](const Field& f) { return f.name.ends_with(".min.x"); });
+  const bool upright = c.operands().find(Shape::aabox) != nullptr;
   const Traits& traits = c.query->traits;
   const bool turns = !upright && !traits.projects && traits.frame != OutputFrame::operands;
   if (!turns || c.query->kind == Kind::direction) return std::nullopt;
@@ -158,7 +148,7 @@ std::optional<FollowUps> rotated(const Case& c, std::uint64_t seed) {
         } else {
           x = std::nullopt;
         }
-      } else if (role == Role::depth) {
+      } else if (role == Role::depth || role == Role::distance) {
         x = exact_product(r.factor, own.values[i], scalar);
       } else if (role == Role::normal) {
         x = std::nullopt;

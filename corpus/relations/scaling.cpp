@@ -19,8 +19,8 @@ double apart(const double* a, const double* b) {
 /// Whether any two positions are equal or at least `least` apart.
 bool places_are_apart(const Case& c, double least) {
   std::vector<const double*> places;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::position && vector_at(c.query->inputs, i)) places.push_back(&c.values[i]);
+  for (const InputMember& m : c.operands().members) {
+    if (m.role == Role::position) places.push_back(&c.values[m.begin]);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -43,9 +43,7 @@ bool far_from_overflow_and_underflow(const Case& c) {
   return places_are_apart(c, std::ldexp(1.0, -orders_apart));
 }
 
-int length_order(Role role) {
-  return role == Role::position || role == Role::size || role == Role::velocity || role == Role::depth ? 1 : 0;
-}
+int length_order(Role role) { return is_length(role) || role == Role::velocity ? 1 : 0; }
 
 /// Multiplies each input and each output by 2^(orders of its role).
 template <class Orders>
@@ -54,7 +52,7 @@ std::optional<FollowUps> scaled(const Case& c, Orders orders) {
   Case other = c;
   bool any = false;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const int k = orders(c.query->inputs[i]);
+    const int k = orders(c.fields()[i]);
     other.values[i] = std::ldexp(c.values[i], k);
     any = any || (k != 0 && c.values[i] != 0);
   }
@@ -63,7 +61,7 @@ std::optional<FollowUps> scaled(const Case& c, Orders orders) {
   return counterpart_if_valid(std::move(other), [&query, orders](Answer a) {
     for (std::size_t i = 0; i < query.outputs.size(); ++i) {
       const Role role = query.outputs[i].role;
-      if (role == Role::position || role == Role::depth || role == Role::time) {
+      if (is_length(role) || role == Role::time) {
         a.values[i] = std::ldexp(a.values[i], orders(query.outputs[i]));
       }
     }
@@ -100,14 +98,11 @@ std::optional<FollowUps> scaled_rotations(const Case& c, std::uint64_t seed) {
 }
 
 std::optional<FollowUps> negated_rotations(const Case& c, std::uint64_t) {
+  if (c.operands().quaternions.empty()) return std::nullopt;
   Case other = c;
-  bool any = false;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role != Role::rotation) continue;
-    other.values[i] = -c.values[i];
-    any = true;
+  for (const std::size_t i : c.operands().quaternions) {
+    for (std::size_t k = i; k < i + 4; ++k) other.values[k] = -c.values[k];
   }
-  if (!any) return std::nullopt;
   return counterpart(std::move(other), [](const Answer& a) { return a; });
 }
 

@@ -32,33 +32,25 @@ Agreement no_fewer(const Answer& own, std::span<const Answer> others) {
 
 /// The radius of the ball inside the solid, about the middle of a box or about an end of a capsule.
 double inner_radius(const Case& c) {
-  if (!has(c, "box.half.x")) return value(c, "capsule.radius");
-  return std::min({value(c, "box.half.x"), value(c, "box.half.y"), value(c, "box.half.z")});
-}
-
-/// "fixed" of "fixed.center": the operand that is the ball.
-std::string ball_of(const Link& link) {
-  constexpr std::string_view center = ".center";
-  for (const Link::Renamed& r : link.renamed) {
-    if (r.there.ends_with(center)) return std::string(r.there.substr(0, r.there.size() - center.size()));
-  }
-  return {};
+  const std::vector<std::size_t>& sizes = c.operands()[1].sizes;
+  double least = c.values[sizes[0]];
+  for (const std::size_t i : sizes) least = std::min(least, c.values[i]);
+  return least;
 }
 
 /// A sphere of radius 0 that only touches may slide along a small solid and move away from a larger one.
-bool may_slide_away(const Case& c) { return has(c, "velocity.x") && value(c, "sphere.radius") == 0; }
+bool may_slide_away(const Case& c) {
+  const Operand& mover = c.operands()[0];
+  return mover.velocity && c.values[mover.radius.value()] == 0;
+}
 
 }  // namespace
 
 std::optional<FollowUps> grown_size(const Case& c, std::uint64_t seed) {
   if (!c.query->traits.grows) return std::nullopt;
   Random random(seed);
-  std::vector<std::size_t> sizes;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::size) sizes.push_back(i);
-  }
-  const std::size_t at = random.pick(sizes);
-  if (may_slide_away(c) && c.query->inputs[at].name != "sphere.radius") return std::nullopt;
+  const std::size_t at = random.pick(c.operands().sizes);
+  if (may_slide_away(c) && !c.operands()[0].has(at)) return std::nullopt;
   Case other = c;
   const double x = c.values[at], more = x == 0 ? random.power_of_two(-8, 2) : x * random.power_of_two(-8, 2);
   other.values[at] = rounded_to(c.scalar, x + more);
@@ -75,9 +67,9 @@ std::optional<FollowUps> contained_ball(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::contained_ball);
   if (link == nullptr || may_slide_away(c)) return std::nullopt;
   Case other = recast(c, *link);
-  value(other, ball_of(*link) + ".radius") = inner_radius(c);
+  other.values[other.operands()[1].radius.value()] = inner_radius(c);  // the ball is fixed
   const bool impact = c.query->kind == Kind::impact;
-  const std::size_t ours = index_of(c.query->outputs, "time"), theirs = index_of(other.query->outputs, "time");
+  const std::size_t ours = time_of(*c.query), theirs = time_of(*other.query);
   return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
     if (!yes_stays_yes(others[0], own)) return Agreement::decisions_differ;
     if (!others[0].yes || !impact || !own.gives(ours) || !others[0].gives(theirs)) return Agreement::same;

@@ -37,38 +37,34 @@ void apply(const SignedPermutation& m, const double* from, double* to, bool with
 /// Whether only one axis has the normal's component of largest magnitude, along which a point is projected.
 bool one_axis_to_look_along(const Case& c) {
   if (!c.query->traits.projects) return true;
-  std::array<double, 3> m{std::abs(value(c, "normal.x")), std::abs(value(c, "normal.y")),
-                          std::abs(value(c, "normal.z"))};
+  const double* normal = &c.values[c.operands().normals.front()];
+  std::array<double, 3> m{std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])};
   std::sort(m.begin(), m.end());
   return m[1] < m[2];
 }
 
 Case image_of(const Case& c, const SignedPermutation& m) {
   Case other = c;
-  const auto& fields = c.query->inputs;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const double* at = &c.values[i];
-    if (is_quaternion(fields, i)) {
-      apply(m, at, &other.values[i], true);  // a rotation axis: a reflection reverses it once more
-      for (std::size_t k = 0; m.turns_over() && k < 3; ++k) other.values[i + k] = -other.values[i + k];
-    } else if (vector_at(fields, i) && fields[i].role != Role::rotation) {
-      apply(m, at, &other.values[i], fields[i].role != Role::size);
-    } else if (fields[i].role == Role::index && c.query->traits.projects) {
-      if (c.values[i] >= 0 && c.values[i] < 3) other.values[i] = double(m.to(std::size_t(c.values[i])));
-    } else if (fields[i].role == Role::index) {
-      other.values[i] = m.box_axis(int(c.values[i]));
+  for (const InputMember& member : c.operands().members) {
+    const double* at = &c.values[member.begin];
+    double* to = &other.values[member.begin];
+    if (member.role == Role::rotation) {
+      apply(m, at, to, true);  // a rotation axis: a reflection reverses it once more
+      for (std::size_t k = 0; m.turns_over() && k < 3; ++k) to[k] = -to[k];
+    } else if (member.is_vector()) {
+      apply(m, at, to, member.role != Role::size);
+    } else if (member.role == Role::index && c.query->traits.projects) {
+      if (*at >= 0 && *at < 3) *to = double(m.to(std::size_t(*at)));
+    } else if (member.role == Role::index) {
+      *to = m.box_axis(int(*at));
     }
   }
-  for (std::size_t i = 0; i < fields.size(); ++i) {  // corners of axis-aligned boxes
-    if (!fields[i].name.ends_with(".max.x")) continue;
-    for (std::size_t k = i; k < i + 3; ++k) {
-      if (other.values[k] < other.values[k - 3]) std::swap(other.values[k], other.values[k - 3]);
+  for (const std::size_t lower : c.operands().aaboxes) {
+    for (std::size_t k = lower; k < lower + 3; ++k) {
+      if (other.values[k + 3] < other.values[k]) std::swap(other.values[k], other.values[k + 3]);
     }
   }
-  if (m.turns_over()) {  // keeps the front
-    for (const std::string& t : triangles_of(c)) exchange(other, t + ".v1", t + ".v2");
-    for (const std::string& t : rectangles_of(c)) exchange(other, t + ".v1", t + ".v3");
-  }
+  if (m.turns_over()) reverse_corners(other);  // keeps the front
   return other;
 }
 
@@ -77,7 +73,7 @@ std::optional<FollowUps> moved_by(const Case& c, const SignedPermutation& m) {
   if (frame == OutputFrame::operands || (m.permutes() && frame == OutputFrame::order_of_axes)) return std::nullopt;
   if (m.permutes() && !one_axis_to_look_along(c)) return std::nullopt;
   const Query& query = *c.query;
-  const bool weights_of_corners = !triangles_of(c).empty();
+  const bool weights_of_corners = c.operands().find(Shape::triangle) != nullptr;
   return counterpart_if_valid(image_of(c, m), [&query, m, weights_of_corners](const Answer& own) {
     Answer a = own;
     const auto& out = query.outputs;
@@ -86,7 +82,7 @@ std::optional<FollowUps> moved_by(const Case& c, const SignedPermutation& m) {
         a = without(a, i);
       } else if (out[i].name.starts_with("corners.")) {  // in another order
         a = without(a, i);
-      } else if (vector_at(out, i) && (out[i].role != Role::weight || query.kind == Kind::direction)) {
+      } else if (vector_at(out, i) && out[i].role != Role::weight) {
         for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + m.from[k], m.sign[k]);
       } else if (vector_at(out, i) && m.turns_over() && weights_of_corners) {
         carry(a, i + 1, own, i + 2);

@@ -17,7 +17,7 @@ namespace {
 double largest_of(const Case& c, Role role) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == role) largest = std::max(largest, std::abs(c.values[i]));
+    if (c.role(i) == role) largest = std::max(largest, std::abs(c.values[i]));
   }
   return largest;
 }

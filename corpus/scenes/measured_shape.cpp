@@ -7,34 +7,15 @@ namespace nearmiss::scenes {
 
 namespace {
 
-/// How many points the shape has among its numbers, before its sizes.
-std::size_t points_of(ShapeType type) {
-  switch (type) {
-    case ShapeType::capsule:
-    case ShapeType::segment:
-    case ShapeType::aabox: return 2;
-    case ShapeType::triangle: return 3;
-    case ShapeType::rectangle: return 4;
-    case ShapeType::plane: return 0;
-    default: return 1;
-  }
-}
-
-/// How many sizes follow its points.
-std::size_t stated_sizes_of(ShapeType type) {
-  return type == ShapeType::box ? 3 : type == ShapeType::sphere || type == ShapeType::capsule ? 1 : 0;
-}
-
 struct Points {
   std::vector<Vector> at;
   Vector center{};
 };
-Points points_at(const Case& c, const OperandPlace& place) {
+Points points_at(const Case& c, const Operand& place) {
   Points p;
-  const std::size_t count = points_of(place.type);
-  for (std::size_t i = 0; i < count; ++i) {
-    p.at.push_back(vector_at(c, place.begin + 3 * i));
-    p.center = plus(p.center, p.at.back(), 1 / double(count));
+  for (const std::size_t at : place.positions) {
+    p.at.push_back(vector_at(c, at));
+    p.center = plus(p.center, p.at.back(), 1 / double(place.positions.size()));
   }
   return p;
 }
@@ -46,8 +27,8 @@ double factor_into(double size, double least, double most) {
   return size > 0 ? std::clamp(size, least, most) / size : 1;
 }
 
-void put_around(Case& c, const OperandPlace& place, const Points& p, const std::vector<Vector>& from_center) {
-  for (std::size_t i = 0; i < p.at.size(); ++i) put_vector(c, place.begin + 3 * i, plus(p.center, from_center[i]));
+void put_around(Case& c, const Operand& place, const Points& p, const std::vector<Vector>& from_center) {
+  for (std::size_t i = 0; i < p.at.size(); ++i) put_vector(c, place.positions[i], plus(p.center, from_center[i]));
 }
 
 /// Corners in order: the sides of a rectangle are those from its first corner.
@@ -76,24 +57,23 @@ void put_vector(Case& c, std::size_t begin, const Vector& v) {
   for (std::size_t k = 0; k < 3; ++k) c.values[begin + k] = rounded_to(c.scalar, v[k]);
 }
 
-double height_above(const Case& c, const OperandPlace& plane, const Vector& point) {
+double height_above(const Case& c, const Operand& plane, const Vector& point) {
   return dot(vector_at(c, plane.begin), point) + c.values[plane.begin + 3];
 }
 
-MeasuredShape measured_shape(const Case& c, const OperandPlace& place) {
+MeasuredShape measured_shape(const Case& c, const Operand& place) {
   MeasuredShape m;
   const Points p = points_at(c, place);
   m.center = p.center;
-  const std::size_t sizes = place.begin + 3 * p.at.size();
-  for (std::size_t i = 0; i < stated_sizes_of(place.type); ++i) m.stated.push_back(c.values[sizes + i]);
-  switch (place.type) {
-    case ShapeType::capsule:
-    case ShapeType::segment: m.derived = {half_way(p.at[0], p.at[1])}; break;
-    case ShapeType::rectangle: m.derived = {half_way(p.at[0], p.at[1]), half_way(p.at[0], p.at[3])}; break;
-    case ShapeType::triangle:
+  for (const std::size_t i : place.sizes) m.stated.push_back(c.values[i]);
+  switch (place.shape) {
+    case Shape::capsule:
+    case Shape::segment: m.derived = {half_way(p.at[0], p.at[1])}; break;
+    case Shape::rectangle: m.derived = {half_way(p.at[0], p.at[1]), half_way(p.at[0], p.at[3])}; break;
+    case Shape::triangle:
       m.derived = {std::max({half_way(p.at[0], p.at[1]), half_way(p.at[1], p.at[2]), half_way(p.at[2], p.at[0])})};
       break;
-    case ShapeType::aabox:
+    case Shape::aabox:
       for (std::size_t k = 0; k < 3; ++k) m.derived.push_back((p.at[1][k] - p.at[0][k]) / 2);
       break;
     default: break;
@@ -101,17 +81,14 @@ MeasuredShape measured_shape(const Case& c, const OperandPlace& place) {
   return m;
 }
 
-void resize_shape(Case& c, const OperandPlace& place, double least, double most) {
+void resize_shape(Case& c, const Operand& place, double least, double most) {
   const MeasuredShape m = measured_shape(c, place);
   const Points p = points_at(c, place);
-  for (std::size_t i = 0; i < m.stated.size(); ++i) {
-    double& size = c.values[place.begin + 3 * p.at.size() + i];
-    size = rounded_to(c.scalar, std::clamp(size, least, most));
-  }
+  for (const std::size_t i : place.sizes) c.values[i] = rounded_to(c.scalar, std::clamp(c.values[i], least, most));
   const auto is_outside = [&](double size) { return !(least <= size && size <= most); };
   if (std::none_of(m.derived.begin(), m.derived.end(), is_outside)) return;
-  if (place.type == ShapeType::rectangle) return put_around(c, place, p, resized_rectangle(p, least, most));
-  if (place.type == ShapeType::aabox) return put_around(c, place, p, resized_aabox(p, least, most));
+  if (place.shape == Shape::rectangle) return put_around(c, place, p, resized_rectangle(p, least, most));
+  if (place.shape == Shape::aabox) return put_around(c, place, p, resized_aabox(p, least, most));
   std::vector<Vector> from_center;
   if (p.at.size() == 2 && m.derived[0] == 0) return put_around(c, place, p, {{-least, 0, 0}, {least, 0, 0}});
   for (const Vector& at : p.at)
@@ -119,9 +96,8 @@ void resize_shape(Case& c, const OperandPlace& place, double least, double most)
   put_around(c, place, p, from_center);
 }
 
-void move_shape(Case& c, const OperandPlace& place, const Vector& by) {
-  for (std::size_t i = 0; i < points_of(place.type); ++i)
-    put_vector(c, place.begin + 3 * i, plus(vector_at(c, place.begin + 3 * i), by));
+void move_shape(Case& c, const Operand& place, const Vector& by) {
+  for (const std::size_t at : place.positions) put_vector(c, at, plus(vector_at(c, at), by));
 }
 
 }  // namespace nearmiss::scenes

@@ -9,16 +9,9 @@
 
 namespace nearmiss::scenes {
 
-/// A shape among the inputs of a query. A ray counts as a point, which has its direction behind it.
-struct OperandPlace {
-  std::string name;  ///< "sphere", "box2"
-  ShapeType type;
-  std::size_t begin;  ///< the index of its first number
-};
-
 /// The inputs of a query of two shapes, of which the first may move.
 struct QueryPlan {
-  std::vector<OperandPlace> operands;    ///< two
+  std::vector<Operand> operands;         ///< two; a ray counts as a point, its origin
   std::optional<std::size_t> velocity;   ///< the index of its x
   std::optional<std::size_t> direction;  ///< of a ray: the index of its x
   std::vector<std::size_t> lone;         ///< times, flags and indices

@@ -112,15 +112,13 @@ class Filling {
   void number(std::size_t i, double x) { case_.values[i] = rounded_to(case_.scalar, x); }
   void solid(std::size_t begin, const Solid& s) {
     switch (s.type) {
-      case ShapeType::box: return box(begin, s);
-      case ShapeType::aabox:
-        vector(begin, plus(s.center, s.half, -1));
-        return vector(begin + 3, plus(s.center, s.half));
-      case ShapeType::plane: vector(begin, s.axes[0]); return number(begin + 3, -dot(s.axes[0], s.center));
+      case Shape::box: return box(begin, s);
+      case Shape::aabox: vector(begin, plus(s.center, s.half, -1)); return vector(begin + 3, plus(s.center, s.half));
+      case Shape::plane: vector(begin, s.axes[0]); return number(begin + 3, -dot(s.axes[0], s.center));
       default: break;
     }
     for (std::size_t i = 0; i < s.corner_count; ++i) vector(begin + 3 * i, plus(s.center, s.corners[i]));
-    if (s.type == ShapeType::sphere || s.type == ShapeType::capsule) number(begin + 3 * s.corner_count, s.radius);
+    if (s.type == Shape::sphere || s.type == Shape::capsule) number(begin + 3 * s.corner_count, s.radius);
   }
 
  private:
@@ -163,7 +161,7 @@ void draw_shapes(Case& into, const Scene& scene, const MixedQuery& mixed, Random
 
 /// Moves the shape that holds a drawn position, all its positions alike.
 void move_one_shape(Case& c, const Scene& scene, Random& random) {
-  const std::vector<Field>& fields = c.query->inputs;
+  const std::span<const Field> fields = c.fields();
   std::vector<std::size_t> begins;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (fields[i].role == Role::position && fields[i].name.ends_with(".x")) begins.push_back(i);

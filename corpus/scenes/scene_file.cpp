@@ -12,20 +12,6 @@ namespace nearmiss::scenes {
 
 namespace fs = std::filesystem;
 
-std::string_view name_of(ShapeType t) {
-  switch (t) {
-    case ShapeType::point: return "point";
-    case ShapeType::sphere: return "sphere";
-    case ShapeType::capsule: return "capsule";
-    case ShapeType::segment: return "segment";
-    case ShapeType::box: return "box";
-    case ShapeType::aabox: return "aabox";
-    case ShapeType::triangle: return "triangle";
-    case ShapeType::rectangle: return "rectangle";
-    default: return "plane";
-  }
-}
-
 std::span<const Unit> known_units() {
   static constexpr Unit units[] = {{"millimetre", 1e-3}, {"centimetre", 1e-2}, {"inch", 0.0254},  {"foot", 0.3048},
                                    {"yard", 0.9144},     {"metre", 1},         {"kilometre", 1e3}};

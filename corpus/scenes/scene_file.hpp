@@ -32,18 +32,15 @@ struct Spread {
   bool logarithmic = false;
 };
 
-/// The type of a shape. A size is a radius (sphere, capsule), a half extent (box, aabox) or a side (capsule's axis,
-/// segment, triangle, rectangle); a point and a plane have none.
-enum class ShapeType : std::uint8_t { point, sphere, capsule, segment, box, aabox, triangle, rectangle, plane };
-inline constexpr std::array all_shape_types = {ShapeType::point,    ShapeType::sphere,    ShapeType::capsule,
-                                               ShapeType::segment,  ShapeType::box,       ShapeType::aabox,
-                                               ShapeType::triangle, ShapeType::rectangle, ShapeType::plane};
-std::string_view name_of(ShapeType t);
+/// The shapes that a scene may have. A size is a radius (sphere, capsule), a half extent (box, aabox) or a side
+/// (capsule's axis, segment, triangle, rectangle); a point and a plane have none.
+inline constexpr std::array scene_shapes = {Shape::point, Shape::sphere,   Shape::capsule,   Shape::segment, Shape::box,
+                                            Shape::aabox, Shape::triangle, Shape::rectangle, Shape::plane};
 
 /// Shapes of a scene that are alike.
 struct Shapes {
   std::string name;  ///< "player"
-  ShapeType type = ShapeType::point;
+  Shape type = Shape::point;
   Sourced count;  ///< how many the scene has
   Spread size;    ///< in the scene's unit
   Spread speed;   ///< unit a second, of those that move

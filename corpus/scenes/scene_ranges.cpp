@@ -26,13 +26,13 @@ Limits rounded_limits(const Limits& limits, Scalar scalar) {
 double largest_reach(const Shapes& shapes) {
   const double most = shapes.size.most.value;
   switch (shapes.type) {
-    case ShapeType::point:
-    case ShapeType::plane: return 0;
-    case ShapeType::capsule: return 2 * most;
-    case ShapeType::box:
-    case ShapeType::aabox: return std::sqrt(3.0) * most;
-    case ShapeType::rectangle: return std::sqrt(2.0) * most;
-    case ShapeType::triangle: return 2 * most;  // its center is not that about which it was drawn
+    case Shape::point:
+    case Shape::plane: return 0;
+    case Shape::capsule: return 2 * most;
+    case Shape::box:
+    case Shape::aabox: return std::sqrt(3.0) * most;
+    case Shape::rectangle: return std::sqrt(2.0) * most;
+    case Shape::triangle: return 2 * most;  // its center is not that about which it was drawn
     default: return most;
   }
 }
@@ -41,7 +41,7 @@ double largest_reach(const Shapes& shapes) {
 double slack_of(const Case& c) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     const bool is_length = role == Role::position || role == Role::size || role == Role::offset;
     if (is_length || role == Role::velocity) largest = std::max(largest, std::abs(c.values[i]));
   }
@@ -70,13 +70,14 @@ SceneRanges::SceneRanges(const Scene& scene, const Query& query) : scene_(scene)
   if (mixed == nullptr) throw std::logic_error(fmt::format("scene {} does not ask {}", scene.name, query.name));
   const double gap = largest_gap(scene);
   if (scene.is_recorded()) {
-    for (std::size_t i = 0; i < query.inputs.size(); ++i) {
+    const Case& any = scene.recorded[mixed->recorded.front()];
+    for (std::size_t i = 0; i < any.values.size(); ++i) {
       Limits limits{HUGE_VAL, -HUGE_VAL};
       for (const std::size_t at : mixed->recorded) {
         const double x = scene.recorded[at].values[i];
         limits = {std::min(limits.least, x), std::max(limits.most, x)};
       }
-      const Role role = query.inputs[i].role;
+      const Role role = any.role(i);
       const double more = role == Role::position || role == Role::offset ? gap : 0;
       recorded_.push_back({limits.least - more, limits.most + more});
     }
@@ -88,7 +89,7 @@ SceneRanges::SceneRanges(const Scene& scene, const Query& query) : scene_(scene)
                      : plan_->velocity ? shapes_[0]->speed.most.value * scene.step.value
                                        : 0;
   const double corner = std::sqrt(3.0) * scene.extent.value;  // of the cube, from its middle
-  const double off_center = shapes_[1]->type == ShapeType::triangle ? shapes_[1]->size.most.value : 0;
+  const double off_center = shapes_[1]->type == Shape::triangle ? shapes_[1]->size.most.value : 0;
   place_ = {std::max(0.0, scene.distance.least.value - corner - off_center),
             scene.distance.most.value + corner + off_center};
   apart_ = largest_reach(*shapes_[0]) + largest_reach(*shapes_[1]) + way + gap;
@@ -129,7 +130,7 @@ void SceneRanges::fit_recorded(Case& c) const {
 
 Limits SceneRanges::sizes_of(std::size_t operand, Scalar scalar) const {
   const Spread& size = shapes_[operand]->size;
-  const bool is_triangle = shapes_[operand]->type == ShapeType::triangle;
+  const bool is_triangle = shapes_[operand]->type == Shape::triangle;
   return rounded_limits({is_triangle ? 0 : size.least.value, size.most.value}, scalar);
 }
 
@@ -151,16 +152,16 @@ bool SceneRanges::contain_drawn(const Case& c) const {
       !is_in(length_of(vector_at(c, *plan_->velocity)), {speed.least.value, speed.most.value}, slack))
     return false;
   for (const std::size_t k : plan_->lone) {
-    const Role role = query_.inputs[k].role;
+    const Role role = c.role(k);
     if (role == Role::time && c.values[k] != rounded_to(c.scalar, scene_.step.value)) return false;
-    if (role == Role::flag && c.values[k] != drawn_flag(query_.inputs[k])) return false;
+    if (role == Role::flag && c.values[k] != drawn_flag(c.fields()[k])) return false;
   }
   // The plane's point nearest to the first shape stands for its center.
-  const double between = plan_->operands[1].type == ShapeType::plane
+  const double between = plan_->operands[1].shape == Shape::plane
                              ? std::abs(height_above(c, plan_->operands[1], measured[0].center))
                              : length_of(plus(measured[0].center, measured[1].center, -1));
   if (between > apart_ + slack) return false;
-  if (plan_->operands[1].type != ShapeType::plane) return is_in(length_of(measured[1].center), place_, slack);
+  if (plan_->operands[1].shape != Shape::plane) return is_in(length_of(measured[1].center), place_, slack);
   return std::abs(c.values[plan_->operands[1].begin + 3]) <= place_.most + slack &&
          length_of(measured[0].center) <= place_.most + apart_ + slack;
 }
@@ -168,14 +169,14 @@ bool SceneRanges::contain_drawn(const Case& c) const {
 void SceneRanges::cap_numbers(Case& c) const {
   const double far = 2 * (place_.most + apart_), fast = 2 * shapes_[0]->speed.most.value;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = query_.inputs[i].role;
+    const Role role = c.role(i);
     const double most = role == Role::position ? far : role == Role::velocity ? fast : HUGE_VAL;
     c.values[i] = rounded_to(c.scalar, std::clamp(c.values[i], -most, most));
   }
 }
 
 void SceneRanges::fit_plane(Case& c) const {
-  const OperandPlace &first = plan_->operands[0], &plane = plan_->operands[1];
+  const Operand &first = plan_->operands[0], &plane = plan_->operands[1];
   const Vector center = measured_shape(c, first).center;
   if (const double length = length_of(center); length > place_.most)
     move_shape(c, first, scaled(center, place_.most / length - 1));
@@ -187,9 +188,9 @@ void SceneRanges::fit_plane(Case& c) const {
 
 void SceneRanges::fit_drawn(Case& c) const {
   for (const std::size_t k : plan_->lone) {
-    const Role role = query_.inputs[k].role;
+    const Role role = c.role(k);
     if (role == Role::time) c.values[k] = rounded_to(c.scalar, scene_.step.value);
-    if (role == Role::flag) c.values[k] = drawn_flag(query_.inputs[k]);
+    if (role == Role::flag) c.values[k] = drawn_flag(c.fields()[k]);
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const Limits limits = sizes_of(k, c.scalar);
@@ -197,9 +198,9 @@ void SceneRanges::fit_drawn(Case& c) const {
   }
   const Spread& speed = shapes_[0]->speed;
   if (plan_->velocity) fit_length(c, *plan_->velocity, {speed.least.value, speed.most.value});
-  const OperandPlace &first = plan_->operands[0], &second = plan_->operands[1];
+  const Operand &first = plan_->operands[0], &second = plan_->operands[1];
   Vector center = measured_shape(c, first).center;
-  if (second.type == ShapeType::plane) return fit_plane(c);
+  if (second.shape == Shape::plane) return fit_plane(c);
   Vector other = measured_shape(c, second).center;
   const double length = length_of(other), wanted = clamped(length, place_);
   if (wanted != length) {

@@ -86,7 +86,7 @@ class SceneReader {
   Shapes shapes(const json& j, const std::string& path, const std::vector<Shapes>& before) const;
   MixedQuery mixed(const json& j, const std::string& path, const Scene& scene) const;
   void operands(MixedQuery& m, const json& j, const std::string& path, const Scene& scene) const;
-  std::size_t operand(const json& j, const std::string& path, const OperandPlace& place, bool moves,
+  std::size_t operand(const json& j, const std::string& path, const Operand& place, bool moves,
                       const Scene& scene) const;
   Requirements requirements(const json& j, const Scene& scene) const;
   void whole(const json& j, Scene& scene) const;
@@ -136,30 +136,30 @@ Shapes SceneReader::shapes(const json& j, const std::string& path, const std::ve
     fail(path + ".name", '"' + s.name + '"', "a name that no other shapes have");
   const std::string type = text(j, path, "type");
   const auto found =
-      std::find_if(all_shape_types.begin(), all_shape_types.end(), [&](ShapeType t) { return name_of(t) == type; });
-  if (found == all_shape_types.end()) {
+      std::find_if(scene_shapes.begin(), scene_shapes.end(), [&](Shape t) { return name_of(t) == type; });
+  if (found == scene_shapes.end()) {
     std::vector<std::string_view> names;
-    for (const ShapeType t : all_shape_types) names.push_back(name_of(t));
+    for (const Shape t : scene_shapes) names.push_back(name_of(t));
     fail(path + ".type", '"' + type + '"', fmt::format("one of {}", fmt::join(names, ", ")));
   }
   s.type = *found;
   s.count = sourced(j, path, "count", {1});
-  const bool has_size = s.type != ShapeType::point && s.type != ShapeType::plane;
+  const bool has_size = s.type != Shape::point && s.type != Shape::plane;
   if (!has_size && j.contains("size")) fail(path + ".size", j["size"], fmt::format("absent for a {}", type));
   if (has_size) s.size = spread(j, path, "size", not_negative);
   if (j.contains("speed")) s.speed = spread(j, path, "speed", not_negative);
   return s;
 }
 
-std::size_t SceneReader::operand(const json& j, const std::string& path, const OperandPlace& place, bool moves,
+std::size_t SceneReader::operand(const json& j, const std::string& path, const Operand& place, bool moves,
                                  const Scene& scene) const {
   const std::string name = text(j, path, place.name), own = below(path, place.name);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const Shapes& s = scene.shapes[i];
     if (s.name != name) continue;
-    if (s.type != place.type)
+    if (s.type != place.shape)
       fail(own, '"' + name + '"',
-           fmt::format("shapes of the type {}, and these are of the type {}", name_of(place.type), name_of(s.type)));
+           fmt::format("shapes of the type {}, and these are of the type {}", name_of(place.shape), name_of(s.type)));
     if (moves && !(s.speed.most.value > 0))
       fail(own, '"' + name + '"', "shapes with a speed above 0, because they move");
     return i;

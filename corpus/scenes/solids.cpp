@@ -43,17 +43,17 @@ std::array<double, 4> draw_rotation(Random& random) {
 
 void draw_corners(Random& random, Solid& s, const Spread& size) {
   switch (s.type) {
-    case ShapeType::capsule:
-    case ShapeType::segment:
+    case Shape::capsule:
+    case Shape::segment:
       s.corner_count = 2;
       s.corners[0] = scaled(draw_direction(random), draw_from(random, size));
       s.corners[1] = scaled(s.corners[0], -1);
       break;
-    case ShapeType::triangle:
+    case Shape::triangle:
       s.corner_count = 3;
       for (std::size_t i = 0; i < 3; ++i) s.corners[i] = scaled(draw_direction(random), draw_from(random, size));
       break;
-    case ShapeType::rectangle: {
+    case Shape::rectangle: {
       s.corner_count = 4;
       const Vector u = draw_direction(random), v = draw_orthogonal(random, u);
       const double a = draw_from(random, size), b = draw_from(random, size);
@@ -159,7 +159,7 @@ double draw_from(Random& random, const Spread& spread) {
 }
 
 double Solid::reach() const {
-  if (type == ShapeType::plane) return 0;
+  if (type == Shape::plane) return 0;
   if (is_box()) return length_of(half);
   double most = 0;
   for (std::size_t i = 0; i < corner_count; ++i) most = std::max(most, length_of(corners[i]));
@@ -182,18 +182,18 @@ Solid draw_solid(Random& random, const Shapes& shapes) {
   s.type = shapes.type;
   if (s.is_box()) {
     for (double& x : s.half) x = draw_from(random, shapes.size);
-    if (s.type == ShapeType::box) s.rotation = draw_rotation(random);
+    if (s.type == Shape::box) s.rotation = draw_rotation(random);
     s.axes = axes_of_rotation(s.rotation);
     return s;
   }
-  if (s.type == ShapeType::plane) s.axes[0] = random.one_in(4) ? along_z : draw_direction(random);
-  if (s.type == ShapeType::sphere || s.type == ShapeType::capsule) s.radius = draw_from(random, shapes.size);
+  if (s.type == Shape::plane) s.axes[0] = random.one_in(4) ? along_z : draw_direction(random);
+  if (s.type == Shape::sphere || s.type == Shape::capsule) s.radius = draw_from(random, shapes.size);
   draw_corners(random, s, shapes.size);
   return s;
 }
 
 SurfacePoint draw_surface_point(Random& random, const Solid& solid) {
-  if (solid.type == ShapeType::plane) return {{}, solid.axes[0]};
+  if (solid.type == Shape::plane) return {{}, solid.axes[0]};
   return solid.is_box() ? surface_of_box(random, solid) : surface_of_hull(random, solid);
 }
 

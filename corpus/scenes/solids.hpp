@@ -26,7 +26,7 @@ double draw_from(Random& random, const Spread& spread);
 /// The hull of its corners thickened by a radius, or a box, or a plane through its center. The corners are relative to
 /// the center.
 struct Solid {
-  ShapeType type = ShapeType::point;
+  Shape type = Shape::point;
   Vector center{};
   std::array<Vector, 4> corners{};
   std::size_t corner_count = 1;
@@ -35,7 +35,7 @@ struct Solid {
   std::array<double, 4> rotation = {0, 0, 0, 1};                                     ///< of a box: x, y, z, w
   std::array<Vector, 3> axes = {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};  ///< of a plane: the normal first
 
-  bool is_box() const { return type == ShapeType::box || type == ShapeType::aabox; }
+  bool is_box() const { return type == Shape::box || type == Shape::aabox; }
   /// The radius of a ball around the center that contains it; 0 for a plane.
   double reach() const;
   /// The point of it that is furthest along the direction, which has length 1, relative to the center.

@@ -23,7 +23,7 @@ std::vector<double> numbers_of(const std::vector<Case>& cases, Role role) {
   std::vector<double> all;
   for (const Case& c : cases) {
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (c.query->inputs[i].role == role && c.values[i] != 0) all.push_back(std::abs(c.values[i]));
+      if (c.role(i) == role && c.values[i] != 0) all.push_back(std::abs(c.values[i]));
     }
   }
   std::sort(all.begin(), all.end());

@@ -55,7 +55,7 @@ std::string_view name_of_part(const Field& f, PartKind kind) {
 }
 
 /// The part of that kind that contains input `at`.
-Range part_around(const std::vector<Field>& fields, std::size_t at, PartKind kind) {
+Range part_around(std::span<const Field> fields, std::size_t at, PartKind kind) {
   if (kind == PartKind::number) return {at, 1};
   const auto belongs = [&](std::size_t i) { return name_of_part(fields[i], kind) == name_of_part(fields[at], kind); };
   std::size_t begin = at, end = at + 1;
@@ -64,13 +64,13 @@ Range part_around(const std::vector<Field>& fields, std::size_t at, PartKind kin
   return {begin, end - begin};
 }
 
-bool have_same_roles(const std::vector<Field>& fields, Range a, Range b) {
+bool have_same_roles(std::span<const Field> fields, Range a, Range b) {
   return a.count == b.count && std::equal(&fields[a.begin], &fields[a.begin] + a.count, &fields[b.begin],
                                           [](const Field& f, const Field& g) { return f.role == g.role; });
 }
 
 /// Another part of the kind that has the same roles; the part itself if the one drawn has not.
-Range draw_like(Random& random, const std::vector<Field>& fields, Range part, PartKind kind) {
+Range draw_like(Random& random, std::span<const Field> fields, Range part, PartKind kind) {
   const Range drawn = part_around(fields, random.below(fields.size()), kind);
   return have_same_roles(fields, part, drawn) ? drawn : part;
 }
@@ -103,8 +103,7 @@ class FlipSearch {
   double largest_of_role() const {
     double most = 0;
     for (std::size_t i = 0; i < case_.values.size(); ++i) {
-      if (case_.query->inputs[i].role == case_.query->inputs[number_].role)
-        most = std::max(most, std::abs(case_.values[i]));
+      if (case_.role(i) == case_.role(number_)) most = std::max(most, std::abs(case_.values[i]));
     }
     return most > 0 ? most : 1;
   }
@@ -151,7 +150,7 @@ NumbersByRole numbers_of(const std::vector<StoredCase>& all) {
   NumbersByRole numbers;
   for (const StoredCase& stored : all) {
     const Case& c = stored.question;
-    for (std::size_t i = 0; i < c.values.size(); ++i) numbers[c.query->inputs[i].role].push_back(c.values[i]);
+    for (std::size_t i = 0; i < c.values.size(); ++i) numbers[c.role(i)].push_back(c.values[i]);
   }
   for (auto& [role, list] : numbers) {
     std::sort(list.begin(), list.end());
@@ -174,7 +173,7 @@ const NumbersByRole& stored_numbers(const Query& query) {
 
 bool cross(Case& into, const Case& other, std::uint64_t seed) {
   if (into.query != other.query) return false;
-  const std::vector<Field>& fields = into.query->inputs;
+  const std::span<const Field> fields = into.fields();
   Random random(seed);
   return attempt_change(into, [&] {
     const auto kind = PartKind(random.below(3));
@@ -191,7 +190,7 @@ bool snap_to_touching(Case& c, std::uint64_t seed) {
   Random random(seed);
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (can_vary(c.query->inputs[i].role)) numbers.push_back(i);
+    if (can_vary(c.role(i))) numbers.push_back(i);
   }
   const bool decision = exact_decision(c);
   constexpr int most_numbers = 4;
@@ -209,7 +208,7 @@ bool take_number_of_stored_case(Case& c, std::uint64_t seed) {
   Random random(seed);
   return attempt_change(c, [&] {
     const std::size_t i = random.below(c.values.size());
-    const auto numbers = stored.find(c.query->inputs[i].role);
+    const auto numbers = stored.find(c.role(i));
     if (numbers != stored.end()) c.values[i] = rounded_to(c.scalar, random.pick(numbers->second));
   });
 }

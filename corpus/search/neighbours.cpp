@@ -31,7 +31,7 @@ double number_of_same_role(const Case& c, std::size_t i, Random& random) {
   const std::size_t first = random.below(c.values.size());
   for (std::size_t k = 0; k < c.values.size(); ++k) {
     const std::size_t other = (first + k) % c.values.size();
-    if (other != i && c.query->inputs[other].role == c.query->inputs[i].role) return c.values[other];
+    if (other != i && c.role(other) == c.role(i)) return c.values[other];
   }
   return c.values[i];
 }
@@ -79,7 +79,7 @@ Case neighbour(const Case& of, int changes, std::uint64_t seed) {
 std::optional<Case> beyond(std::span<const double> before, const Case& here, double factor) {
   Case c = here;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (!may_move(c.query->inputs[i].role)) continue;
+    if (!may_move(c.role(i))) continue;
     c.values[i] = rounded_to(c.scalar, here.values[i] + factor * (here.values[i] - before[i]));
   }
   return c.values != here.values && is_valid(c) ? std::optional(std::move(c)) : std::nullopt;

@@ -91,13 +91,13 @@ class Shrinker {
     }
   }
   void copy_onto(std::size_t i) {
-    const Role role = best_.query->inputs[i].role;
+    const Role role = best_.role(i);
     for (std::size_t k = 0; k < best_.values.size(); ++k) {
-      if (best_.query->inputs[k].role == role && best_.values[k] != best_.values[i]) (void)accept(i, best_.values[k]);
+      if (best_.role(k) == role && best_.values[k] != best_.values[i]) (void)accept(i, best_.values[k]);
     }
   }
   bool is_length(std::size_t i) const {
-    const Role role = best_.query->inputs[i].role;
+    const Role role = best_.role(i);
     return role == Role::position || role == Role::size || role == Role::velocity;
   }
   /// Scales all lengths by the same power of two.
@@ -136,13 +136,13 @@ class Shrinker {
   /// Shifts each axis of all positions so that one of them is at 0.
   void shift_positions() {
     for (std::size_t origin = 0; origin < best_.values.size(); ++origin) {
-      if (best_.query->inputs[origin].role != Role::position || best_.values[origin] == 0) continue;
-      const char axis = best_.query->inputs[origin].name.back();
+      if (best_.role(origin) != Role::position || best_.values[origin] == 0) continue;
+      const char axis = best_.name(origin).back();
       const double offset = best_.values[origin];
       std::vector<double> values = best_.values;
       bool exact = true;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const Field& f = best_.query->inputs[i];
+        const Field& f = best_.fields()[i];
         if (f.role == Role::position && f.name.back() == axis) values[i] -= offset;
         exact = exact && representable(values[i], best_.scalar);
       }

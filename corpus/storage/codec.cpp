@@ -423,7 +423,7 @@ std::string literal(double value, Role role, Scalar scalar) {
 }
 
 std::string cpp_nested(const Case& c, std::size_t begin, std::size_t end, std::size_t prefix) {
-  const std::span<const Field> fields = std::span(c.query->inputs).subspan(begin, end - begin);
+  const std::span<const Field> fields = std::span(c.fields()).subspan(begin, end - begin);
   const std::vector<Child> parts = children(fields, prefix);
   const bool array = is_array(parts);
   std::string text;
@@ -431,8 +431,7 @@ std::string cpp_nested(const Case& c, std::size_t begin, std::size_t end, std::s
     if (!text.empty()) text += ", ";
     if (!array) text += fmt::format(".{} = ", p.component);
     const std::size_t at = begin + p.begin;
-    text += p.leaf ? literal(c.values[at], c.query->inputs[at].role, c.scalar)
-                   : cpp_nested(c, at, begin + p.end, below(prefix, p));
+    text += p.leaf ? literal(c.values[at], c.role(at), c.scalar) : cpp_nested(c, at, begin + p.end, below(prefix, p));
   }
   return "{" + text + "}";
 }
@@ -452,7 +451,7 @@ ordered_json case_to_json(const Case& c) {
   ordered_json j;
   j["query"] = c.query->name;
   j["scalar"] = name_of(c.scalar);
-  j["inputs"] = fields_to_json(c.query->inputs, c.values);
+  j["inputs"] = fields_to_json(c.fields(), c.values);
   j["origin"] = std::move(origin);
   return j;
 }
@@ -491,11 +490,11 @@ Case case_from_json(const json& j, const std::string& where, Decimals decimals) 
   c.query = reader.query(query.get_ref<const std::string&>());
   c.scalar = reader.scalar(reader.text(reader.member(j, "", "scalar"), "scalar"));
   if (!j.contains("values")) {
-    reader.inputs(reader.member(j, "", "inputs"), "inputs", c.query->inputs, 0, c.scalar, c.values);
+    reader.inputs(reader.member(j, "", "inputs"), "inputs", c.fields(), 0, c.scalar, c.values);
   } else if (j.contains("inputs")) {
     reader.fail("values", "is given beside inputs: one of them must be left out");
   } else {
-    c.values = reader.values(j["values"], c.query->inputs, c.scalar);
+    c.values = reader.values(j["values"], c.fields(), c.scalar);
   }
   if (j.contains("origin")) reader.origin(j["origin"], c);
   return checked_case(std::move(c), where);
@@ -507,7 +506,7 @@ Case case_from_values(std::string_view query, std::string_view scalar, std::span
   Case c;
   c.query = reader.query(query);
   c.scalar = reader.scalar(scalar);
-  c.values = reader.values(json(values), c.query->inputs, c.scalar);
+  c.values = reader.values(json(values), c.fields(), c.scalar);
   return checked_case(std::move(c), where);
 }
 
@@ -528,7 +527,7 @@ std::string case_to_cpp(const Case& c) {
   return fmt::format(
       "const nearmiss::inputs::{}<{}> question{};\n"
       "const auto answer = nearmiss::adapters::ask_collide<collide::Fast>(question);\n",
-      c.query->name, name_of(c.scalar), cpp_nested(c, 0, c.query->inputs.size(), 0));
+      c.query->name, name_of(c.scalar), cpp_nested(c, 0, c.fields().size(), 0));
 }
 
 std::vector<std::uint8_t> case_to_bytes(const Case& c) {
@@ -536,7 +535,7 @@ std::vector<std::uint8_t> case_to_bytes(const Case& c) {
   bytes.reserve(1 + bytes_of(*c.query, c.scalar));
   bytes.push_back(c.scalar == Scalar::float32 ? 0 : 1);
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (is_small(c.query->inputs[i].role)) {
+    if (is_small(c.role(i))) {
       bytes.push_back(static_cast<std::uint8_t>(static_cast<std::int8_t>(c.values[i])));
     } else if (c.scalar == Scalar::float32) {
       append_bits(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(c.values[i])));

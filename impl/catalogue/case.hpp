@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,12 +13,18 @@ namespace nearmiss {
 
 struct Case {
   const Query* query = nullptr;
-  Scalar scalar = Scalar::float64;      ///< every input is exactly a number of this scalar
-  std::vector<double> values;           ///< one for each of Query::inputs
+  Scalar scalar = Scalar::float64;  ///< every input is exactly a number of this scalar
+  std::vector<double> values;
   std::string origin;                   ///< "generator", "seeds/touch.json", "fuzz", a file and row …
   std::uint64_t seed = 0;               ///< of the generator
   std::uint64_t index = 0;              ///< of the case within its origin
   std::vector<std::string_view> moves;  ///< names of the generator's mutators that built it
+
+  /// One for each of `values`.
+  std::span<const Field> fields() const { return query->inputs; }
+  Role role(std::size_t number) const { return fields()[number].role; }
+  const std::string& name(std::size_t number) const { return fields()[number].name; }
+  const Operands& operands() const { return query->operands; }
 };
 
 }  // namespace nearmiss

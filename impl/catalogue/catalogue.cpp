@@ -52,9 +52,16 @@ template <class Inputs>
 Query make_query(QueryId id, std::string_view name) {
   static_assert(links_are_queries(Inputs::traits.links), "a link names a query that the catalogue does not have");
   using A = typename Inputs::Answer;
-  return {
-      id, name, kind_of<A>, fields_of<Inputs>(), fields_of<A>(), Layout::of<A>(), broken_inputs<Inputs>, Inputs::traits,
-      0};
+  return {id,
+          name,
+          kind_of<A>,
+          fields_of<Inputs>(),
+          fields_of<A>(),
+          operands_of<Inputs>(),
+          Layout::of<A>(),
+          broken_inputs<Inputs>,
+          Inputs::traits,
+          0};
 }
 
 }  // namespace
@@ -106,6 +113,7 @@ std::string_view name_of(Role role) {
     case Role::offset: return "offset";
     case Role::normal: return "normal";
     case Role::depth: return "depth";
+    case Role::distance: return "distance";
     case Role::weight: return "weight";
     case Role::flag: return "flag";
     case Role::index: return "index";

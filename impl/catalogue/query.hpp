@@ -12,13 +12,16 @@
 #include "impl/catalogue/answer.hpp"
 #include "impl/catalogue/kind.hpp"
 #include "impl/catalogue/layout.hpp"
+#include "impl/catalogue/operands.hpp"
 #include "impl/catalogue/traits.hpp"
 
 namespace nearmiss {
 
-using collide::Role;
-
 std::string_view name_of(Role role);
+/// A length, signed or not. A velocity and a plane's offset are none.
+constexpr bool is_length(Role role) {
+  return role == Role::position || role == Role::size || role == Role::depth || role == Role::distance;
+}
 
 /// One number of an input or an answer.
 struct Field {
@@ -40,6 +43,7 @@ struct Query {
   Kind kind;
   std::vector<Field> inputs;
   std::vector<Field> outputs;
+  Operands operands;
   Layout layout;  ///< the members of an answer, as ranges of its outputs
   /// The first rule that the inputs break, if any. Expects inputs.size() values.
   std::optional<Invalid> (*broken)(std::span<const double> values);

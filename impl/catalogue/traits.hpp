@@ -97,8 +97,6 @@ struct Balance {
 };
 
 struct Traits {
-  /// "the sphere", "the box": the two operands whose contact the query decides; empty where there are none.
-  std::array<std::string_view, 2> operands{};
   Sentences decision{};
   bool touching_is_yes = true;  ///< true: the query decides whether two closed sets meet
   bool one_sided = false;       ///< the plane, triangle or rectangle can be hit from its front only

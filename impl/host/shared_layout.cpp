@@ -22,7 +22,7 @@ class LayoutHash {
     add(std::uint64_t(text.size()));
     for (const char c : text) add_byte(std::uint8_t(c));
   }
-  void add(const std::vector<Field>& fields) {
+  void add(std::span<const Field> fields) {
     add(std::uint64_t(fields.size()));
     for (const Field& f : fields) add(f.name), add(std::uint64_t(f.role));
   }

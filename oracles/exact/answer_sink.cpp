@@ -295,7 +295,8 @@ std::optional<PlaceInAnswer> PlaceInAnswer::of(const Answer& about, const Layout
                                                double ulps, Scalar scalar) {
   const auto part = std::find_if(layout.parts.begin(), layout.parts.end(),
                                  [&](const Layout::Part& p) { return p.begin <= number && number < p.end; });
-  if (part == layout.parts.end() || part->role != Role::position || part->end - part->begin != 3) return std::nullopt;
+  const bool is_place = part != layout.parts.end() && (part->role == Role::position || part->role == Role::size);
+  if (!is_place || part->end - part->begin != 3) return std::nullopt;
   double largest = 0;
   for (std::size_t i = part->begin; i < part->end; ++i) {
     if (!about.gives(i) || !std::isfinite(about.values[i])) return std::nullopt;

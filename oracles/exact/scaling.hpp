@@ -50,7 +50,9 @@ class Scaling {
   int of_answer(Role role) const {
     switch (role) {
       case Role::position:
-      case Role::depth: return length_;
+      case Role::size:
+      case Role::depth:
+      case Role::distance: return length_;
       case Role::time: return length_ - velocity_;
       default: return 0;
     }

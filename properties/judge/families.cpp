@@ -42,12 +42,6 @@ void flatten_corners(CaseBuilder& d, const Operand& operand, double share) {
   d.set_vector(operand.positions[at], between(on_line, corner(0), share));
 }
 
-bool is_upright_box(const CaseBuilder& d, const Operand& operand) {
-  return operand.positions.size() == 2 && operand.sizes.empty() &&
-         std::find(d.plan.upper.begin(), d.plan.upper.end(), d.plan.vectors[operand.positions[1]].begin) !=
-             d.plan.upper.end();
-}
-
 void flatten_upright_box(CaseBuilder& d, const Operand& operand, double share) {
   Numbers high = d.vector(operand.positions[1]);
   const Numbers low = d.vector(operand.positions[0]);
@@ -59,7 +53,7 @@ void flatten_upright_box(CaseBuilder& d, const Operand& operand, double share) {
 }
 
 void flatten_operand(CaseBuilder& d, const Operand& operand, double share) {
-  if (is_upright_box(d, operand)) {
+  if (operand.shape == Shape::aabox) {
     flatten_upright_box(d, operand, share);
   } else if (operand.positions.size() >= 3) {
     const int corners = d.random.one_in(3) ? 2 : 1;

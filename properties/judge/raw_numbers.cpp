@@ -50,10 +50,9 @@ Case far_scaled_case(const Query& query, Scalar scalar, std::uint64_t seed, std:
   const int reach = scalar == Scalar::float32 ? 120 : 1000;
   const std::vector<double> before = c.values;
   for (std::size_t i = 0; i < c.values.size();) {
-    const Role role = query.inputs[i].role;
+    const Role role = c.role(i);
     std::size_t end = i;
-    while (end < c.values.size() && query.inputs[end].role == role &&
-           vector_of(query.inputs[end].name) == vector_of(query.inputs[i].name)) {
+    while (end < c.values.size() && c.role(end) == role && vector_of(c.name(end)) == vector_of(c.name(i))) {
       ++end;
     }
     const int exponents[] = {0, reach, -reach, -reach - 60, random.between(-reach, reach)};

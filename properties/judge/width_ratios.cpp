@@ -90,7 +90,7 @@ class Measured {
   double moved(std::size_t i, double share) const {
     double x = case_.values[i] + share * widening_[i];
     while (std::abs(x - case_.values[i]) > widening_[i]) x = std::nextafter(x, case_.values[i]);
-    return case_.query->inputs[i].role == Role::size ? std::max(0.0, x) : x;
+    return case_.role(i) == Role::size ? std::max(0.0, x) : x;
   }
   std::optional<Hull> answer_to(const std::vector<double>& values) const {
     if (case_.query->broken(values)) return std::nullopt;

@@ -20,8 +20,6 @@ struct BoundedAnswer {
   bool by_intervals = false;
 };
 
-bool holds_length(Role role) { return role == Role::position || role == Role::size || role == Role::depth; }
-
 /// The largest distance of a member of this role from the exact one, in its own unit. Each lies within
 /// Finding::forward_at_most ulps of its largest number.
 template <class Is>
@@ -132,7 +130,7 @@ class EvidenceMeasurement {
     if (answer.status != Answer::Status::answered || !is_regular(*exact.query, answer)) return std::nullopt;
     const Enclosure e = enclosure_of(exact, answer);
     if (!e.decided() || e.may_be_yes != answer.yes) return std::nullopt;
-    const LargestError distance = enclosed_error(*exact.query, answer, e, holds_length);
+    const LargestError distance = enclosed_error(*exact.query, answer, e, is_length);
     const LargestError time = enclosed_error(*exact.query, answer, e, [](Role r) { return r == Role::time; });
     BoundedAnswer a;
     a.answer.state = TradeAnswer::State::compared;
@@ -152,7 +150,7 @@ class EvidenceMeasurement {
     if (!first) return std::nullopt;
     BoundedAnswer a{trade_answer(exact, subject.scalar, answer, *first, tolerance_)};
     if (a.answer.state != TradeAnswer::State::compared) return a;
-    a.distance_at_most = error_at_most(exact, answer, *first, holds_length);
+    a.distance_at_most = error_at_most(exact, answer, *first, is_length);
     a.time_at_most = error_at_most(exact, answer, *first, [](Role r) { return r == Role::time; });
     a.by_intervals = first->settled && first->decided_by == Stage::interval && is_good(a);
     if (a.by_intervals) return a;

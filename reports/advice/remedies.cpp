@@ -8,27 +8,22 @@
 #include <functional>
 #include <optional>
 
-#include "corpus/relations/operands.hpp"
+#include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using metamorphic::index_of;
-using metamorphic::vector_at;
-
 constexpr int sampled_cases = 100;  ///< of which a cell and a unit are chosen
 constexpr int parts_of_step = 8;
 
 double in_scalar_of(const Case& c, double x) { return c.scalar == Scalar::float32 ? double(float(x)) : x; }
 
-/// The indices of the x of each position.
+/// The first number of each position.
 std::vector<std::size_t> positions_of(const Query& query) {
   std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
-    if (query.inputs[i].role == Role::position && vector_at(query.inputs, i)) all.push_back(i);
-  }
+  for (const Operand& o : query.operands) all.insert(all.end(), o.positions.begin(), o.positions.end());
   return all;
 }
 
@@ -41,7 +36,7 @@ double reach_of_positions(const Case& c, const std::vector<std::size_t>& positio
     }
   }
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::size) reach = std::max(reach, std::abs(c.values[i]));
+    if (c.role(i) == Role::size) reach = std::max(reach, std::abs(c.values[i]));
   }
   return reach;
 }
@@ -54,14 +49,14 @@ std::vector<Case> sample_of(const TradeSource& source, const Query& query, std::
 
 /// Moves the origin by -corner, and planes with it.
 void move_origin(Case& c, const std::array<double, 3>& corner) {
-  const std::vector<Field>& fields = c.query->inputs;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (fields[i].role == Role::position && vector_at(fields, i)) {
+  for (const Operand& o : c.operands()) {
+    for (const std::size_t i : o.positions) {
       for (std::size_t k = 0; k < 3; ++k) c.values[i + k] = in_scalar_of(c, c.values[i + k] - corner[k]);
-    } else if (fields[i].role == Role::offset) {  // it follows the plane's normal
-      for (std::size_t k = 0; k < 3; ++k) c.values[i] += c.values[i - 3 + k] * corner[k];
-      c.values[i] = in_scalar_of(c, c.values[i]);
     }
+    if (!o.offset) continue;
+    double& offset = c.values[*o.offset];
+    for (std::size_t k = 0; k < 3; ++k) offset += c.values[*o.direction + k] * corner[k];
+    offset = in_scalar_of(c, offset);
   }
 }
 
@@ -106,22 +101,20 @@ std::optional<Remedy> re_centred(const TradeSource& source, const Query& query, 
 }
 
 std::optional<Remedy> split_step(const TradeSource& source, const Query& query, double step) {
-  const std::size_t velocity = index_of(query.inputs, "velocity.x"), limit = index_of(query.inputs, "limit");
-  const std::vector<std::size_t> positions = positions_of(query);
-  if (velocity == query.inputs.size() || positions.empty() || positions.front() > velocity) return std::nullopt;
+  const Operand& mover = query.operands[0];
+  if (!mover.velocity) return std::nullopt;
   const double part = step / parts_of_step;
-  const std::size_t time = index_of(query.outputs, "time");
-  const auto change = [=](Case& c) {
+  const auto time = index_of_role(query.outputs, Role::time), limit = index_of_role(query.inputs, Role::time);
+  const auto change = [time, limit, part, place = mover.positions[0], velocity = *mover.velocity](Case& c) {
     const Truth truth = truth_of(c);
     double contact = 0;
-    if (truth.yes && !truth.alternatives.empty() && time < c.query->outputs.size())
-      contact = truth.alternatives.front().values[time].low;
+    if (truth.yes && !truth.alternatives.empty() && time) contact = truth.alternatives.front().values[*time].low;
     const double begin = std::clamp(std::floor(contact / part), 0.0, double(parts_of_step - 1)) * part;
     for (std::size_t k = 0; k < 3; ++k) {
-      double& x = c.values[positions.front() + k];
+      double& x = c.values[place + k];
       x = in_scalar_of(c, x + begin * c.values[velocity + k]);
     }
-    if (limit < c.query->inputs.size()) c.values[limit] = in_scalar_of(c, part);
+    if (limit) c.values[*limit] = in_scalar_of(c, part);
   };
   return Remedy{"split the step", fmt::format("make {} steps of {:g} s of each step", parts_of_step, part),
                 changed_source(source, change)};
@@ -155,7 +148,7 @@ std::optional<Remedy> in_another_unit(const TradeSource& source, const Query& qu
   const double factor = metres / unit.metres;
   const auto change = [factor](Case& c) {
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      const Role role = c.query->inputs[i].role;
+      const Role role = c.role(i);
       if (role == Role::position || role == Role::velocity || role == Role::size || role == Role::offset)
         c.values[i] = in_scalar_of(c, c.values[i] * factor);
     }

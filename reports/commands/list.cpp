@@ -134,7 +134,7 @@ std::string reasons_table() {
 
 std::string members_table(const Query& query) {
   std::vector<std::vector<std::string>> rows{{"", "MEMBER", "ROLE"}};
-  const auto add = [&](const char* side, const std::vector<Field>& fields) {
+  const auto add = [&](const char* side, std::span<const Field> fields) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       rows.push_back({fmt::format("{}[{}]", side, i), fields[i].name, std::string(name_of(fields[i].role))});
     }

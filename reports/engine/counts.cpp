@@ -26,6 +26,8 @@ std::string_view noun_of(Disagreement d) {
     case Disagreement::wrong_place:
     case Disagreement::wrong_normal:
     case Disagreement::wrong_depth:
+    case Disagreement::wrong_distance:
+    case Disagreement::wrong_size:
     case Disagreement::wrong_direction:
     case Disagreement::wrong_weight:
     case Disagreement::wrong_flag:

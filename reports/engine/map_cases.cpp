@@ -57,7 +57,7 @@ struct NamedPoint {
 std::vector<NamedPoint> points_in(const Case& c) {
   std::vector<NamedPoint> points;
   for (std::size_t i = 0; i + 2 < c.values.size(); ++i) {
-    const Field& field = c.query->inputs[i];
+    const Field& field = c.fields()[i];
     if (field.role != Role::position || !field.name.ends_with(".x")) continue;
     const std::string_view shape = std::string_view(field.name).substr(0, field.name.find('.'));
     points.push_back({shape, {c.values[i], c.values[i + 1], c.values[i + 2]}});
@@ -69,7 +69,7 @@ std::vector<NamedPoint> points_in(const Case& c) {
 double largest_size(const Case& c, const std::vector<NamedPoint>& points) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::size) largest = std::max(largest, c.values[i]);
+    if (c.role(i) == Role::size) largest = std::max(largest, c.values[i]);
   }
   for (const NamedPoint& a : points) {
     for (const NamedPoint& b : points) {
@@ -85,7 +85,7 @@ Measures measures_of(const Case& c) {
   for (const NamedPoint& p : points) middle = plus(middle, p.at, 1 / double(points.size()));
   double square = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == Role::velocity) square += c.values[i] * c.values[i];
+    if (c.role(i) == Role::velocity) square += c.values[i] * c.values[i];
   }
   return {scenes::length_of(middle), largest_size(c, points), std::sqrt(square)};
 }
@@ -142,10 +142,7 @@ class SceneMapCases : public MapCases {
  private:
   using Plane = std::pair<std::size_t, std::size_t>;  ///< x and y, by_distance and so on
 
-  static bool moves(const Query& query) {
-    return std::any_of(query.inputs.begin(), query.inputs.end(),
-                       [](const Field& f) { return f.role == Role::velocity; });
-  }
+  static bool moves(const Query& query) { return !query.operands.velocities.empty(); }
   static std::vector<Plane> measured_planes(const Query& query) {
     std::vector<Plane> planes{{by_distance, by_size}};
     if (moves(query)) planes.push_back({by_distance, by_speed});

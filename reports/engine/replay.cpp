@@ -20,7 +20,7 @@ namespace nearmiss {
 namespace {
 
 /// Rows of a name and its numbers, one row for each vector: "box.center" 0 1 2.
-std::vector<std::vector<std::string>> rows_of(const std::vector<Field>& fields,
+std::vector<std::vector<std::string>> rows_of(std::span<const Field> fields,
                                               const std::function<std::string(std::size_t)>& number) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -35,7 +35,7 @@ std::vector<std::vector<std::string>> rows_of(const std::vector<Field>& fields,
 }
 
 std::string inputs_text(const Case& c) {
-  return table_text(rows_of(c.query->inputs, [&](std::size_t i) { return number_text(c.values[i], c.scalar); }), "  ");
+  return table_text(rows_of(c.fields(), [&](std::size_t i) { return number_text(c.values[i], c.scalar); }), "  ");
 }
 
 std::string alternative_text(const Query& query, const Alternative& a) {

@@ -17,7 +17,7 @@ namespace {
 std::optional<double> to_unit_scale(const Case& c) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
   }
   if (!(largest > 0) || std::ilogb(largest) == 0) return std::nullopt;
@@ -27,7 +27,7 @@ std::optional<double> to_unit_scale(const Case& c) {
 std::optional<Case> scaled(const Case& question, double factor) {
   Case c = question;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     const bool scales = role == Role::position || role == Role::size || role == Role::velocity || role == Role::offset;
     if (!scales) continue;
     c.values[i] *= factor;
@@ -40,7 +40,7 @@ std::optional<Case> scaled(const Case& question, double factor) {
 Answer scaled_back(const Query& query, Answer a, double factor) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     const Role role = query.outputs[i].role;
-    if (role == Role::position || role == Role::depth) a.values[i] /= factor;
+    if (is_length(role)) a.values[i] /= factor;
   }
   return a;
 }

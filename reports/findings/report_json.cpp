@@ -40,8 +40,7 @@ Json with_vectors(const Json& j) {
 }
 
 /// The first `count` fields nested by name, each leaf an enclosure; normals are left out where `skip_normals` is set.
-Json enclosures(const std::vector<Field>& fields, std::size_t count, std::span<const Bounds> values,
-                bool skip_normals) {
+Json enclosures(std::span<const Field> fields, std::size_t count, std::span<const Bounds> values, bool skip_normals) {
   Json nested = Json::object();
   for (std::size_t i = 0; i < std::min(count, fields.size()); ++i) {
     if (skip_normals && fields[i].role == Role::normal) continue;
@@ -89,7 +88,7 @@ Json moved(const Case& question, double k) {
   const std::vector<double> by = widening(*question.query, question.values, question.scalar, k);
   Json groups = Json::object();
   for (std::size_t i = 0; i < by.size(); ++i) {
-    if (by[i] > 0) groups[std::string(name_of(question.query->inputs[i].role))] = number(by[i]);
+    if (by[i] > 0) groups[std::string(name_of(question.role(i)))] = number(by[i]);
   }
   return groups;
 }

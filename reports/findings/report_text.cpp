@@ -15,10 +15,6 @@ namespace nearmiss {
 
 namespace {
 
-bool has_role(const std::vector<Field>& fields, Role role) {
-  return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; });
-}
-
 /// The decisions in the words of the query.
 struct Phrases {
   std::string yes, no;              ///< "the sphere hits the box"
@@ -38,22 +34,14 @@ Phrases phrases(const Query& query) {
             "the answer would still be yes",
             "the answer would still be no"};
   }
-  const auto& [one, other] = query.traits.operands;
-  if (query.kind == Kind::impact || has_role(query.inputs, Role::velocity)) {
-    return {one.empty() ? "it is a hit" : fmt::format("{} hits {}", one, other),
-            one.empty() ? "it is a miss" : fmt::format("{} does not hit {}", one, other),
+  const std::string &one = query.operands[0].words, &other = query.operands[1].words;
+  if (query.kind == Kind::impact || !query.operands.velocities.empty()) {
+    return {fmt::format("{} hits {}", one, other),
+            fmt::format("{} does not hit {}", one, other),
             "it is a hit",
             "it is a miss",
             "it would still be a hit",
             "it would still be a miss"};
-  }
-  if (one.empty()) {
-    return {"the answer is yes",
-            "the answer is no",
-            "the answer is yes",
-            "the answer is no",
-            "the answer would still be yes",
-            "the answer would still be no"};
   }
   const std::string both = fmt::format("{} and {}", one, other);
   return {both + " touch or overlap",          both + " are apart",        "they touch or overlap", "they are apart",
@@ -94,7 +82,7 @@ Off off_by(const Layout::Part& part, const Alternative& right, const Answer& giv
 double length(const Case& question, Role role) {
   double square = 0;
   for (std::size_t i = 0; i < question.values.size(); ++i) {
-    if (question.query->inputs[i].role == role) square += question.values[i] * question.values[i];
+    if (question.role(i) == role) square += question.values[i] * question.values[i];
   }
   return std::sqrt(square);
 }
@@ -253,7 +241,7 @@ class Explanation {
     if (part.role != Role::time || !(speed > 0)) return "";
     double extent = 0;
     for (std::size_t i = 0; i < r_.question.values.size(); ++i) {
-      const Role role = query_.inputs[i].role;
+      const Role role = r_.question.role(i);
       if (role == Role::position || role == Role::size) extent = std::max(extent, std::abs(r_.question.values[i]));
     }
     const std::string share =
@@ -372,13 +360,13 @@ std::string moves_text(const Case& question, double k) {
   std::vector<std::string> groups;
   const auto is_zero = [&](Role role) {  // such a group moves by the least number, which says nothing
     for (std::size_t i = 0; i < by.size(); ++i) {
-      if (question.query->inputs[i].role == role && question.values[i] != 0) return false;
+      if (question.role(i) == role && question.values[i] != 0) return false;
     }
     return true;
   };
   for (std::size_t i = 0; i < by.size(); ++i) {
-    if (!(by[i] > 0) || is_zero(question.query->inputs[i].role)) continue;
-    std::string text = fmt::format("every {} by up to {:.2g}", name_of(question.query->inputs[i].role), by[i]);
+    if (!(by[i] > 0) || is_zero(question.role(i))) continue;
+    std::string text = fmt::format("every {} by up to {:.2g}", name_of(question.role(i)), by[i]);
     if (std::find(groups.begin(), groups.end(), text) == groups.end()) groups.push_back(std::move(text));
   }
   const std::string moved = groups.empty() ? "every number by up to the least one" : list_text(groups);

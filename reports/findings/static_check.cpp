@@ -18,7 +18,7 @@ namespace {
 Case placed_at(const Case& question, const Link& link, double time) {
   Case there = question;
   there.scalar = Scalar::float64;
-  const auto& fields = question.query->inputs;
+  const auto fields = question.fields();
   const auto first = [&](Role role) {
     return std::size_t(std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; }) -
                        fields.begin());
@@ -35,7 +35,7 @@ double step_of(const Case& c) {
   double size = 0, position = 0, speed = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const double x = std::abs(c.values[i]);
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::size) size = std::max(size, x);
     if (role == Role::position) position = std::max(position, x);
     if (role == Role::velocity) speed = std::max(speed, x);

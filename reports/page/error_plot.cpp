@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 double scale_of_group(const Case& c, std::size_t number) {
   double most = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == c.query->inputs[number].role) most = std::max(most, std::abs(c.values[i]));
+    if (c.role(i) == c.role(number)) most = std::max(most, std::abs(c.values[i]));
   }
   return most == 0 ? 1 : most;
 }
@@ -63,7 +63,7 @@ nlohmann::ordered_json error_plots(const Case& question, const Subject& subject,
                                    const std::function<bool()>& go_on) {
   Json plots = Json::array();
   for (std::size_t i = 0; i < question.values.size(); ++i) {
-    const Field& field = question.query->inputs[i];
+    const Field& field = question.fields()[i];
     if (field.role == Role::flag || field.role == Role::index) continue;
     Json plot{{"number", field.name}, {"value", question.values[i]}, {"scale", scale_of_group(question, i)}};
     Case moved = question;

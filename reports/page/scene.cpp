@@ -11,7 +11,6 @@ namespace nearmiss {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Form = SceneShape::Form;
 
 /// A vector of an answer: three enclosures, each one number for a subject's answer.
 struct SceneValue {
@@ -109,8 +108,7 @@ SceneReal distance_of(const SceneContact& a, const SceneContact& b) {
 /// Assembles the picture of one report.
 class ScenePicture {
  public:
-  ScenePicture(const Case& question, const FileValue& report)
-      : question_(question), inputs_(scene_inputs(*question.query, question.values)) {
+  ScenePicture(const Case& question, const FileValue& report) : question_(question), inputs_(scene_inputs(question)) {
     const FileValue answer = report.at("answer");
     if (answer.at("status").text() == "answered") claimed_ = contact_in(*question.query, answer.at("values").json());
     for (const FileValue& a : report.at("truth").at("alternatives").items())
@@ -167,7 +165,7 @@ class ScenePicture {
   SceneReal time_of_approach() const {
     const SceneShape *mover = moving(), *other = other_than(mover);
     if (mover == nullptr || other == nullptr || mover->corners.empty()) return 0;
-    const SceneShape path{"", Form::ray, "", {mover->corners[0]}, *inputs_.velocity};
+    const SceneShape path{"", Shape::ray, {mover->corners[0]}, *inputs_.velocity};
     const SceneVector met = meeting(path, *other).second;
     const SceneReal t = dot(nearest_point(path, met) - mover->corners[0], path.axis) / dot(path.axis, path.axis);
     return inputs_.time && t > *inputs_.time ? SceneReal(*inputs_.time) : t;
@@ -198,7 +196,7 @@ class ScenePicture {
     if (first == nullptr) return {};
     if (other == nullptr) return nearest_point(*first, {});
     SceneShape core = *first;  // of a ball its center: the nearest point to it is where the balls meets
-    if (core.kind == Form::sphere) core.radius = 0;
+    if (core.shape == Shape::sphere) core.radius = 0;
     return meeting(core, *other).second;
   }
   const SceneShape* first_body() const {
@@ -216,8 +214,7 @@ class ScenePicture {
     double most = 0;
     for (const double x : anchor_) most = std::max(most, std::abs(x));
     for (std::size_t i = 0; most == 0 && i < question_.values.size(); ++i) {
-      if (question_.query->inputs[i].role == Role::position || question_.query->inputs[i].role == Role::size)
-        most = std::abs(question_.values[i]);
+      if (question_.role(i) == Role::position || question_.role(i) == Role::size) most = std::abs(question_.values[i]);
     }
     return ulp(most == 0 ? 1.0 : most, question_.scalar);
   }
@@ -241,7 +238,7 @@ class ScenePicture {
   SceneReal distance_of_planes() const {
     SceneReal least = 0;
     for (const SceneShape& s : inputs_.shapes) {
-      if (s.kind == Form::plane && (least == 0 || length(nearest_point(s, {})) < least))
+      if (s.shape == Shape::plane && (least == 0 || length(nearest_point(s, {})) < least))
         least = length(nearest_point(s, {}));
     }
     return least;
@@ -267,7 +264,7 @@ class ScenePicture {
   /// The point at which an arrow of an answer without a place begins: the last point among the inputs.
   SceneVector foot_of_arrows() const {
     for (auto s = inputs_.shapes.rbegin(); s != inputs_.shapes.rend(); ++s) {
-      if (s->kind == Form::point) return s->corners[0];
+      if (s->shape == Shape::point) return s->corners[0];
     }
     return {};
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 
 namespace nearmiss {
@@ -26,108 +25,49 @@ SceneVector unit(const SceneVector& a) {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Form = SceneShape::Form;
 
 // --- reading -------------------------------------------------------------------------------------------------------
 
-/// An input of a query: the numbers of each of its members by name. A vector or number without members has "".
-struct SceneOperand {
-  std::string name;
-  std::map<std::string, std::vector<double>> members{};
-  std::map<std::string, Role> roles{};
+using Values = std::span<const double>;
 
-  SceneVector vector(const std::string& member) const {
-    const std::vector<double>& v = members.at(member);
-    return {v.at(0), v.at(1), v.at(2)};
-  }
-  bool is_vector(const std::string& member) const { return members.at(member).size() == 3; }
-  bool has_exactly(std::initializer_list<const char*> names) const {
-    return members.size() == names.size() &&
-           std::all_of(names.begin(), names.end(), [&](const char* n) { return members.contains(n); });
-  }
-};
-
-/// Splits "box.center.x" into the operand "box", its member "center" and a component; "velocity.x" has the member "".
-std::vector<SceneOperand> operands_of(const Query& query, std::span<const double> values) {
-  std::vector<SceneOperand> operands;
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
-    const std::string& name = query.inputs[i].name;
-    const std::string head = name.substr(0, name.find('.'));
-    std::string member = head.size() == name.size() ? "" : name.substr(head.size() + 1);
-    const std::size_t component = member.rfind('.');
-    if (component != std::string::npos) {
-      member.resize(component);
-    } else if (member.size() == 1) {
-      member.clear();
-    }
-    if (operands.empty() || operands.back().name != head) operands.push_back({head});
-    operands.back().members[member].push_back(values[i]);
-    operands.back().roles[member] = query.inputs[i].role;
-  }
-  return operands;
-}
+SceneVector vector_at(Values v, std::size_t i) { return {v[i], v[i + 1], v[i + 2]}; }
 
 /// The axes of the rotation x, y, z, w, which need not have unit length.
-std::vector<SceneVector> axes_of(const std::vector<double>& q) {
-  const SceneReal x = q.at(0), y = q.at(1), z = q.at(2), w = q.at(3), s = 2 / (x * x + y * y + z * z + w * w);
+std::vector<SceneVector> axes_of(Values q) {
+  const SceneReal x = q[0], y = q[1], z = q[2], w = q[3], s = 2 / (x * x + y * y + z * z + w * w);
   return {{1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
           {s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x)},
           {s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y)}};
 }
 
-SceneShape box_between(const std::string& name, const SceneVector& low, const SceneVector& high) {
-  const SceneVector half = (high - low) * SceneReal(0.5);
-  return {.name = name,
-          .kind = Form::box,
-          .kind_name = "aabox",
-          .corners = {low + half},
-          .axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          .half = {half.x, half.y, half.z}};
+SceneShape drawn(const Operand& o, Values values) {
+  SceneShape s{.name = o.name, .shape = o.shape};
+  for (const std::size_t at : o.positions) s.corners.push_back(vector_at(values, at));
+  if (o.direction) s.axis = vector_at(values, *o.direction);
+  if (o.offset) s.offset = values[*o.offset];
+  if (o.radius) s.radius = values[*o.radius];
+  if (o.shape == Shape::box) {
+    const SceneVector half = vector_at(values, *o.half);
+    s.axes = axes_of(values.subspan(*o.rotation, 4));
+    s.half = {half.x, half.y, half.z};
+  } else if (o.shape == Shape::aabox) {
+    const SceneVector low = s.corners[0], half = (s.corners[1] - low) * SceneReal(0.5);
+    s.corners = {low + half};
+    s.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    s.half = {half.x, half.y, half.z};
+  }
+  return s;
 }
 
-/// The shape of an operand with these members; empty where they are no shape's.
-std::optional<SceneShape> known_shape(const SceneOperand& o) {
-  const auto at = [&](const char* member) { return o.vector(member); };
-  if (o.has_exactly({"center", "radius"}))
-    return SceneShape{o.name, Form::sphere, "sphere", {at("center")}, {}, 0, o.members.at("radius")[0]};
-  if (o.has_exactly({"p0", "p1", "radius"}))
-    return SceneShape{o.name, Form::capsule, "capsule", {at("p0"), at("p1")}, {}, 0, o.members.at("radius")[0]};
-  if (o.has_exactly({"center", "half", "orientation"})) {
-    const SceneVector half = at("half");
-    return SceneShape{.name = o.name,
-                      .kind = Form::box,
-                      .kind_name = "box",
-                      .corners = {at("center")},
-                      .axes = axes_of(o.members.at("orientation")),
-                      .half = {half.x, half.y, half.z}};
-  }
-  if (o.has_exactly({"min", "max"})) return box_between(o.name, at("min"), at("max"));
-  if (o.has_exactly({"v0", "v1"})) return SceneShape{o.name, Form::segment, "segment", {at("v0"), at("v1")}};
-  if (o.has_exactly({"v0", "v1", "v2"}))
-    return SceneShape{o.name, Form::triangle, "triangle", {at("v0"), at("v1"), at("v2")}};
-  if (o.has_exactly({"v0", "v1", "v2", "v3"}))
-    return SceneShape{o.name, Form::rectangle, "rectangle", {at("v0"), at("v1"), at("v2"), at("v3")}};
-  if (o.has_exactly({"origin", "direction"}))
-    return SceneShape{o.name, Form::ray, "ray", {at("origin")}, at("direction")};
-  if (o.has_exactly({"point", "direction"}))
-    return SceneShape{o.name, Form::line, "line", {at("point")}, at("direction")};
-  if (o.has_exactly({"normal", "offset"}))
-    return SceneShape{o.name, Form::plane, "plane", {}, at("normal"), o.members.at("offset")[0]};
-  return std::nullopt;
-}
-
-/// An operand that is no shape: its positions are points, and its directions arrows.
-void add_loose(SceneInputs& scene, const SceneOperand& o) {
-  for (const auto& [member, role] : o.roles) {
-    const std::string name = member.empty() ? o.name : o.name + "." + member;
-    if (role == Role::time) scene.time = o.members.at(member)[0];
-    if (!o.is_vector(member)) continue;
-    if (role == Role::position) scene.shapes.push_back({name, Form::point, "point", {o.vector(member)}});
-    if (role == Role::direction) scene.shapes.push_back({name, Form::direction, "direction", {}, o.vector(member)});
-    if (role != Role::velocity) continue;
-    scene.velocity = o.vector(member);
-    if (!scene.shapes.empty()) scene.shapes.back().moves = true;
-  }
+/// An input that is no shape: a direction is an arrow.
+void add_loose(SceneInputs& scene, const InputMember& m, Values values) {
+  if (m.role == Role::time) scene.time = values[m.begin];
+  if (!m.is_vector()) return;
+  if (m.role == Role::direction)
+    scene.shapes.push_back({.name = m.name, .shape = std::nullopt, .axis = vector_at(values, m.begin)});
+  if (m.role != Role::velocity) return;
+  scene.velocity = vector_at(values, m.begin);
+  if (!scene.shapes.empty()) scene.shapes.back().moves = true;
 }
 
 // --- nearest points ------------------------------------------------------------------------------------------------
@@ -239,47 +179,49 @@ SceneShape divided(SceneShape s, const SceneReal& by) {
 
 }  // namespace
 
-SceneInputs scene_inputs(const Query& query, std::span<const double> values) {
+SceneInputs scene_inputs(const Case& question) {
   SceneInputs scene;
-  for (const SceneOperand& o : operands_of(query, values)) {
-    if (auto shape = known_shape(o)) {
-      scene.shapes.push_back(std::move(*shape));
-    } else {
-      add_loose(scene, o);
+  const Operands& operands = question.operands();
+  for (const InputMember& m : operands.members) {
+    if (!m.operand) {
+      add_loose(scene, m, question.values);
+    } else if (m.begin == operands[*m.operand].begin) {
+      scene.shapes.push_back(drawn(operands[*m.operand], question.values));
     }
   }
   return scene;
 }
 
 SceneVector nearest_point(const SceneShape& s, const SceneVector& p) {
-  switch (s.kind) {
-    case Form::segment: return nearest_on_segment(p, s.corners[0], s.corners[1]);
-    case Form::ray: return nearest_on_carrier(p, s.corners[0], s.axis, 0, std::nullopt);
-    case Form::line: return nearest_on_carrier(p, s.corners[0], s.axis, std::nullopt, std::nullopt);
-    case Form::plane: return p - s.axis * ((dot(s.axis, p) + s.offset) / dot(s.axis, s.axis));
-    case Form::triangle: return nearest_on_triangle(p, s.corners[0], s.corners[1], s.corners[2]);
-    case Form::rectangle:
+  if (!s.shape) return p;
+  switch (*s.shape) {
+    case Shape::segment: return nearest_on_segment(p, s.corners[0], s.corners[1]);
+    case Shape::ray: return nearest_on_carrier(p, s.corners[0], s.axis, 0, std::nullopt);
+    case Shape::line: return nearest_on_carrier(p, s.corners[0], s.axis, std::nullopt, std::nullopt);
+    case Shape::plane: return p - s.axis * ((dot(s.axis, p) + s.offset) / dot(s.axis, s.axis));
+    case Shape::triangle: return nearest_on_triangle(p, s.corners[0], s.corners[1], s.corners[2]);
+    case Shape::rectangle:
       return nearer(p, nearest_on_triangle(p, s.corners[0], s.corners[1], s.corners[2]),
                     nearest_on_triangle(p, s.corners[0], s.corners[2], s.corners[3]));
-    case Form::sphere: return nearest_in_ball(p, s.corners[0], s.radius);
-    case Form::capsule: return nearest_in_ball(p, nearest_on_segment(p, s.corners[0], s.corners[1]), s.radius);
-    case Form::box: return nearest_in_box(p, s);
-    case Form::point:
-    case Form::direction: break;
+    case Shape::sphere: return nearest_in_ball(p, s.corners[0], s.radius);
+    case Shape::capsule: return nearest_in_ball(p, nearest_on_segment(p, s.corners[0], s.corners[1]), s.radius);
+    case Shape::box:
+    case Shape::aabox: return nearest_in_box(p, s);
+    case Shape::point: break;
   }
-  return s.corners.empty() ? p : s.corners[0];
+  return s.corners[0];
 }
 
 void move_by(SceneShape& s, const SceneVector& by) {
   for (SceneVector& c : s.corners) c = c + by;
-  if (s.kind == Form::plane) s.offset -= dot(s.axis, by);
+  if (s.shape == Shape::plane) s.offset -= dot(s.axis, by);
 }
 
 SceneReal reach(const SceneShape& s) {
-  if (s.kind == Form::direction) return 0;
+  if (!s.is_body()) return 0;
   SceneReal most = 0;
   for (const SceneVector& c : s.corners) most = std::max<SceneReal>(most, length(c));
-  if (s.kind == Form::box) return most + length({s.half[0], s.half[1], s.half[2]});
+  if (!s.half.empty()) return most + length({s.half[0], s.half[1], s.half[2]});
   return most + s.radius;
 }
 
@@ -287,33 +229,37 @@ Json vector_to_json(const SceneVector& v) { return Json::array({rounded(v.x), ro
 
 Json shape_to_json(const SceneShape& shape, const SceneReal& by) {
   const SceneShape s = divided(shape, by);
-  Json j{{"name", s.name}, {"kind", s.kind_name}, {"moves", s.moves}};
+  Json j{{"name", s.name}, {"kind", s.shape ? name_of(*s.shape) : "direction"}, {"moves", s.moves}};
   for (const SceneVector& c : s.corners) j["corners"].push_back(vector_to_json(c));
-  switch (s.kind) {
-    case Form::segment:
+  if (!s.shape) {
+    j["direction"] = vector_to_json(unit(s.axis));
+    return j;
+  }
+  switch (*s.shape) {
+    case Shape::segment:
       j["sides"] = Json::array({carrier_to_json(s.corners[0], s.corners[1] - s.corners[0], 0, 1)});
       break;
-    case Form::ray:
+    case Shape::ray:
       j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, SceneReal(0), std::nullopt)});
       break;
-    case Form::line:
+    case Shape::line:
       j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, std::nullopt, std::nullopt)});
       break;
-    case Form::plane: j["plane"] = face_to_json(unit(s.axis), -s.offset / length(s.axis) / by); break;
-    case Form::triangle:
-    case Form::rectangle: add_pieces(j, s.corners); break;
-    case Form::capsule:
+    case Shape::plane: j["plane"] = face_to_json(unit(s.axis), -s.offset / length(s.axis) / by); break;
+    case Shape::triangle:
+    case Shape::rectangle: add_pieces(j, s.corners); break;
+    case Shape::capsule:
       j["axis"] = carrier_to_json(s.corners[0], s.corners[1] - s.corners[0], 0, 1);
-      j["axis"]["distance"] = rounded(
-          length(nearest_point({"", Form::line, "", {s.corners[0]}, s.corners[1] - s.corners[0]}, {})) - s.radius);
+      j["axis"]["distance"] =
+          rounded(length(nearest_point({"", Shape::line, {s.corners[0]}, s.corners[1] - s.corners[0]}, {})) - s.radius);
       [[fallthrough]];
-    case Form::sphere:
+    case Shape::sphere:
       j["radius"] = rounded(s.radius);
       for (const SceneVector& c : s.corners) j["distances"].push_back(rounded(length(c) - s.radius));
       break;
-    case Form::box: j["faces"] = faces_to_json(s); break;
-    case Form::direction: j["direction"] = vector_to_json(unit(s.axis)); break;
-    case Form::point: break;
+    case Shape::box:
+    case Shape::aabox: j["faces"] = faces_to_json(s); break;
+    case Shape::point: break;
   }
   return j;
 }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,20 +36,18 @@ SceneVector unit(const SceneVector& a);
 
 /// One input of a query that is drawn.
 struct SceneShape {
-  enum class Form { point, segment, ray, line, plane, triangle, rectangle, sphere, capsule, box, direction };
-
-  std::string name;  ///< of the input: "sphere", "box1"
-  Form kind;
-  std::string_view kind_name;        ///< as the query's list of members says: an aabox is a box with its own name
-  std::vector<SceneVector> corners;  ///< points; of a ray or line the first is one and `axis` the direction
-  SceneVector axis{};                ///< of a ray, line, plane or direction; of any length
-  SceneReal offset = 0;              ///< of a plane: axis . x + offset = 0
+  std::string name;            ///< of the input: "sphere", "box1"
+  std::optional<Shape> shape;  ///< empty: a direction
+  std::vector<SceneVector>
+      corners{};         ///< points; of a ray or line the first is one and `axis` the direction; of a box its center
+  SceneVector axis{};    ///< of a ray, line, plane or direction; of any length
+  SceneReal offset = 0;  ///< of a plane: axis . x + offset = 0
   SceneReal radius = 0;
   std::vector<SceneVector> axes{};  ///< of a box: unit vectors
   std::vector<SceneReal> half{};    ///< of a box: half the length along each
   bool moves = false;
 
-  bool is_body() const { return kind != Form::direction; }
+  bool is_body() const { return shape.has_value(); }
 };
 
 /// The shapes and the motion of a case.
@@ -59,7 +56,7 @@ struct SceneInputs {
   std::optional<SceneVector> velocity;  ///< of the shapes that move
   std::optional<double> time;           ///< an input time: where the motion ends
 };
-SceneInputs scene_inputs(const Query& query, std::span<const double> values);
+SceneInputs scene_inputs(const Case& question);
 
 /// The point of the shape that is nearest to `p`. The shape is a body.
 SceneVector nearest_point(const SceneShape& shape, const SceneVector& p);

@@ -77,7 +77,7 @@ nearmiss.table = (() => {
       cell("severity", element("span", {title: data.value(row, "severity_text") || about(severity)},
         element("i", {class: "meter"}, element("i", {style: `width:${Math.max(3, 100 * Math.min(1, severity / severest))}%`})))));
   }
-  const wrongs = new Set(["wrong time", "negative time", "wrong place", "wrong normal", "wrong depth", "wrong direction",
+  const wrongs = new Set(["wrong time", "negative time", "wrong place", "wrong normal", "wrong depth", "wrong distance", "wrong size", "wrong direction",
     "wrong weight", "wrong flag", "wrong index", "wrong combination", "off the surface", "not unit"]);
 
   function paint() {

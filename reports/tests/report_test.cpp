@@ -55,6 +55,9 @@ Case overlap(double x) {
           {}};
 }
 /// A ball of radius 1 that overlaps the unit box around 0, and moves on into it.
+/// Two cubes with half extents of 1, their centers `apart` along x.
+std::vector<double> two_boxes(double apart) { return {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, apart, 0, 0, 1, 1, 1, 0, 0, 0, 1}; }
+
 Case overlapping() {
   Case c = flight(0);
   c.values[0] = -1.5;
@@ -64,7 +67,7 @@ Case nearest() {
   return {find_query("closest_point_segment"), Scalar::float64, {0, 0, 0, 4, 0, 0, 1, 2, 0}, "test", 0, 0, {}};
 }
 
-Answer answer(bool yes, std::initializer_list<double> values) {
+Answer answer(bool yes, const std::vector<double>& values) {
   Answer a;
   a.yes = yes;
   std::copy(values.begin(), values.end(), a.values.begin());
@@ -216,6 +219,23 @@ const Expectation expectations[] = {
      },
      Verdict::violates_contract, Disagreement::false_miss,
      "stooge says that the sphere and the box are apart, depth -0.5. Exactly, they touch or overlap, depth 0.5."},
+    {"wrong_distance",
+     [] {
+       std::vector<double> values = two_boxes(4);
+       values.push_back(0);  // the axis
+       const Case c{find_query("box_box_projected_distance"), Scalar::float64, values, "test", 0, 0, {}};
+       return report(c, answer(true, {1.5}));
+     },
+     Verdict::violates_contract, Disagreement::wrong_distance, "stooge gives value 1.5. Exactly, it is 2"},
+    {"wrong_size",
+     [] {
+       const Case c{find_query("box_box_info"), Scalar::float64, two_boxes(4), "test", 0, 0, {}};
+       std::vector<double> given{1.5, 1, 1, 1, 1, 1, 4, 0, 0};
+       for (int twice = 0; twice < 2; ++twice) given.insert(given.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+       for (int twice = 0; twice < 2; ++twice) given.insert(given.end(), {4, 0, 0});
+       return report(c, answer(true, given));
+     },
+     Verdict::violates_contract, Disagreement::wrong_size, "stooge gives half1 (1.5, 1, 1). Exactly, it is (1, 1, 1)"},
     {"wrong_direction",
      [] {
        const Case c{find_query("bounce_direction"),

@@ -37,7 +37,7 @@ class Contacts : public testing::TestWithParam<Contact> {};
 TEST_P(Contacts, AreExactTouchesOrNot) {
   const Contact& c = GetParam();
   const Case question{find_query(c.query), Scalar::float64, c.inputs, "test", 0, 0, {}};
-  ASSERT_EQ(question.values.size(), question.query->inputs.size());
+  ASSERT_EQ(question.values.size(), question.fields().size());
   ASSERT_TRUE(truth_of(question).yes);
   EXPECT_EQ(touches_exactly(question), c.exact_touch);
 }

@@ -7,8 +7,6 @@ namespace nearmiss {
 
 namespace {
 
-bool is_length(Role role) { return role == Role::position || role == Role::size || role == Role::depth; }
-
 /// Adds the forward error of one number of the answer, in the number's unit.
 void add_forward(TradeAnswer& a, Role role, double absolute, double of_unit) {
   if (is_length(role)) a.distance = std::max(a.distance, absolute / of_unit);

@@ -118,7 +118,7 @@ struct CastEnd {
   double duration;
   Vec3<double> end;
 };
-CastEnd cast_end(const Moving& m, const Shape& target, Scalar scalar) {
+CastEnd cast_end(const Moving& m, const TypedShape& target, Scalar scalar) {
   const Sphere<double> to = ball_around(target);
   const double speed = adapters::length(m.velocity);
   double duration = adapters::time_to_pass(m.from, m.radius, m.velocity, to);

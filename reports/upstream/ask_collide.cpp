@@ -83,21 +83,20 @@ Arguments arguments_of(const Case& question, const std::string& tier) {
   const Scene scene(question);
   const Numbers of{question.scalar};
   Arguments a;
-  std::vector<NamedShape> shapes = scene.operands();
-  std::string last;
-  for (const Field& f : query.inputs) {
-    const std::string name = f.name.substr(0, f.name.find('.'));
-    if (name == last || name == "forever") continue;
-    last = name;
+  const std::vector<NamedShape> shapes = scene.operands();
+  for (const InputMember& m : question.operands().members) {
+    const Operand* operand = m.operand ? &question.operands()[*m.operand] : nullptr;
+    if (m.name == "forever" || (operand != nullptr && m.begin != operand->begin)) continue;
+    const std::string& name = operand != nullptr ? operand->name : m.name;
     const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const NamedShape& o) { return o.name == name; });
     if (shape != shapes.end()) {
       a.add(fmt::format("auto {} = collide::{}", name, std::visit(CollideShape{of}, shape->shape)),
             prepared(query.name, name, tier));
-    } else if (f.name != name) {
+    } else if (m.is_vector()) {
       a.add(fmt::format("collide::Vec3<{}> {}{}", of.type(), name, of(scene.vector(name))), name);
-    } else if (f.role == Role::flag) {
+    } else if (m.role == Role::flag) {
       a.add(fmt::format("bool {} = {}", name, scene.flag(name)), name);
-    } else if (f.role == Role::index) {
+    } else if (m.role == Role::index) {
       a.add(fmt::format("int {} = {}", name, int(scene.number(name))), name);
     } else if (scene.has("forever") && scene.flag("forever")) {
       a.add(fmt::format("{} {} = INFINITY", of.type(), name), name);

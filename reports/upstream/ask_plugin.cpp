@@ -24,8 +24,8 @@ Asking ask_plugin(const Case& question, const Subject&) {
   using namespace plugin_text;
   const Query& query = *question.query;
   std::string inputs;
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
-    inputs += fmt::format("    {}, /* {} */\n", literal(question.values[i]), query.inputs[i].name);
+  for (std::size_t i = 0; i < question.values.size(); ++i) {
+    inputs += fmt::format("    {}, /* {} */\n", literal(question.values[i]), question.name(i));
   }
   Asking asking;
   asking.style = Asking::Style::c;

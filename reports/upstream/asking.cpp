@@ -93,7 +93,7 @@ NamedShape target_of(const Scene& scene) {
   return all.back();  // the moving shape, if any, stands first
 }
 
-collide::Sphere<double> ball_around(const Shape& shape) {
+collide::Sphere<double> ball_around(const TypedShape& shape) {
   return std::visit(
       [](const auto& s) -> collide::Sphere<double> {
         if constexpr (requires { adapters::ball_around(s); }) return adapters::ball_around(s);

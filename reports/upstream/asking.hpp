@@ -61,7 +61,7 @@ Moving moving_of(const Scene& scene);
 /// The shape that is met.
 NamedShape target_of(const Scene& scene);
 /// A ball around the shape, as adapters choose it for the length of a cast. The shape must be bounded.
-collide::Sphere<double> ball_around(const Shape& shape);
+collide::Sphere<double> ball_around(const TypedShape& shape);
 /// The operands of a query that has two shapes.
 std::pair<NamedShape, NamedShape> two_operands(const Scene& scene);
 

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-using Shape =
+using TypedShape =
     std::variant<collide::Sphere<double>, collide::Box<double>, collide::Capsule<double>, collide::Plane<double>,
                  collide::Triangle<double>, collide::AABox<double>, collide::Rectangle<double>,
                  collide::Segment<double>, collide::Line<double>, collide::Ray<double>>;
@@ -19,7 +19,7 @@ using Shape =
 /// An input of the query that is a shape.
 struct NamedShape {
   std::string name;  ///< "box", "sphere1"
-  Shape shape;
+  TypedShape shape;
 };
 
 /// Finds the inputs of a case by name. Refers to the case.
@@ -32,12 +32,10 @@ class Scene {
   double number(std::string_view name) const;
   bool flag(std::string_view name) const { return number(name) != 0; }
   collide::Vec3<double> vector(const std::string& name) const;
-  /// Every shape, in the order of the inputs.
+  /// Every operand but points, in the order of the inputs.
   std::vector<NamedShape> operands() const;
 
  private:
-  Shape shape(const std::string& name) const;
-
   const Case& question_;
 };
 

@@ -52,7 +52,7 @@ std::string scene(const Report& r) {
 double extent_of(const Case& question) {
   double extent = 0;
   for (std::size_t i = 0; i < question.values.size(); ++i) {
-    const Role role = question.query->inputs[i].role;
+    const Role role = question.role(i);
     if (role == Role::position || role == Role::size) extent = std::max(extent, std::abs(question.values[i]));
   }
   return extent;
@@ -65,7 +65,7 @@ std::string amount(const Report& r) {
   const Field& field = r.question.query->outputs[std::size_t(head->worst)];
   const std::string off = fmt::format("`{}` is off by at least {:.3g}", field.name, head->forward_absolute);
   const double extent = extent_of(r.question);
-  if ((field.role != Role::depth && field.role != Role::position) || !(extent > 0)) return off + ".\n";
+  if (!is_length(field.role) || !(extent > 0)) return off + ".\n";
   return fmt::format("{}, which is {:.3g} % of the largest position or size, {:.3g}.\n", off,
                      100 * head->forward_absolute / extent, extent);
 }

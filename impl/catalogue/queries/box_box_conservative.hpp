@@ -16,8 +16,7 @@ struct box_box_conservative {
   }
 
   // Half diagonals that are sums of three squares hardly ever add up to a distance.
-  static constexpr Traits traits{.operands = {"box 1", "box 2"},
-                                 .decision = {"the distance of the centers is at most the sum of the half diagonals",
+  static constexpr Traits traits{.decision = {"the distance of the centers is at most the sum of the half diagonals",
                                               "the distance of the centers is more than the sum of the half diagonals"},
                                  .touching_is_yes = false,
                                  .grows = true,

@@ -15,7 +15,7 @@ struct box_box_info {
     return std::tuple(member("box1", &box_box_info::box1), member("box2", &box_box_info::box2));
   }
 
-  static constexpr Traits traits{.operands = {"box 1", "box 2"}, .frame = OutputFrame::operands};
+  static constexpr Traits traits{.frame = OutputFrame::operands};
 };
 
 }  // namespace nearmiss::inputs

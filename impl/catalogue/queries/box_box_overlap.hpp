@@ -21,11 +21,7 @@ struct box_box_overlap {
       {.kind = Link::Kind::same_decision, .to = query_id("box_box_penetration")},
       {.kind = Link::Kind::implied_decision, .to = query_id("box_box_conservative")},
   };
-  static constexpr Traits traits{.operands = {"box 1", "box 2"},
-                                 .grows = true,
-                                 .exchange = Exchange::always,
-                                 .ties = {Tie::index},
-                                 .links = links};
+  static constexpr Traits traits{.grows = true, .exchange = Exchange::always, .ties = {Tie::index}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

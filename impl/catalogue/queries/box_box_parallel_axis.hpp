@@ -18,7 +18,6 @@ struct box_box_parallel_axis {
   }
 
   static constexpr Traits traits{
-      .operands = {"box 1", "box 2"},
       .decision = {"an axis of box 1 and one of box 2 are parallel", "no axis of box 1 is parallel to one of box 2"},
       .touching_is_yes = false,
       .frame = OutputFrame::order_of_axes};

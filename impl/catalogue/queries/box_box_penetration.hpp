@@ -17,10 +17,8 @@ struct box_box_penetration {
                       member("hint", &box_box_penetration::hint, Role::index));
   }
 
-  static constexpr Traits traits{.operands = {"box 1", "box 2"},
-                                 .grows = true,
-                                 .exchange = Exchange::always,
-                                 .ties = {Tie::position, Tie::normal, Tie::depth, Tie::index}};
+  static constexpr Traits traits{
+      .grows = true, .exchange = Exchange::always, .ties = {Tie::position, Tie::normal, Tie::depth, Tie::index}};
 };
 
 }  // namespace nearmiss::inputs

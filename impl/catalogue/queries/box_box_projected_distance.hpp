@@ -22,7 +22,7 @@ struct box_box_projected_distance {
     return std::nullopt;
   }
 
-  static constexpr Traits traits{.operands = {"box 1", "box 2"}, .exchange = Exchange::always};
+  static constexpr Traits traits{.exchange = Exchange::always};
 };
 
 }  // namespace nearmiss::inputs

@@ -16,7 +16,7 @@ struct box_plane_penetration {
     return std::tuple(member("box", &box_plane_penetration::box), member("plane", &box_plane_penetration::plane));
   }
 
-  static constexpr Traits traits{.operands = {"the box", "the plane"}, .grows = true};
+  static constexpr Traits traits{.grows = true};
 };
 
 }  // namespace nearmiss::inputs

@@ -17,7 +17,7 @@ struct closest_point_rectangle {
                       member("point", &closest_point_rectangle::point, Role::position));
   }
 
-  static constexpr Traits traits{.operands = {"the rectangle", "the point"}, .ties = {Tie::position}};
+  static constexpr Traits traits{.ties = {Tie::position}};
 };
 
 }  // namespace nearmiss::inputs

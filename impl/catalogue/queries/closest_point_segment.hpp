@@ -20,7 +20,7 @@ struct closest_point_segment {
   static constexpr Link links[] = {
       {.kind = Link::Kind::prepared, .to = query_id("closest_point_segment_unit")},
   };
-  static constexpr Traits traits{.operands = {"the segment", "the point"}, .links = links};
+  static constexpr Traits traits{.links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -17,7 +17,7 @@ struct closest_point_segment_unit {
                       member("point", &closest_point_segment_unit::point, Role::position));
   }
 
-  static constexpr Traits traits{.operands = {"the segment", "the point"}};
+  static constexpr Traits traits{};
 };
 
 }  // namespace nearmiss::inputs

@@ -20,7 +20,7 @@ struct closest_point_triangle_perimeter {
   static constexpr Link links[] = {
       {.kind = Link::Kind::prepared, .to = query_id("closest_point_triangle_perimeter_edges")},
   };
-  static constexpr Traits traits{.operands = {"the triangle", "the point"}, .ties = {Tie::position}, .links = links};
+  static constexpr Traits traits{.ties = {Tie::position}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -17,7 +17,7 @@ struct closest_point_triangle_perimeter_edges {
                       member("point", &closest_point_triangle_perimeter_edges::point, Role::position));
   }
 
-  static constexpr Traits traits{.operands = {"the triangle", "the point"}, .ties = {Tie::position, Tie::index}};
+  static constexpr Traits traits{.ties = {Tie::position, Tie::index}};
 };
 
 }  // namespace nearmiss::inputs

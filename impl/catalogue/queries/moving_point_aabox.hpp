@@ -24,7 +24,7 @@ struct moving_point_aabox {
        .to = query_id("ray_aabox"),
        .renamed = {{{"ray.origin", "point"}, {"ray.direction", "velocity"}}}},
   };
-  static constexpr Traits traits{.operands = {"the point", "the aabox"}, .ties = {Tie::normal}, .links = links};
+  static constexpr Traits traits{.ties = {Tie::normal}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -24,7 +24,7 @@ struct moving_point_box {
        .to = query_id("sphere_box_overlap"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
   };
-  static constexpr Traits traits{.operands = {"the point", "the box"}, .ties = {Tie::cone}, .links = links};
+  static constexpr Traits traits{.ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -26,7 +26,7 @@ struct moving_point_capsule {
        .set = {"solid", 1},
        .times_alone = true},
   };
-  static constexpr Traits traits{.operands = {"the point", "the capsule"}, .ties = {Tie::cone}, .links = links};
+  static constexpr Traits traits{.ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

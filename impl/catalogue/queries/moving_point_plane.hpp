@@ -27,7 +27,7 @@ struct moving_point_plane {
        .to = query_id("sphere_plane_penetration"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
   };
-  static constexpr Traits traits{.operands = {"the point", "the plane"}, .one_sided = true, .links = links};
+  static constexpr Traits traits{.one_sided = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -25,8 +25,7 @@ struct moving_point_rectangle {
        .to = query_id("moving_sphere_rectangle"),
        .renamed = {{{"sphere.center", "point"}}}},
   };
-  static constexpr Traits traits{
-      .operands = {"the point", "the rectangle"}, .one_sided = true, .ties = {Tie::normal}, .links = links};
+  static constexpr Traits traits{.one_sided = true, .ties = {Tie::normal}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -26,7 +26,7 @@ struct moving_point_sphere {
        .to = query_id("sphere_sphere_overlap"),
        .renamed = {{{"sphere1.center", "point"}, {"sphere1.radius", "-"}, {"sphere2", "sphere"}}}},
   };
-  static constexpr Traits traits{.operands = {"the point", "the sphere"}, .ties = {Tie::cone}, .links = links};
+  static constexpr Traits traits{.ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -28,7 +28,7 @@ struct moving_point_triangle {
        .to = query_id("sphere_triangle_overlap"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
   };
-  static constexpr Traits traits{.operands = {"the point", "the triangle"}, .one_sided = true, .links = links};
+  static constexpr Traits traits{.one_sided = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -19,7 +19,7 @@ struct moving_point_triangle_prepared {
                       member("triangle", &moving_point_triangle_prepared::triangle));
   }
 
-  static constexpr Traits traits{.operands = {"the point", "the triangle"}, .one_sided = true};
+  static constexpr Traits traits{.one_sided = true};
 };
 
 }  // namespace nearmiss::inputs

@@ -32,10 +32,7 @@ struct moving_sphere_box {
        .renamed = {{{"fixed.center", "box.center"}, {"fixed.radius", "-"}}}},
       {.kind = Link::Kind::at_rest, .to = query_id("sphere_box_overlap")},
   };
-  static constexpr Traits traits{.operands = {"the sphere", "the box"},
-                                 .grows = true,
-                                 .ties = {Tie::position, Tie::normal, Tie::cone},
-                                 .links = links};
+  static constexpr Traits traits{.grows = true, .ties = {Tie::position, Tie::normal, Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

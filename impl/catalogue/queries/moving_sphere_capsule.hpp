@@ -30,8 +30,7 @@ struct moving_sphere_capsule {
        .to = query_id("moving_sphere_sphere"),
        .renamed = {{{"fixed.center", "capsule.p0"}, {"fixed.radius", "capsule.radius"}}}},
   };
-  static constexpr Traits traits{
-      .operands = {"the sphere", "the capsule"}, .grows = true, .ties = {Tie::position, Tie::cone}, .links = links};
+  static constexpr Traits traits{.grows = true, .ties = {Tie::position, Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -32,7 +32,7 @@ struct moving_sphere_passes_box {
        .to = query_id("moving_sphere_passes_sphere"),
        .renamed = {{{"fixed.center", "box.center"}}}},
   };
-  static constexpr Traits traits{.operands = {"the sphere", "the box"}, .grows = true, .links = links};
+  static constexpr Traits traits{.grows = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

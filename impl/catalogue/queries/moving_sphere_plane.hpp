@@ -22,8 +22,7 @@ struct moving_sphere_plane {
   static constexpr Link links[] = {
       {.kind = Link::Kind::at_rest, .to = query_id("sphere_plane_penetration")},
   };
-  static constexpr Traits traits{
-      .operands = {"the sphere", "the plane"}, .one_sided = true, .grows = true, .ties = {Tie::normal}, .links = links};
+  static constexpr Traits traits{.one_sided = true, .grows = true, .ties = {Tie::normal}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

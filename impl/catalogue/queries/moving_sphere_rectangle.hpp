@@ -22,11 +22,8 @@ struct moving_sphere_rectangle {
   static constexpr Link links[] = {
       {.kind = Link::Kind::halves, .to = query_id("moving_sphere_triangle")},
   };
-  static constexpr Traits traits{.operands = {"the sphere", "the rectangle"},
-                                 .one_sided = true,
-                                 .grows = true,
-                                 .ties = {Tie::position, Tie::normal, Tie::cone},
-                                 .links = links};
+  static constexpr Traits traits{
+      .one_sided = true, .grows = true, .ties = {Tie::position, Tie::normal, Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

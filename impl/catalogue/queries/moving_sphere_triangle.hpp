@@ -22,11 +22,7 @@ struct moving_sphere_triangle {
   static constexpr Link links[] = {
       {.kind = Link::Kind::at_rest, .to = query_id("sphere_triangle_overlap")},
   };
-  static constexpr Traits traits{.operands = {"the sphere", "the triangle"},
-                                 .one_sided = true,
-                                 .grows = true,
-                                 .ties = {Tie::cone},
-                                 .links = links};
+  static constexpr Traits traits{.one_sided = true, .grows = true, .ties = {Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -22,8 +22,7 @@ struct point_in_rectangle {
   static constexpr Link links[] = {
       {.kind = Link::Kind::halves, .to = query_id("point_in_triangle"), .set = {"axis", -1}},
   };
-  static constexpr Traits traits{.operands = {"the rectangle", "the point"},
-                                 .decision = {"the point is in the rectangle", "the point is outside of the rectangle"},
+  static constexpr Traits traits{.decision = {"the point is in the rectangle", "the point is outside of the rectangle"},
                                  .projects = true,
                                  .directions_are_lines = true,
                                  .links = links};

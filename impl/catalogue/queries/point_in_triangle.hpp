@@ -25,8 +25,7 @@ struct point_in_triangle {
     return std::nullopt;
   }
 
-  static constexpr Traits traits{.operands = {"the triangle", "the point"},
-                                 .decision = {"the point is in the triangle", "the point is outside of the triangle"},
+  static constexpr Traits traits{.decision = {"the point is in the triangle", "the point is outside of the triangle"},
                                  .projects = true,
                                  .directions_are_lines = true,
                                  .ties = {Tie::weight}};

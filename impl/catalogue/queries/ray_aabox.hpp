@@ -16,7 +16,7 @@ struct ray_aabox {
     return std::tuple(member("ray", &ray_aabox::ray), member("aabox", &ray_aabox::aabox));
   }
 
-  static constexpr Traits traits{.operands = {"the ray", "the aabox"}};
+  static constexpr Traits traits{};
 };
 
 }  // namespace nearmiss::inputs

@@ -25,7 +25,7 @@ struct sphere_box_overlap {
        .to = query_id("sphere_sphere_overlap"),
        .renamed = {{{"sphere1", "sphere"}, {"sphere2.center", "box.center"}, {"sphere2.radius", "-"}}}},
   };
-  static constexpr Traits traits{.operands = {"the sphere", "the box"}, .grows = true, .links = links};
+  static constexpr Traits traits{.grows = true, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -22,10 +22,7 @@ struct sphere_box_penetration {
        .renamed = {{{"sphere1", "sphere"}, {"sphere2.center", "box.center"}, {"sphere2.radius", "-"}}},
        .except = {"contact", "normal"}},
   };
-  static constexpr Traits traits{.operands = {"the sphere", "the box"},
-                                 .grows = true,
-                                 .ties = {Tie::position, Tie::normal, Tie::cone},
-                                 .links = links};
+  static constexpr Traits traits{.grows = true, .ties = {Tie::position, Tie::normal, Tie::cone}, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -17,7 +17,7 @@ struct sphere_plane_penetration {
                       member("plane", &sphere_plane_penetration::plane));
   }
 
-  static constexpr Traits traits{.operands = {"the sphere", "the plane"}, .grows = true};
+  static constexpr Traits traits{.grows = true};
 };
 
 }  // namespace nearmiss::inputs

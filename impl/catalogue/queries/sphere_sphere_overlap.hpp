@@ -19,8 +19,7 @@ struct sphere_sphere_overlap {
   static constexpr Link links[] = {
       {.kind = Link::Kind::same_decision, .to = query_id("sphere_sphere_penetration")},
   };
-  static constexpr Traits traits{
-      .operands = {"sphere 1", "sphere 2"}, .grows = true, .exchange = Exchange::always, .links = links};
+  static constexpr Traits traits{.grows = true, .exchange = Exchange::always, .links = links};
 };
 
 }  // namespace nearmiss::inputs

@@ -16,11 +16,8 @@ struct sphere_sphere_penetration {
                       member("sphere2", &sphere_sphere_penetration::sphere2));
   }
 
-  static constexpr Traits traits{.operands = {"sphere 1", "sphere 2"},
-                                 .grows = true,
-                                 .contact_is_of_the_first = true,
-                                 .exchange = Exchange::always,
-                                 .ties = {Tie::cone}};
+  static constexpr Traits traits{
+      .grows = true, .contact_is_of_the_first = true, .exchange = Exchange::always, .ties = {Tie::cone}};
 };
 
 }  // namespace nearmiss::inputs

@@ -17,7 +17,7 @@ struct sphere_triangle_overlap {
                       member("triangle", &sphere_triangle_overlap::triangle));
   }
 
-  static constexpr Traits traits{.operands = {"the sphere", "the triangle"}, .grows = true};
+  static constexpr Traits traits{.grows = true};
 };
 
 }  // namespace nearmiss::inputs

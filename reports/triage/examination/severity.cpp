@@ -14,7 +14,7 @@ namespace {
 double largest_of(const Case& c, std::initializer_list<Role> roles) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const bool counts = std::find(roles.begin(), roles.end(), c.query->inputs[i].role) != roles.end();
+    const bool counts = std::find(roles.begin(), roles.end(), c.role(i)) != roles.end();
     if (counts) largest = std::max(largest, std::abs(c.values[i]));
   }
   return largest;
@@ -29,6 +29,8 @@ std::optional<double> forward_share(const Case& c, const Finding& f, const Membe
   const double extent = extent_of(c);
   switch (c.query->outputs[std::size_t(m.worst)].role) {
     case Role::position:
+    case Role::size:
+    case Role::distance:
     case Role::depth: return extent > 0 ? std::optional(m.forward_absolute / extent) : std::nullopt;
     case Role::time: {
       const double covered = m.forward_absolute * largest_of(c, {Role::velocity});
@@ -45,9 +47,7 @@ std::optional<double> forward_share(const Case& c, const Finding& f, const Membe
 void set_amount(ErrorSize& size, const Case& c, const MemberFinding* m, bool is_forward) {
   if (is_forward && m != nullptr) {
     const Role role = c.query->outputs[std::size_t(m->worst)].role;
-    size.unit = role == Role::time                              ? "units of time"
-                : role == Role::position || role == Role::depth ? "units of length"
-                                                                : "";
+    size.unit = role == Role::time ? "units of time" : is_length(role) ? "units of length" : "";
     size.amount = size.unit.empty() ? 0 : m->forward_absolute;
   } else if (extent_of(c) > 0) {
     size.unit = "units of length";

@@ -14,7 +14,7 @@ namespace {
 
 class GeometryReader {
  public:
-  GeometryReader(const Case& c, const Answer* right) : c_(c), right_(right), q_(*c.query), parts_(parts_of(*c.query)) {}
+  GeometryReader(const Case& c, const Answer* right) : c_(c), right_(right), q_(*c.query), parts_(c.operands()) {}
 
   CaseGeometry result() {
     read_inputs();
@@ -27,40 +27,30 @@ class GeometryReader {
 
  private:
   LongVector at(std::size_t i) const { return {c_.values[i], c_.values[i + 1], c_.values[i + 2]}; }
-  std::string operand_of(std::size_t i) const { return q_.inputs[i].name.substr(0, q_.inputs[i].name.find('.')); }
-  /// "sphere.center" of "sphere.center.x".
-  std::string vector_at(std::size_t i) const {
-    const std::string& name = q_.inputs[i].name;
-    return name.size() > 2 ? name.substr(0, name.size() - 2) : name;
+  /// The operand with that number; a velocity or a direction has its own name.
+  const std::string& operand_of(std::size_t i) const {
+    const Operand* operand = parts_.of_number(i);
+    return operand != nullptr ? operand->name : parts_.member_of(i).name;
   }
-  bool is_vector(std::size_t i) const { return q_.inputs[i].name.ends_with(".x") && i + 2 < q_.inputs.size(); }
+  /// "sphere.center".
+  const std::string& vector_at(std::size_t i) const { return parts_.member_of(i).name; }
 
   void read_inputs() {
-    for (std::size_t i = 0; i < q_.inputs.size(); ++i) {
-      const Role role = q_.inputs[i].role;
-      if (role == Role::size && q_.inputs[i].name.ends_with("radius"))
-        g_.radii.emplace_back(operand_of(i), c_.values[i]);
-      if (!is_vector(i)) continue;
-      if (role == Role::position) g_.places.push_back({vector_at(i), operand_of(i), at(i), true, is_corner(i), i});
-      if (role == Role::velocity || role == Role::direction) g_.directions.push_back({vector_at(i), at(i)});
-      if (role == Role::velocity && !g_.velocity) g_.velocity = at(i);
-      const bool is_plane =
-          role == Role::direction && i + 3 < q_.inputs.size() && q_.inputs[i + 3].role == Role::offset;
-      if (is_plane) g_.planes.push_back({operand_of(i), at(i), c_.values[i + 3]});
+    for (const InputMember& m : parts_.members) {
+      const Operand* operand = m.operand ? &parts_[*m.operand] : nullptr;
+      if (operand != nullptr && operand->radius == m.begin) g_.radii.emplace_back(operand->name, c_.values[m.begin]);
+      if (m.role == Role::position)
+        g_.places.push_back({m.name, operand->name, at(m.begin), true, is_corner(*operand), m.begin});
+      if (m.role == Role::velocity || m.role == Role::direction) g_.directions.push_back({m.name, at(m.begin)});
+      if (m.role == Role::velocity && !g_.velocity) g_.velocity = at(m.begin);
+      if (m.role == Role::direction && operand != nullptr && operand->offset)
+        g_.planes.push_back({operand->name, at(m.begin), c_.values[*operand->offset]});
     }
   }
-  bool is_corner(std::size_t i) const {
-    const auto has = [i](const auto& list) {
-      return std::any_of(list.begin(), list.end(),
-                         [i](const auto& all) { return std::find(all.begin(), all.end(), i) != all.end(); });
-    };
-    const bool of_box = std::any_of(parts_.aaboxes.begin(), parts_.aaboxes.end(),
-                                    [i](std::size_t lower) { return i == lower || i == lower + 3; });
-    return of_box || has(parts_.segments) || has(parts_.triangles);
-  }
+  static bool is_corner(const Operand& o) { return o.shape == Shape::aabox || !o.traits().edges.empty(); }
   void add_edge(std::size_t a, std::size_t b) {
     if (!edges_.insert(std::minmax(a, b)).second) return;
-    const std::string end = vector_at(b);
+    const std::string& end = vector_at(b);
     const std::string name = vector_at(a) + " " + end.substr(end.find('.') + 1);
     g_.edges.push_back({name, operand_of(a), at(a), at(b), a, b});
     g_.directions.push_back({name, at(b) - at(a)});
@@ -75,23 +65,17 @@ class GeometryReader {
           {"the normal of " + operand_of(t[0]), cross(corners[1] - corners[0], corners[2] - corners[0])});
     }
   }
-  std::size_t number(const std::string& name) const {
-    const auto found = std::find_if(q_.inputs.begin(), q_.inputs.end(), [&](const Field& f) { return f.name == name; });
-    return std::size_t(found - q_.inputs.begin());
-  }
   void read_blocks() {
     for (const std::size_t lower : parts_.aaboxes) {
       const LongVector low = at(lower), high = at(lower + 3);
       g_.blocks.push_back({operand_of(lower), (low + high) * 0.5L, (high - low) * 0.5L});
     }
-    for (const std::size_t i : parts_.quaternions) {
-      const std::string operand = operand_of(i);
-      const std::size_t center = number(operand + ".center.x"), half = number(operand + ".half.x");
-      if (center >= q_.inputs.size() || half >= q_.inputs.size()) continue;
-      g_.blocks.push_back({operand, at(center), at(half), axes_at(i)});
+    for (const Operand& box : parts_) {
+      if (box.shape != Shape::box) continue;
+      g_.blocks.push_back({box.name, at(box.begin), at(*box.half), axes_at(*box.rotation)});
       for (int k = 0; k < 3; ++k)
         g_.directions.push_back(
-            {"axis " + std::to_string(k) + " of " + operand, g_.blocks.back().axes[std::size_t(k)]});
+            {"axis " + std::to_string(k) + " of " + box.name, g_.blocks.back().axes[std::size_t(k)]});
     }
   }
   std::array<LongVector, 3> axes_at(std::size_t i) const {
@@ -134,8 +118,8 @@ class GeometryReader {
     if (p.role == Role::position && is_vector) g_.places.push_back({name, "", v, known});
     if (p.role == Role::normal && is_vector) g_.directions.push_back({name, v, known});
     if (p.role == Role::time) g_.time = std::max(0.0L, value(p.begin));
-    if (p.role == Role::depth) g_.depth = std::abs(value(p.begin));
-    if (p.role != Role::weight) return;
+    if (p.role == Role::depth || p.role == Role::distance) g_.depth = std::abs(value(p.begin));
+    if (p.role != Role::weight && p.role != Role::direction) return;
     for (std::size_t i = p.begin; i < p.end; ++i) g_.weights.emplace_back(q_.outputs[i].name, std::abs(value(i)));
   }
   /// The first place at the time of the contact, or at the given time.
@@ -163,7 +147,7 @@ class GeometryReader {
   const Case& c_;
   const Answer* right_;
   const Query& q_;
-  const Parts& parts_;
+  const Operands& parts_;
   std::set<std::pair<std::size_t, std::size_t>> edges_;
   CaseGeometry g_;
 };

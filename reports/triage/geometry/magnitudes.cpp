@@ -82,7 +82,7 @@ class MagnitudeList {
   }
   void add_unit_errors() {
     for (std::size_t i = 0; i < c_.values.size(); ++i) {
-      const Field& f = c_.query->inputs[i];
+      const Field& f = c_.fields()[i];
       const bool begins = f.name.ends_with(".x") && (f.role == Role::direction || f.role == Role::rotation);
       if (!begins) continue;
       const std::size_t count = f.role == Role::rotation ? 4 : 3;
@@ -103,10 +103,10 @@ class MagnitudeList {
   void add_shares_of_time() {
     if (!decides(c_.query->kind)) return;
     for (std::size_t i = 0; i < c_.values.size(); ++i) {
-      if (c_.query->inputs[i].role != Role::time) continue;
+      if (c_.role(i) != Role::time) continue;
       const long double change = change_of_decision(i);
-      add_pure(fmt::format("the distance of {} from the time at which the decision changes, over {},",
-                           c_.query->inputs[i].name, c_.query->inputs[i].name),
+      add_pure(fmt::format("the distance of {} from the time at which the decision changes, over {},", c_.name(i),
+                           c_.name(i)),
                (c_.values[i] - change) / c_.values[i], change > 0);
     }
   }
@@ -136,15 +136,15 @@ class MagnitudeList {
   }
   void add_tolerances() {
     for (std::size_t i = 0; i < c_.values.size(); ++i) {
-      if (c_.query->inputs[i].role != Role::weight) continue;
+      if (c_.role(i) != Role::weight) continue;
       const long double given = c_.values[i];
       for (const auto& a : g_.directions) {
         for (const auto& b : g_.directions) {
           if (&a >= &b) continue;
           const long double product = length(a.of) * length(b.of), cosine = std::abs(dot(a.of, b.of)) / product;
           const long double sine = length(cross(a.of, b.of)) / product, below = sine * sine / (1 + cosine);
-          add_pure(fmt::format("the excess over {} of 1 minus the cosine of {} and {}, over {},",
-                               c_.query->inputs[i].name, a.name, b.name, c_.query->inputs[i].name),
+          add_pure(fmt::format("the excess over {} of 1 minus the cosine of {} and {}, over {},", c_.name(i), a.name,
+                               b.name, c_.name(i)),
                    (below - given) / given);
         }
       }

@@ -30,20 +30,10 @@ double area(const Case& c, const std::array<std::size_t, 3>& t) {
          2;
 }
 
-/// "sphere.center" of "sphere.center.x".
-std::string vector_name(const Query& q, std::size_t i) {
-  const std::string& name = q.inputs[i].name;
-  return name.size() > 2 ? name.substr(0, name.size() - 2) : name;
-}
-
-bool begins_vector(const Query& q, std::size_t i) {
-  return (q.inputs[i].name.ends_with(".x") || q.inputs[i].name == "x") && i + 2 < q.inputs.size();
-}
-
 double largest_number(const Case& c) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
   }
   return largest;
@@ -51,15 +41,9 @@ double largest_number(const Case& c) {
 
 /// The case with the positions of the first operand moved along an axis.
 Case moved(const Case& c, std::size_t axis, double by) {
-  constexpr std::string_view axes[] = {".x", ".y", ".z"};
   Case other = c;
   other.scalar = Scalar::float64;
-  const std::string& first = c.query->inputs.front().name;
-  const std::string operand = first.substr(0, first.find('.') + 1);
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Field& f = c.query->inputs[i];
-    if (f.role == Role::position && f.name.starts_with(operand) && f.name.ends_with(axes[axis])) other.values[i] += by;
-  }
+  for (const std::size_t at : c.operands()[0].positions) other.values[at + axis] += by;
   return other;
 }
 
@@ -90,52 +74,41 @@ double contact_time(const Case& c) {
 }
 
 void add_vectors(const Case& c, std::vector<Quantity>& all) {
-  const Query& q = *c.query;
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = q.inputs[i].role;
-    if (role == Role::size) all.push_back({q.inputs[i].name, std::abs(c.values[i])});
-    if (role == Role::time) all.push_back({q.inputs[i].name, std::abs(c.values[i]), "time"});
-    if (!begins_vector(q, i)) continue;
-    if (role == Role::position) places.push_back(i);
-    const std::string of = "the length of " + vector_name(q, i);
-    if (role == Role::velocity) all.push_back({of, length(vector_at(c, i)), "speed"});
-    if (role == Role::direction) all.push_back({of, length(vector_at(c, i)), "length of a direction"});
-    if (role == Role::rotation)
-      all.push_back({of, std::hypot(length(vector_at(c, i)), c.values[i + 3]), "length of a quaternion"});
+  std::vector<const InputMember*> places;
+  for (const InputMember& m : c.operands().members) {
+    for (std::size_t i = m.begin; m.role == Role::size && i < m.begin + m.count; ++i)
+      all.push_back({c.name(i), std::abs(c.values[i])});
+    if (m.role == Role::time) all.push_back({m.name, std::abs(c.values[m.begin]), "time"});
+    if (m.role == Role::position) places.push_back(&m);
+    const std::string of = "the length of " + m.name;
+    if (m.role == Role::velocity) all.push_back({of, length(vector_at(c, m.begin)), "speed"});
+    if (m.role == Role::direction) all.push_back({of, length(vector_at(c, m.begin)), "length of a direction"});
+    if (m.role == Role::rotation)
+      all.push_back({of, std::hypot(length(vector_at(c, m.begin)), c.values[m.begin + 3]), "length of a quaternion"});
   }
   for (std::size_t k = 0; k < places.size(); ++k) {
     for (std::size_t i = 0; i < k; ++i) {
-      all.push_back({fmt::format("the distance from {} to {}", vector_name(q, places[i]), vector_name(q, places[k])),
-                     length(minus(vector_at(c, places[i]), vector_at(c, places[k])))});
+      all.push_back({fmt::format("the distance from {} to {}", places[i]->name, places[k]->name),
+                     length(minus(vector_at(c, places[i]->begin), vector_at(c, places[k]->begin)))});
     }
   }
-  for (const std::size_t i : places)
-    all.push_back({fmt::format("the distance of {} from the origin", vector_name(q, i)), length(vector_at(c, i))});
-}
-
-/// The input that is the radius of the operand of a position; none where it has none.
-std::optional<std::size_t> radius_beside(const Query& q, std::size_t place) {
-  const std::string operand = q.inputs[place].name.substr(0, q.inputs[place].name.find('.'));
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
-    if (q.inputs[i].name == operand + ".radius") return i;
-  }
-  return std::nullopt;
+  for (const InputMember* m : places)
+    all.push_back({fmt::format("the distance of {} from the origin", m->name), length(vector_at(c, m->begin))});
 }
 
 /// What tests of spheres, rays and triangles compare in squares: d^2 - R^2 for two centers and the sum of their radii,
 /// the discriminant of a motion past a center, and the product of a velocity and the normal of a triangle.
 void add_forms(const Case& c, std::vector<Quantity>& all) {
-  const Query& q = *c.query;
-  const Parts& parts = parts_of(q);
+  const Operands& parts = c.operands();
   const bool moves = parts.start.has_value() && !parts.velocities.empty();
-  for (std::size_t b = 3; b < q.inputs.size(); ++b) {
-    if (q.inputs[b].role != Role::position || !begins_vector(q, b) || !begins_vector(q, 0)) continue;
-    const auto r = radius_beside(q, 0), s = radius_beside(q, b);
+  const InputMember& first = parts.members[0];
+  for (const InputMember& other : parts.members) {
+    if (other.role != Role::position || other.begin == 0 || !first.is_vector()) continue;
+    const auto r = parts[0].radius, s = parts[*other.operand].radius;
     if (!r && !s) continue;  // a square of a distance, which is listed
     const double reach = (r ? c.values[*r] : 0) + (s ? c.values[*s] : 0);
-    const Vector m = minus(vector_at(c, 0), vector_at(c, b));
-    const std::string centers = fmt::format("{} and {}", vector_name(q, 0), vector_name(q, b));
+    const Vector m = minus(vector_at(c, first.begin), vector_at(c, other.begin));
+    const std::string centers = fmt::format("{} and {}", first.name, other.name);
     const double outside = dot(m, m) - reach * reach;
     all.push_back({"d^2 - R^2 of " + centers, std::abs(outside), "length^2"});
     if (!moves) continue;
@@ -173,9 +146,8 @@ std::vector<Quantity> quantities_of(const Case& c, bool with_gap) {
   all.push_back({"the largest position or size", largest_number(c)});
   add_vectors(c, all);
   add_forms(c, all);
-  for (const auto& t : parts_of(*c.query).triangles)
-    all.push_back({"the area of the triangle", area(c, t), "length^2"});
-  const auto& velocities = parts_of(*c.query).velocities;
+  for (const auto& t : c.operands().triangles) all.push_back({"the area of the triangle", area(c, t), "length^2"});
+  const auto& velocities = c.operands().velocities;
   if (!velocities.empty()) {
     const double time = contact_time(c);
     all.push_back({"the time of the contact", time, "time"});

@@ -126,7 +126,7 @@ bool AskedCases::is_wrong_decision() const {
 int largest_exponent_of(const Case& c) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::position || role == Role::size) largest = std::max(largest, std::abs(c.values[i]));
   }
   return largest > 0 ? std::ilogb(largest) : 0;

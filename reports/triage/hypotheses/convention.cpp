@@ -78,7 +78,7 @@ class Convention : public TestOfCause {
   /// A start in contact is a branch of its own in many implementations, and so is each value of a flag. A reading of
   /// the flag itself is about both values.
   bool is_of_another_branch(const Reading& reading, const Case& c) const {
-    const auto& inputs = c.query->inputs;
+    const auto inputs = c.fields();
     const bool is_of_flag = reading.name.starts_with("flag");
     for (std::size_t i = 0; i < inputs.size() && !is_of_flag; ++i) {
       if (inputs[i].role == Role::flag && c.values[i] != question().values[i]) return true;

@@ -50,7 +50,7 @@ class ErrorShare : public TestOfCause {
     asked_.set_small_errors();
     if (largest < least) return std::nullopt;
     // A search along a motion that ends too early has small errors too.
-    if (!parts_of(trials().query()).velocities.empty()) return std::nullopt;
+    if (!trials().query().operands.velocities.empty()) return std::nullopt;
     constexpr double of_floats = 0x1p-22;  // two numbers, each rounded to a float
     const bool may_be_floats =
         largest <= of_floats && trials().subject().scalar == Scalar::float64 && !numbers_err_to_one_side();
@@ -126,7 +126,7 @@ class ErrorShare : public TestOfCause {
     return std::abs(along);
   }
   static double speed_along_normal(const Case& c, const Error& e) {
-    const auto& velocities = parts_of(*c.query).velocities;
+    const auto& velocities = c.operands().velocities;
     if (velocities.empty()) return 0;
     const double* v = &c.values[velocities[0]];
     return along_normal(*c.query, e, {v[0], v[1], v[2]});
@@ -138,7 +138,7 @@ class ErrorShare : public TestOfCause {
     return along_normal(*t.question.query, e, by);
   }
   static double speed_of(const Case& c) {
-    const auto& velocities = parts_of(*c.query).velocities;
+    const auto& velocities = c.operands().velocities;
     if (velocities.empty()) return 0;
     const double* v = &c.values[velocities[0]];
     return std::hypot(v[0], v[1], v[2]);
@@ -161,7 +161,7 @@ class ErrorShare : public TestOfCause {
       for (const Magnitude& length : magnitudes_of(t.question).lengths)
         add(name + " over " + without_numbers(length.name), error, double(length.value));
     };
-    if (part_.role == Role::position || part_.role == Role::depth) over_lengths("the error", e->distance);
+    if (is_length(part_.role)) over_lengths("the error", e->distance);
     if (part_.role == Role::position) {
       over_lengths("the error of one number", e->largest);
       over_lengths("the error along the normal", distance_along_normal(t, *e));

@@ -19,10 +19,10 @@ class FewAnswers : public TestOfCause {
 
   std::optional<Named> named() {
     if (!find_number() || exact_number(question()).empty()) return std::nullopt;
-    for (const std::string& operand : operands()) {
-      const auto counted = counted_with(operand);
+    for (const Operand& operand : question().operands()) {
+      const auto counted = operand.positions.empty() ? std::nullopt : counted_with(operand);
       if (!counted) continue;
-      saw(fmt::format("{} was moved by different distances up to {:.2g}.", operand, counted->furthest),
+      saw(fmt::format("{} was moved by different distances up to {:.2g}.", operand.name, counted->furthest),
           fmt::format("{} different exact values have {} given ones.", counted->exact, counted->given));
       return Named{CauseKind::iteration_limit, "steps of the answer",
                    "The number is one of a few, while the exact one changes with the inputs: the subject looks at few "
@@ -43,22 +43,10 @@ class FewAnswers : public TestOfCause {
     const Role role = trials().query().outputs[number_].role;
     return role != Role::index && role != Role::flag;
   }
-  /// The names of the operands that have positions, without their members.
-  std::vector<std::string> operands() const {
-    std::vector<std::string> all;
-    for (const Field& f : trials().query().inputs) {
-      if (f.role != Role::position) continue;
-      const std::string name = f.name.substr(0, f.name.find('.'));
-      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
-    }
-    return all;
-  }
-  Case moved(const std::string& operand, double by) const {
+  Case moved(const Operand& operand, double by) const {
     Case c = question();
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      const Field& f = c.query->inputs[i];
-      const bool is_of_operand = f.role == Role::position && f.name.substr(0, f.name.find('.')) == operand;
-      if (is_of_operand) c.values[i] = rounded_to(c.scalar, c.values[i] + by);
+    for (const std::size_t at : operand.positions) {
+      for (std::size_t i = at; i < at + 3; ++i) c.values[i] = rounded_to(c.scalar, c.values[i] + by);
     }
     return c;
   }
@@ -70,7 +58,7 @@ class FewAnswers : public TestOfCause {
   }
   /// The length of the shortest move that changes the given number, where a move of a quarter does not, though it
   /// changes the exact number; empty where there is none.
-  std::optional<double> end_of_plateau(const std::string& operand) {
+  std::optional<double> end_of_plateau(const Operand& operand) {
     constexpr int finest = -34, coarsest = -4, step = 2;
     const double own = trials().base().answer.values[number_];
     const auto& inputs = question().values;
@@ -97,7 +85,7 @@ class FewAnswers : public TestOfCause {
     std::size_t exact = 0, given = 0;
     double furthest = 0;
   };
-  std::optional<Counted> counted_with(const std::string& operand) {
+  std::optional<Counted> counted_with(const Operand& operand) {
     constexpr int tries = 6;
     constexpr double longer = 4;
     const auto plateau = end_of_plateau(operand);
@@ -112,7 +100,7 @@ class FewAnswers : public TestOfCause {
     return std::nullopt;
   }
   /// Empty where an answer is none.
-  std::optional<Counted> counted_up_to(const std::string& operand, double furthest) {
+  std::optional<Counted> counted_up_to(const Operand& operand, double furthest) {
     std::vector<Case> cases;
     for (std::size_t n = 1; n <= moves; ++n) cases.push_back(moved(operand, furthest * double(n) / moves));
     std::set<double> given, exact;

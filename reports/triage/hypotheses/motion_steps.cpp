@@ -121,7 +121,7 @@ class MotionSteps : public TestOfCause {
 
   /// The sine of the angle between the velocity and the surface at the exact contact, unless it is at the start.
   static void add_sine(const Trial& t, std::vector<double>& sines) {
-    const auto& velocities = parts_of(*t.question.query).velocities;
+    const auto& velocities = t.question.operands().velocities;
     const auto normal = index_of_role(t.question.query->outputs, Role::normal);
     if (velocities.empty() || !normal || !t.finding.truth_yes) return;
     const double* v = &t.question.values[velocities[0]];
@@ -153,14 +153,14 @@ class MotionSteps : public TestOfCause {
   /// The index of the limit of time of a decision about a motion.
   std::optional<std::size_t> limit_of_time() const {
     const Query& q = trials().query();
-    if (q.kind != Kind::decision || parts_of(q).velocities.empty()) return std::nullopt;
+    if (q.kind != Kind::decision || q.operands.velocities.empty()) return std::nullopt;
     return index_of_role(q.inputs, Role::time);
   }
   /// The case with a limit in place of any time.
   Case with_limit(std::size_t limit, double time) const {
     Case c = question();
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (c.query->inputs[i].role == Role::flag) c.values[i] = 0;
+      if (c.role(i) == Role::flag) c.values[i] = 0;
     }
     c.values[limit] = c.scalar == Scalar::float32 ? double(float(time)) : time;
     return c;
@@ -263,20 +263,20 @@ class MotionSteps : public TestOfCause {
   }
   /// The motion that begins where this one is after a time; empty where the numbers leave the range.
   std::optional<Case> begun_later(double passed) const {
-    const auto& start = parts_of(trials().query()).start;
-    const auto& velocities = parts_of(trials().query()).velocities;
+    const auto& start = trials().query().operands.start;
+    const auto& velocities = trials().query().operands.velocities;
     if (!start || velocities.empty()) return std::nullopt;
     Case c = question();
     for (std::size_t k = 0; k < 3; ++k) c.values[start->place + k] += passed * c.values[velocities[0] + k];
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (c.query->inputs[i].role == Role::time) c.values[i] = std::max(0.0, c.values[i] - passed);
+      if (c.role(i) == Role::time) c.values[i] = std::max(0.0, c.values[i] - passed);
       if (c.scalar == Scalar::float32) c.values[i] = double(float(c.values[i]));
     }
     return c;
   }
   std::vector<Case> with_moved_starts() const {
     std::vector<Case> cases;
-    const auto& start = parts_of(trials().query()).start;
+    const auto& start = trials().query().operands.start;
     if (!start) return cases;
     constexpr std::size_t starts = 64;
     for (std::size_t n = 1; n <= starts; ++n) {

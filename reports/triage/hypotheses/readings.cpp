@@ -23,7 +23,7 @@ double length(std::span<const double> x) {
 }
 
 double speed_of(const Case& c) {
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   return parts.velocities.empty() ? 0 : length({&c.values[parts.velocities[0]], 3});
 }
 
@@ -54,15 +54,13 @@ Fits normalised_normal(const Case& c, const Answer& a, const IsRight& is_right) 
 }
 
 Fits normalised_direction(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = given_part(c, a, Role::weight);
-  const bool is_direction = p != nullptr && c.query->outputs[p->begin].name.starts_with("direction");
-  return is_direction ? normalised(c, a, p, is_right) : std::nullopt;
+  return normalised(c, a, given_part(c, a, Role::direction), is_right);
 }
 
 /// The direction stretched to the length of a right one.
 Fits direction_of_unit_length(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = given_part(c, a, Role::weight);
-  if (p == nullptr || !c.query->outputs[p->begin].name.starts_with("direction")) return std::nullopt;
+  const Layout::Part* p = given_part(c, a, Role::direction);
+  if (p == nullptr) return std::nullopt;
   const std::vector<Alternative> all = truth_of(c).alternatives;
   if (all.size() != 1) return std::nullopt;
   std::array<double, 3> right{};
@@ -104,7 +102,8 @@ Fits negative_depth(const Case& c, const Answer& a, const IsRight& is_right) {
   Answer other = a;
   other.yes = true;
   for (const Layout::Part& p : c.query->layout.parts) {
-    if (p.role == Role::depth && a.gives(p.begin)) other.values[p.begin] = -a.values[p.begin];
+    if ((p.role == Role::depth || p.role == Role::distance) && a.gives(p.begin))
+      other.values[p.begin] = -a.values[p.begin];
   }
   if (other.values == a.values) return std::nullopt;
   return is_right(c, other);
@@ -123,8 +122,8 @@ Fits moved_place(const Case& c, const Answer& a, double distance, const IsRight&
 /// The given place is the center at the given time, and the other numbers are right. The place is compared as the
 /// measure compares: relative to the largest number.
 Fits center_for_place(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto& start = parts_of(*c.query).start;
-  const auto& velocities = parts_of(*c.query).velocities;
+  const auto& start = c.operands().start;
+  const auto& velocities = c.operands().velocities;
   const Layout::Part* place = given_part(c, a, Role::position);
   const Layout::Part* time = given_part(c, a, Role::time);
   if (!start || !start->radius || velocities.empty() || place == nullptr || time == nullptr) return std::nullopt;
@@ -142,7 +141,8 @@ Fits center_for_place(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// The overlap, as a positive number; 0 where the answer has none.
 double depth_of(const Case& c, const Answer& a) {
-  const Layout::Part* p = given_part(c, a, Role::depth);
+  const Layout::Part* depth = given_part(c, a, Role::depth);
+  const Layout::Part* p = depth != nullptr ? depth : given_part(c, a, Role::distance);
   return p == nullptr ? 0 : std::abs(a.values[p->begin]);
 }
 
@@ -160,7 +160,7 @@ Fits place_half_way(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// The place of the answer, judged as that of a sphere which is so large that it touches at the start.
 Fits place_of_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto& start = parts_of(*c.query).start;
+  const auto& start = c.operands().start;
   const Layout::Part* place = given_part(c, a, Role::position);
   if (!start || !start->radius || place == nullptr || c.query->kind != Kind::impact) return std::nullopt;
   if (!meets(c, Precondition::starts_outside)) return std::nullopt;
@@ -201,7 +201,7 @@ std::optional<double> least_time_of(const Case& c, const Alternative& right) {
                        outputs.begin());
   };
   if (const std::size_t time = at(Role::time); time < outputs.size()) return right.values[time].low;
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   const std::size_t place = at(Role::position);
   if (!parts.start || parts.directions.empty() || place == outputs.size()) return std::nullopt;
   double along = 0, square = 0;
@@ -290,7 +290,7 @@ std::span<const Reading> readings() {
 }
 
 bool starts_in_contact(const Case& c) {
-  return parts_of(*c.query).start.has_value() && !meets(c, Precondition::starts_outside);
+  return c.operands().start.has_value() && !meets(c, Precondition::starts_outside);
 }
 
 }  // namespace nearmiss

@@ -21,7 +21,7 @@ void swap_vectors(Case& c, std::size_t i, std::size_t k) {
 
 Case with_reversed_plane(Case c) {
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::direction || role == Role::offset) c.values[i] = -c.values[i];
   }
   return c;
@@ -30,7 +30,7 @@ Case with_reversed_plane(Case c) {
 /// The case with the back of the plane, triangle or rectangle as its front; empty if there is none.
 std::optional<Case> seen_from_behind(const Case& c) {
   if (!c.query->traits.one_sided) return std::nullopt;
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   Case other = c;
   if (!parts.rectangles.empty()) {
     swap_vectors(other, parts.rectangles[0][1], parts.rectangles[0][3]);
@@ -50,33 +50,28 @@ Answer without_weights(const Case& c, Answer a) {
   return a;
 }
 
-/// Where the center of the last operand that has one begins in the inputs.
+/// Where the center of the last sphere or box begins in the inputs.
 std::optional<std::size_t> last_center(const Query& q) {
-  for (std::size_t i = q.inputs.size(); i-- > 0;) {
-    if (q.inputs[i].name.ends_with(".center.x")) return i;
+  std::optional<std::size_t> center;
+  for (const Operand& o : q.operands) {
+    if (o.shape == Shape::sphere || o.shape == Shape::box) center = o.positions[0];
   }
-  return std::nullopt;
+  return center;
 }
 
 /// Whether the center of a sphere or box lies behind the plane of the case.
 bool is_behind_plane(const Case& c) {
-  const auto& inputs = c.query->inputs;
   const auto center = last_center(*c.query);
+  const Operand* plane = c.operands().find(Shape::plane);
+  if (!center || plane == nullptr) return false;
   double height = 0;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].role == Role::direction && center && k < 3) height += c.values[i] * c.values[*center + k++];
-    if (inputs[i].role == Role::offset) height += c.values[i];
-  }
-  return k == 3 && height < 0;
+  for (std::size_t k = 0; k < 3; ++k) height += c.values[*plane->direction + k] * c.values[*center + k];
+  return height + c.values[*plane->offset] < 0;
 }
 
 /// A plane without a solid side: what lies behind it is pushed out at the back.
 Fits plane_with_two_fronts(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto& inputs = c.query->inputs;
-  const bool has_plane =
-      std::any_of(inputs.begin(), inputs.end(), [](const Field& f) { return f.role == Role::offset; });
-  if (c.query->kind != Kind::depth || !has_plane || !is_behind_plane(c)) return std::nullopt;
+  if (c.query->kind != Kind::depth || !is_behind_plane(c)) return std::nullopt;
   return is_right(with_reversed_plane(c), a);
 }
 
@@ -94,7 +89,7 @@ Fits both_sides(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// A vector turned by the first rotation of the case; empty where there is none, or where it turns nothing.
 std::optional<std::array<double, 3>> turned_as_box(const Case& c, const double* v) {
-  const auto& all = parts_of(*c.query).quaternions;
+  const auto& all = c.operands().quaternions;
   if (all.empty()) return std::nullopt;
   const double *q = &c.values[all.front()], n = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   if (!(n > 0) || (q[0] == 0 && q[1] == 0 && q[2] == 0)) return std::nullopt;
@@ -137,7 +132,7 @@ Fits place_from_center(const Case& c, const Answer& a, const IsRight& is_right) 
 std::optional<double> length_of_axis(const Case& c) {
   static const Query* const axes = find_query("box_box_separating_axis");
   const auto same_name = [](const Field& a, const Field& b) { return a.name == b.name; };
-  if (!std::equal(c.query->inputs.begin(), c.query->inputs.end(), axes->inputs.begin(), axes->inputs.end(), same_name))
+  if (!std::equal(c.fields().begin(), c.fields().end(), axes->inputs.begin(), axes->inputs.end(), same_name))
     return std::nullopt;
   Case of_axis = c;
   of_axis.query = axes;
@@ -152,7 +147,7 @@ std::optional<double> length_of_axis(const Case& c) {
 /// A number along an axis that is divided by the length of the axis once more.
 Fits along_unit_axis(const Case& c, const Answer& a, const IsRight& is_right) {
   constexpr double nearly_one = 1 - 1e-9;
-  const auto depth = index_of_role(c.query->outputs, Role::depth);
+  const auto depth = index_of_role(c.query->outputs, Role::distance);
   if (c.query->outputs.size() != 1 || !depth || a.status != Answer::Status::answered) return std::nullopt;
   const auto length = length_of_axis(c);
   if (!length || !(*length > 0 && *length < nearly_one)) return std::nullopt;

@@ -26,36 +26,29 @@ template <class Change>
 Fits with_input(const Case& c, const Answer& a, Role role, const IsRight& is_right, const Change& change) {
   Case other = c;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.query->inputs[i].role == role) other.values[i] = change(c.values[i]);
+    if (c.role(i) == role) other.values[i] = change(c.values[i]);
   }
   return opinion_on(c, other, a, is_right);
 }
 
-bool is_half_extent(const Case& c, std::size_t i) {
-  return c.query->inputs[i].name.find(".half.") != std::string::npos;
-}
+bool is_half_extent(const Case& c, std::size_t i) { return c.operands().of_number(i)->half.has_value(); }
 
 /// Which operands a reading is about: all, or the first or second of the operands with such a part.
 enum class Which { all, first, second };
 
-/// The operand of a part that begins at an input.
-std::string_view operand_at(const Case& c, std::size_t i) {
-  const std::string_view name = c.query->inputs[i].name;
-  return name.substr(0, name.find('.'));
-}
-
 /// Whether the input belongs to the operand that is meant, among those of these inputs.
 bool is_meant(const Case& c, std::size_t i, std::span<const std::size_t> among, Which which) {
   if (which == Which::all || among.empty()) return which == Which::all;
-  const bool is_first = operand_at(c, i) == operand_at(c, among.front());
-  const bool are_two = operand_at(c, among.back()) != operand_at(c, among.front());
+  const auto operand_of = [&](std::size_t number) { return c.operands().of_number(number); };
+  const bool is_first = operand_of(i) == operand_of(among.front());
+  const bool are_two = operand_of(among.back()) != operand_of(among.front());
   return are_two && is_first == (which == Which::first);
 }
 
 /// The case with the meant sizes multiplied: the half extents, or the radii.
 Case with_sizes(const Case& c, double factor, bool half_extents, Which which) {
   std::vector<std::size_t> sizes;
-  for (const std::size_t i : parts_of(*c.query).sizes) {
+  for (const std::size_t i : c.operands().sizes) {
     if (is_half_extent(c, i) == half_extents) sizes.push_back(i);
   }
   Case other = c;
@@ -76,7 +69,7 @@ using ChangeOfRotation = QuaternionNumbers (*)(const QuaternionNumbers&);
 /// The case with the meant quaternions replaced.
 Case with_rotations(const Case& c, ChangeOfRotation change, Which which) {
   Case other = c;
-  const auto& all = parts_of(*c.query).quaternions;
+  const auto& all = c.operands().quaternions;
   for (const std::size_t i : all) {
     if (!is_meant(c, i, all, which)) continue;
     const QuaternionNumbers changed = change({c.values[i], c.values[i + 1], c.values[i + 2], c.values[i + 3]});
@@ -121,7 +114,7 @@ Fits fixed_flag(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// The index of an axis of two boxes: its cross products are numbered by those of the second box.
 Fits cross_products_by_columns(const Case& c, const Answer& a, const IsRight& is_right) {
-  if (parts_of(*c.query).quaternions.size() != 2) return std::nullopt;
+  if (c.operands().quaternions.size() != 2) return std::nullopt;
   return with_input(c, a, Role::index, is_right, [](double x) {
     const double own_axes = 6, cross = x - own_axes, row = std::floor(cross / 3);
     return cross < 0 ? x : own_axes + 3 * (cross - 3 * row) + row;
@@ -142,19 +135,13 @@ Fits angle_for_bound(const Case& c, const Answer& a, const IsRight& is_right) {
   });
 }
 
-/// The two operands in each other's place: those whose names end with 1 and 2.
+/// The two operands in each other's place.
 Fits exchanged_operands(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
-  const auto& inputs = c.query->inputs;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const std::size_t end = inputs[i].name.find('.');
-    if (end == std::string::npos || inputs[i].name[end - 1] != '1') continue;
-    std::string counterpart = inputs[i].name;
-    counterpart[end - 1] = '2';
-    const auto second =
-        std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return f.name == counterpart; });
-    if (second == inputs.end()) return std::nullopt;
-    std::swap(other.values[i], other.values[std::size_t(second - inputs.begin())]);
+  const bool are_two = c.operands().size() == 2 && c.operands().velocities.empty();
+  if (are_two && c.operands()[0].shape == c.operands()[1].shape) {
+    const Operand &one = c.operands()[0], &two = c.operands()[1];
+    std::swap_ranges(&other.values[one.begin], &other.values[one.begin] + one.count, &other.values[two.begin]);
   }
   return opinion_on(c, other, a, is_right);
 }
@@ -164,7 +151,7 @@ Fits exchanged_operands(const Case& c, const Answer& a, const IsRight& is_right)
 template <std::size_t first>
 Fits corners_of_a_strip(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
-  for (const auto& corners : parts_of(*c.query).rectangles) {
+  for (const auto& corners : c.operands().rectangles) {
     for (std::size_t k = 0; k < 3; ++k)
       std::swap(other.values[corners[first] + k], other.values[corners[first + 1] + k]);
   }
@@ -174,7 +161,7 @@ Fits corners_of_a_strip(const Case& c, const Answer& a, const IsRight& is_right)
 /// The upper corner of an axis-aligned box is its size; a negative one is 0.
 Fits size_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
-  for (const std::size_t low : parts_of(*c.query).aaboxes) {
+  for (const std::size_t low : c.operands().aaboxes) {
     for (std::size_t k = low; k < low + 3; ++k)
       other.values[k + 3] = rounded_to(c.scalar, c.values[k] + std::max(c.values[k + 3], 0.0));
   }
@@ -185,7 +172,7 @@ template <int numerator, int denominator>
 Fits scaled_corners(const Case& c, const Answer& a, const IsRight& is_right) {
   constexpr double factor = double(numerator) / denominator, own = (1 + factor) / 2, other_corner = (1 - factor) / 2;
   Case other = c;
-  for (const std::size_t low : parts_of(*c.query).aaboxes) {
+  for (const std::size_t low : c.operands().aaboxes) {
     for (std::size_t k = low; k < low + 3; ++k) {
       other.values[k] = rounded_to(c.scalar, own * c.values[k] + other_corner * c.values[k + 3]);
       other.values[k + 3] = rounded_to(c.scalar, other_corner * c.values[k] + own * c.values[k + 3]);
@@ -196,7 +183,7 @@ Fits scaled_corners(const Case& c, const Answer& a, const IsRight& is_right) {
 /// The corners of an axis-aligned box are its center and half extents; negative ones are 0.
 Fits center_for_corner(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
-  for (const std::size_t low : parts_of(*c.query).aaboxes) {
+  for (const std::size_t low : c.operands().aaboxes) {
     for (std::size_t k = low; k < low + 3; ++k) {
       const double half = std::max(c.values[k + 3], 0.0);
       other.values[k] = rounded_to(c.scalar, c.values[k] - half);
@@ -207,7 +194,7 @@ Fits center_for_corner(const Case& c, const Answer& a, const IsRight& is_right) 
 }
 /// The velocity, or the direction of a ray, is the place where the motion ends.
 Fits end_for_way(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   if (!parts.start) return std::nullopt;
   Case other = c;
   for (const auto* ways : {&parts.velocities, &parts.directions}) {
@@ -221,7 +208,7 @@ Fits end_for_way(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// A limit of time that is taken for a length of the motion.
 Fits length_for_limit(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto& velocities = parts_of(*c.query).velocities;
+  const auto& velocities = c.operands().velocities;
   if (velocities.empty()) return std::nullopt;
   const double* v = &c.values[velocities[0]];
   const double speed = std::hypot(v[0], v[1], v[2]);
@@ -232,7 +219,7 @@ Fits length_for_limit(const Case& c, const Answer& a, const IsRight& is_right) {
 /// A limit of time that no motion exceeds: 1.
 Fits limit_of_one(const Case& c, const Answer& a, const IsRight& is_right) {
   Case other = c;
-  const auto& inputs = c.query->inputs;
+  const auto inputs = c.fields();
   bool is_forever = false, has_limit = false;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].role != Role::flag) continue;

@@ -29,7 +29,7 @@ struct Motion {
 };
 
 std::optional<Motion> motion_of(const Query& q) {
-  const Parts& parts = parts_of(q);
+  const Operands& parts = q.operands;
   if (!parts.start) return std::nullopt;
   if (!parts.velocities.empty()) return Motion{parts.start->place, parts.velocities[0]};
   if (!parts.directions.empty()) return Motion{parts.start->place, parts.directions[0]};
@@ -40,7 +40,7 @@ std::optional<Motion> motion_of(const Query& q) {
 std::optional<double> time_beyond_all(const Case& c, const Motion& m) {
   double reach = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.query->inputs[i].role;
+    const Role role = c.role(i);
     if (role == Role::position || role == Role::size || role == Role::offset) reach += std::abs(c.values[i]);
   }
   const double* v = &c.values[m.velocity];
@@ -118,8 +118,7 @@ Fits value_of_another(const Case& c, const Answer& a, const IsRight& is_right) {
 
 Fits weights_in_another_order(const Case& c, const Answer& a, const IsRight& is_right) {
   const Layout::Part* p = given_part(c, a, Role::weight);
-  if (p == nullptr || p->end - p->begin != 3 || c.query->outputs[p->begin].name.starts_with("direction"))
-    return std::nullopt;
+  if (p == nullptr || p->end - p->begin != 3) return std::nullopt;
   std::array<std::size_t, 3> order{0, 1, 2};
   while (std::next_permutation(order.begin(), order.end())) {
     Answer other = a;

@@ -33,15 +33,13 @@ bool are_equal(const Case& c, std::size_t a, std::size_t b) {
 
 /// Pairs of positions of different operands.
 std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Query& q) {
-  const auto operand = [&](std::size_t i) {
-    return std::string_view(q.inputs[i].name).substr(0, q.inputs[i].name.find('.'));
-  };
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t b = 0; b < q.inputs.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const bool are_places = q.inputs[a].role == Role::position && q.inputs[b].role == Role::position &&
-                              q.inputs[a].name.ends_with('x') && q.inputs[b].name.ends_with('x');
-      if (are_places && operand(a) != operand(b)) pairs.emplace_back(a, b);
+  for (const Operand& second : q.operands) {
+    for (const std::size_t b : second.positions) {
+      for (const Operand& first : q.operands) {
+        if (first.begin >= second.begin) break;
+        for (const std::size_t a : first.positions) pairs.emplace_back(a, b);
+      }
     }
   }
   return pairs;
@@ -49,10 +47,8 @@ std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Qu
 
 /// Where the vectors along which something moves begin: velocities, and directions of rays and lines.
 std::vector<std::size_t> ways_of(const Query& q) {
-  std::vector<std::size_t> ways = parts_of(q).velocities;
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
-    if (q.inputs[i].role == Role::direction && q.inputs[i].name.ends_with("direction.x")) ways.push_back(i);
-  }
+  std::vector<std::size_t> ways = q.operands.velocities;
+  ways.insert(ways.end(), q.operands.directions.begin(), q.operands.directions.end());
   return ways;
 }
 
@@ -78,12 +74,12 @@ double height_over(const Case& c, const std::array<std::size_t, 3>& corners, std
 
 /// Hits of the first operand from one side of a triangle, or of a rectangle: an implementation may leave them out.
 void add_sides(std::vector<Region>& regions, const Query& query) {
-  const auto& triangles = parts_of(query).triangles;
-  if (triangles.empty() || !parts_of(query).aaboxes.empty() || !decides(query.kind)) return;
+  const auto& triangles = query.operands.triangles;
+  if (triangles.empty() || !query.operands.aaboxes.empty() || !decides(query.kind)) return;
   const auto& corners = triangles.front();
   for (const auto& [a, b] : places_of_two_operands(query)) {
     if (b != corners[0]) continue;
-    const std::string of = query.inputs[b].name.substr(0, query.inputs[b].name.find('.'));
+    const std::string& of = query.operands.of_number(b)->name;
     regions.push_back({fmt::format("a hit from behind the {}", of),
                        [=, a = a](const Case& c) { return height_over(c, corners, a) < 0 && exact_decision(c); },
                        false});
@@ -95,7 +91,7 @@ void add_sides(std::vector<Region>& regions, const Query& query) {
 }
 
 bool is_turned(const Case& c) {
-  const auto& all = parts_of(*c.query).quaternions;
+  const auto& all = c.operands().quaternions;
   return std::any_of(all.begin(), all.end(),
                      [&](std::size_t i) { return c.values[i] != 0 || c.values[i + 1] != 0 || c.values[i + 2] != 0; });
 }
@@ -114,15 +110,14 @@ std::vector<Region> regions_of(const Query& query) {
   for (const auto& [a, b] : places_of_two_operands(query))
     regions.push_back({"two equal points", [a = a, b = b](const Case& c) { return are_equal(c, a, b); }});
   for (const std::size_t i : ways_of(query)) {
-    const std::string vector = query.inputs[i].name.substr(0, query.inputs[i].name.rfind('.'));
-    regions.push_back(
-        {fmt::format("{} with a component of zero", vector), [i](const Case& c) { return is_along_axes(c, i); }});
+    regions.push_back({fmt::format("{} with a component of zero", query.operands.member_of(i).name),
+                       [i](const Case& c) { return is_along_axes(c, i); }});
   }
-  for (const auto& t : parts_of(query).triangles)
+  for (const auto& t : query.operands.triangles)
     regions.push_back({"a triangle with two equal corners", [t](const Case& c) {
                          return are_equal(c, t[0], t[1]) || are_equal(c, t[1], t[2]) || are_equal(c, t[0], t[2]);
                        }});
-  for (const auto& s : parts_of(query).segments)
+  for (const auto& s : query.operands.segments)
     regions.push_back({"a segment of one point", [s](const Case& c) { return are_equal(c, s[0], s[1]); }});
   for (const Precondition p : all_preconditions) {
     if (concerns(p, query))
@@ -130,7 +125,7 @@ std::vector<Region> regions_of(const Query& query) {
   }
   for (const FeatureRegion r : {FeatureRegion::flat, FeatureRegion::parallel})
     regions.push_back({std::string(name_of(r)), [r](const Case& c) { return feature_regions_of(c).has(r); }});
-  if (!parts_of(query).quaternions.empty()) regions.push_back({"a turned box", is_turned, false});
+  if (!query.operands.quaternions.empty()) regions.push_back({"a turned box", is_turned, false});
   add_sides(regions, query);
   return regions;
 }

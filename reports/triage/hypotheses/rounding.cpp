@@ -178,20 +178,18 @@ class RoundingErrors : public TestOfCause {
   bool others_depend_ = true;  ///< on the rounding mode, where the subject can be asked in another
 
   std::vector<Case> moved_to_the_origin() const {
-    const Query& q = trials().query();
+    std::vector<std::size_t> positions;
     std::vector<Case> cases;
-    if (std::any_of(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::offset; }))
-      return cases;
-    const auto first =
-        std::find_if(q.inputs.begin(), q.inputs.end(), [](const Field& f) { return f.role == Role::position; });
-    if (first == q.inputs.end()) return cases;
-    const std::size_t at = std::size_t(first - q.inputs.begin());
-    const double* place = &question().values[at];
+    for (const Operand& o : question().operands()) {
+      if (o.shape == Shape::plane) return cases;
+      positions.insert(positions.end(), o.positions.begin(), o.positions.end());
+    }
+    if (positions.empty()) return cases;
+    const double* place = &question().values[positions.front()];
     for (int m = 1; m <= 24; ++m) {
       Case c = question();
-      for (std::size_t i = 0; i < c.values.size(); ++i) {
-        if (q.inputs[i].role != Role::position) continue;
-        const std::size_t k = std::size_t(q.inputs[i].name.back() - 'x');
+      for (std::size_t n = 0; n < 3 * positions.size(); ++n) {
+        const std::size_t k = n % 3, i = positions[n / 3] + k;
         const auto kept = metamorphic::exact_product(place[k], std::ldexp(1.0, -m), c.scalar);
         const auto shift = kept ? metamorphic::exact_sum(*kept, -place[k], c.scalar) : std::nullopt;
         const auto moved = shift ? metamorphic::exact_sum(c.values[i], *shift, c.scalar) : std::nullopt;

@@ -48,13 +48,13 @@ class ConstantError {
       if (auto named = constant_over(scans_[0], "length", true)) return named;
       return constant_over(scans_[1], "time", false);
     }
-    if (role == Role::position || role == Role::depth) return constant_over(scans_[0], "length", false);
+    if (is_length(role)) return constant_over(scans_[0], "length", false);
     return std::nullopt;
   }
   /// The speed along the normal of the exact contact, for errors of a time that are lengths; the speed where the answer
   /// has no normal.
   double speed_of(const Case& c) const {
-    const auto& velocities = parts_of(trials_.query()).velocities;
+    const auto& velocities = trials_.query().operands.velocities;
     if (velocities.empty()) return 0;
     const double* v = &c.values[velocities[0]];
     const auto& outputs = trials_.query().outputs;

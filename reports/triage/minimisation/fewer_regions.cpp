@@ -30,7 +30,7 @@ void normalise(Case& c, const std::vector<std::size_t>& begins, std::size_t coun
 }
 
 Case with_unit_vectors(Case c) {
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   normalise(c, parts.quaternions, 4);
   normalise(c, parts.directions, 3);
   normalise(c, parts.normals, 3);
@@ -59,7 +59,7 @@ Point turned(const Point& p, const Quaternion& by) {
 /// The scene turned about the origin so that the first rotation of the case becomes none. The case itself where it has
 /// no rotation, or a box that cannot be turned.
 Case upright(const Case& c) {
-  const Parts& parts = parts_of(*c.query);
+  const Operands& parts = c.operands();
   if (parts.quaternions.empty() || !parts.aaboxes.empty()) return c;
   const Quaternion back = conjugate(unit_quaternion_at(c, parts.quaternions.front()));
   Case scene = c;
@@ -69,7 +69,7 @@ Case upright(const Case& c) {
   }
   for (std::size_t k = 0; k < 4; ++k) scene.values[parts.quaternions.front() + k] = k == 3 ? 1 : 0;
   for (std::size_t i = 0; i + 2 < c.values.size(); ++i) {
-    const Field& f = c.query->inputs[i];
+    const Field& f = c.fields()[i];
     const bool is_vector = f.name.ends_with(".x") && f.role != Role::rotation && f.role != Role::size;
     if (!is_vector) continue;
     const Point p = turned({c.values[i], c.values[i + 1], c.values[i + 2]}, back);
@@ -85,11 +85,11 @@ Case stirred(const Case& c, std::span<const Role> roles, double share, std::mt19
   for (const Role role : roles) {
     double largest = 0;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (c.query->inputs[i].role == role) largest = std::max(largest, std::abs(c.values[i]));
+      if (c.role(i) == role) largest = std::max(largest, std::abs(c.values[i]));
     }
     const double by = share * (largest > 0 ? largest : 1);
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (c.query->inputs[i].role != role) continue;
+      if (c.role(i) != role) continue;
       const double x = c.values[i] + by * (2 * std::generate_canonical<double, 53>(random) - 1);
       moved.values[i] = rounded(c, role == Role::size ? std::abs(x) : x);
     }

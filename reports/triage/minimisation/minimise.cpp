@@ -151,7 +151,7 @@ std::vector<SameFinding> ranges_of(const Case& c, const MinimiseLimits& limits, 
   fault.give(limits.time);
   std::vector<SameFinding> ranges;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (!has_range(c.query->inputs[i])) continue;
+    if (!has_range(c.fields()[i])) continue;
     const SameFinding range = Range(c, i, fault).find();
     if (fault.has_ended()) break;
     ranges.push_back(range);
@@ -202,11 +202,10 @@ Minimised::End end_in(const FileValue& words) {
 }  // namespace
 
 nlohmann::ordered_json minimised_to_json(const Minimised& m) {
-  const Query& query = *m.report.question.query;
   nlohmann::ordered_json j = report_to_json(m.report);
   nlohmann::ordered_json ranges = nlohmann::ordered_json::array();
   for (const SameFinding& r : m.ranges) {
-    ranges.push_back({{"number", query.inputs[r.number].name},
+    ranges.push_back({{"number", m.report.question.name(r.number)},
                       {"low", r.low},
                       {"high", r.high},
                       {"to_lowest", r.to_lowest},
@@ -221,7 +220,7 @@ Minimised minimised_from_json(const FileValue& minimised, const Report& report) 
   m.report = report;
   m.questions = minimised.at("questions").count();
   m.end = end_in(minimised.at("ended_by"));
-  const std::vector<Field>& inputs = report.question.query->inputs;
+  const std::span<const Field> inputs = report.question.fields();
   for (const FileValue& range : minimised.at("same_finding").items()) {
     const std::string name = range.at("number").text();
     const auto field = std::find_if(inputs.begin(), inputs.end(), [&](const Field& f) { return name == f.name; });
@@ -238,7 +237,7 @@ std::string ranges_text(const Minimised& m) {
   std::vector<std::vector<std::string>> rows{{"NUMBER", "VALUE", "SAME FINDING FROM", "TO"}};
   std::string free;
   for (const SameFinding& r : m.ranges) {
-    const std::string& name = c.query->inputs[r.number].name;
+    const std::string& name = c.name(r.number);
     if (r.plays_no_part()) {
       free += (free.empty() ? "" : ", ") + name;
       continue;

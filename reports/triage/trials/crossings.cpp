@@ -36,7 +36,7 @@ class CrossingSearch {
   };
 
   bool may_move(std::size_t i) const {
-    const Role role = wrong_.query->inputs[i].role;
+    const Role role = wrong_.role(i);
     const bool is_named = numbers_.empty() || std::find(numbers_.begin(), numbers_.end(), i) != numbers_.end();
     return is_named && role != Role::flag && role != Role::index;
   }
@@ -44,8 +44,7 @@ class CrossingSearch {
   double scale_of(std::size_t number) const {
     double largest = 0;
     for (std::size_t i = 0; i < wrong_.values.size(); ++i) {
-      if (wrong_.query->inputs[i].role == wrong_.query->inputs[number].role)
-        largest = std::max(largest, std::abs(wrong_.values[i]));
+      if (wrong_.role(i) == wrong_.role(number)) largest = std::max(largest, std::abs(wrong_.values[i]));
     }
     return largest > 0 ? largest : 1;
   }
@@ -63,7 +62,7 @@ class CrossingSearch {
     std::vector<double> values;
     for (int k = -digits; k <= furthest; k += k < 0 ? fine : coarse)
       values.push_back(own + sign * std::ldexp(scale, k));
-    const Role role = wrong_.query->inputs[number].role;
+    const Role role = wrong_.role(number);
     const bool stays_positive = own > 0 && (role == Role::size || role == Role::time || role == Role::weight);
     if (sign > 0 || !stays_positive) return values;
     std::vector<double> smaller;

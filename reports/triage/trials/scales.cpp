@@ -106,7 +106,7 @@ std::span<const ScaleGroup> scale_groups() { return groups; }
 double largest_of(const Case& c, const ScaleGroup& group) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (group.order(c.query->inputs[i].role) != 0) largest = std::max(largest, std::abs(c.values[i]));
+    if (group.order(c.role(i)) != 0) largest = std::max(largest, std::abs(c.values[i]));
   }
   return largest;
 }
@@ -114,7 +114,7 @@ double largest_of(const Case& c, const ScaleGroup& group) {
 std::optional<Case> scaled(const Case& c, const ScaleGroup& group, int k) {
   Case other = c;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const int by = k * group.order(c.query->inputs[i].role);
+    const int by = k * group.order(c.role(i));
     other.values[i] = std::ldexp(c.values[i], by);
     if (!std::isfinite(other.values[i]) || !representable(other.values[i], c.scalar)) return std::nullopt;
     if (std::ldexp(other.values[i], -by) != c.values[i]) return std::nullopt;

@@ -17,7 +17,7 @@ class TouchOfCase {
  public:
   TouchOfCase(const Case& c, std::size_t axis) : c_(c), axis_(axis) {
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      const Role role = c.query->inputs[i].role;
+      const Role role = c.role(i);
       if (role == Role::position || role == Role::size) largest_ = std::max(largest_, std::abs(c.values[i]));
     }
   }
@@ -36,15 +36,9 @@ class TouchOfCase {
   static constexpr int finest = -44, coarsest = -8, step = 6;  ///< distances from the border, as powers of two
 
   Case moved(double by) const {
-    constexpr std::string_view axes[] = {".x", ".y", ".z"};
-    const std::string& first = c_.query->inputs.front().name;
-    const std::string operand = first.substr(0, first.find('.') + 1);
     Case other = c_;
-    for (std::size_t i = 0; i < c_.values.size(); ++i) {
-      const Field& f = c_.query->inputs[i];
-      if (f.role == Role::position && f.name.starts_with(operand) && f.name.ends_with(axes[axis_]))
-        other.values[i] = rounded_to(c_.scalar, c_.values[i] + by);
-    }
+    for (const std::size_t at : c_.operands()[0].positions)
+      other.values[at + axis_] = rounded_to(c_.scalar, c_.values[at + axis_] + by);
     return other;
   }
   /// The move, with its sign, after which the exact decision is another.

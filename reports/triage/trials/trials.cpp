@@ -15,26 +15,20 @@ namespace {
 
 bool may_move(Role role) { return role != Role::flag && role != Role::index; }
 
-/// The parts of a case that may be scaled: sizes, and vectors as wholes.
-std::vector<std::pair<std::size_t, std::size_t>> parts_to_scale(const Query& q) {
-  std::vector<std::pair<std::size_t, std::size_t>> parts;
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
-    const Field& f = q.inputs[i];
-    if (f.role == Role::size) parts.emplace_back(i, i + 1);
-    if (f.name.ends_with(".x") && f.role != Role::size && f.role != Role::rotation) parts.emplace_back(i, i + 3);
-  }
-  return parts;
-}
-
 /// Cases in which each part, at random, is as it is or multiplied by a power of two.
 std::vector<Case> with_parts_scaled(const Case& c, std::size_t count, std::uint64_t seed) {
   constexpr int orders = 4;
   Random random(seed);
   std::vector<Case> cases(count, c);
   for (Case& other : cases) {
-    for (const auto& [begin, end] : parts_to_scale(*c.query)) {
-      const double factor = random.one_in(2) ? random.power_of_two(-orders, orders) : 1.0;
-      for (std::size_t i = begin; i < end; ++i) other.values[i] = rounded_to(c.scalar, c.values[i] * factor);
+    for (const InputMember& m : c.operands().members) {  // each size by itself, and vectors as wholes
+      if (m.role != Role::size && (!m.is_vector() || m.role == Role::rotation)) continue;
+      double factor = 1;
+      for (std::size_t i = m.begin; i < m.begin + m.count; ++i) {
+        const bool is_of_its_own = i == m.begin || m.role == Role::size;
+        if (is_of_its_own) factor = random.one_in(2) ? random.power_of_two(-orders, orders) : 1.0;
+        other.values[i] = rounded_to(c.scalar, c.values[i] * factor);
+      }
     }
   }
   return cases;
@@ -142,7 +136,7 @@ std::vector<Case> ulp_neighbours(const Case& c, std::size_t count, int ulps, std
   std::vector<Case> cases(count, c);
   for (Case& other : cases) {
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (may_move(c.query->inputs[i].role) && c.values[i] != 0)
+      if (may_move(c.role(i)) && c.values[i] != 0)
         other.values[i] = moved_by_ulps(c.values[i], random.between(-ulps, ulps), c.scalar);
     }
   }
@@ -154,7 +148,7 @@ std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int orde
   std::vector<Case> cases(count, c);
   for (Case& other : cases) {
     for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (may_move(c.query->inputs[i].role) && random.one_in(2))
+      if (may_move(c.role(i)) && random.one_in(2))
         other.values[i] = rounded_to(c.scalar, c.values[i] * (1 + std::ldexp(random.uniform(-1, 1), -order)));
     }
   }
@@ -162,7 +156,7 @@ std::vector<Case> relative_neighbours(const Case& c, std::size_t count, int orde
 }
 
 std::vector<Case> with_moved_zeros(const Case& c, std::size_t count, int order, std::uint64_t seed) {
-  const auto role = [&](std::size_t i) { return c.query->inputs[i].role; };
+  const auto role = [&](std::size_t i) { return c.role(i); };
   std::vector<std::size_t> zeros;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (may_move(role(i)) && c.values[i] == 0) zeros.push_back(i);

@@ -229,7 +229,7 @@ struct Measure {
   T value{};
 
   [[nodiscard]] static constexpr bool yes() { return true; }
-  static constexpr auto members() { return std::tuple(member("value", &Measure::value, Role::depth)); }
+  static constexpr auto members() { return std::tuple(member("value", &Measure::value, Role::distance)); }
 };
 
 /// The values that the queries about pairs of boxes share, computed once for a pair.
@@ -243,12 +243,12 @@ struct BoxBoxInfo {
 
   [[nodiscard]] static constexpr bool yes() { return true; }
   static constexpr auto members() {
-    return std::tuple(
-        member("half1", &BoxBoxInfo::half1, Role::position), member("half2", &BoxBoxInfo::half2, Role::position),
-        member("between", &BoxBoxInfo::between, Role::position), member("cosine", &BoxBoxInfo::cosine, Role::weight),
-        member("abs_cosine", &BoxBoxInfo::abs_cosine, Role::weight),
-        member("between1", &BoxBoxInfo::between1, Role::position),
-        member("between2", &BoxBoxInfo::between2, Role::position));
+    return std::tuple(member("half1", &BoxBoxInfo::half1, Role::size), member("half2", &BoxBoxInfo::half2, Role::size),
+                      member("between", &BoxBoxInfo::between, Role::position),
+                      member("cosine", &BoxBoxInfo::cosine, Role::weight),
+                      member("abs_cosine", &BoxBoxInfo::abs_cosine, Role::weight),
+                      member("between1", &BoxBoxInfo::between1, Role::position),
+                      member("between2", &BoxBoxInfo::between2, Role::position));
   }
 };
 
@@ -258,7 +258,7 @@ struct Direction {
   Vec3<T> direction{};
 
   [[nodiscard]] static constexpr bool yes() { return true; }
-  static constexpr auto members() { return std::tuple(member("direction", &Direction::direction, Role::weight)); }
+  static constexpr auto members() { return std::tuple(member("direction", &Direction::direction, Role::direction)); }
 };
 
 }  // namespace collide

@@ -18,12 +18,13 @@ enum class Role {
   position,   ///< length, from the origin
   velocity,   ///< length per unit of time
   size,       ///< length, not negative
-  direction,  ///< any length, not zero
+  direction,  ///< of an input: any length, not zero; of an answer: as its comment says
   rotation,   ///< a quaternion x, y, z, w of any length, not zero
   time,       ///< displacement = velocity * time
   offset,     ///< of a plane: the length of its normal times a length, signed
   normal,     ///< part of a unit vector
   depth,      ///< length, negative when the shapes are apart
+  distance,   ///< length, negative when the shapes overlap
   weight,     ///< dimensionless, barycentric
   flag,       ///< true or false
   index,      ///< a small integer

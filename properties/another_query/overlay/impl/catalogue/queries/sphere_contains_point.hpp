@@ -17,7 +17,7 @@ struct sphere_contains_point {
                       member("point", &sphere_contains_point::point, Role::position));
   }
 
-  static constexpr Traits traits{.operands = {"the sphere", "the point"}, .grows = true};
+  static constexpr Traits traits{.grows = true};
 };
 
 }  // namespace nearmiss::inputs
