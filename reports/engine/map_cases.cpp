@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "corpus/generator/sweep.hpp"
+#include "corpus/generator/extreme_cases.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 #include "corpus/scenes/solids.hpp"
 

@@ -33,7 +33,8 @@ class MapCases {
                       std::uint64_t cases) const = 0;
 };
 
-/// Generated cases, moved over the planes of corpus/generator/sweep.hpp toward the limits of floating-point numbers.
+/// Generated cases, moved over the planes of corpus/generator/extreme_cases.hpp toward the limits of floating-point
+/// numbers.
 std::shared_ptr<const MapCases> generated_map_cases();
 
 /// Cases of a scene, which must outlive the result. The axes have the ranges of the scene's own cases: the distance

@@ -11,7 +11,7 @@
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 #include "reports/engine/retention.hpp"
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 
 namespace nearmiss {
 

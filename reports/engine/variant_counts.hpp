@@ -9,7 +9,7 @@
 
 #include "reports/engine/campaign.hpp"
 #include "reports/engine/tally.hpp"
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 
 namespace nearmiss {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/generator/sweep.hpp"
+#include "corpus/generator/extreme_cases.hpp"
 #include "corpus/scenes/scene_cases.hpp"
 #include "corpus/storage/codec.hpp"
 #include "impl/subject/subject.hpp"

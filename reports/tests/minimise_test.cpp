@@ -10,7 +10,7 @@
 #include "corpus/storage/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/engine/replay.hpp"
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 #include "reports/triage/minimisation/minimise.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 
 namespace nearmiss {
 

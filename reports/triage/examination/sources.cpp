@@ -11,8 +11,8 @@
 #include "reports/engine/progress.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/engine/run_folder.hpp"
+#include "reports/findings/finding_kind.hpp"
 #include "reports/findings/report.hpp"
-#include "reports/findings/signature.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/workers.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "impl/subject/subject.hpp"
 #include "reports/engine/variant_counts.hpp"
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 
 namespace nearmiss {
 

@@ -11,7 +11,7 @@
 #include "corpus/search/shrink.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/engine/interrupt.hpp"
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/minimisation/fewer_regions.hpp"
 

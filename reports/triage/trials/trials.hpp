@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 #include "reports/findings/workers.hpp"
 #include "reports/triage/causes/cause.hpp"
 

@@ -1,4 +1,4 @@
-#include "corpus/generator/sweep.hpp"
+#include "corpus/generator/extreme_cases.hpp"
 
 #include <algorithm>
 #include <array>

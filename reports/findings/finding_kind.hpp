@@ -1,4 +1,4 @@
-/// What findings of one fault have in common.
+/// Kinds of findings, and their variants.
 #pragma once
 
 #include <compare>

@@ -1,4 +1,4 @@
-#include "reports/findings/signature.hpp"
+#include "reports/findings/finding_kind.hpp"
 
 #include <array>
 #include <nlohmann/json.hpp>
