@@ -11,7 +11,7 @@
 #include "reports/engine/replay.hpp"
 #include "reports/triage/causes/cause_json.hpp"
 #include "reports/triage/minimisation/minimise.hpp"
-#include "reports/upstream/scene_picture.hpp"
+#include "reports/upstream/text_picture.hpp"
 
 namespace nearmiss {
 
@@ -54,7 +54,7 @@ class ShowCommand : public Command {
     say("{}{}", std::exchange(first_, false) ? "" : "\n", replay_text(r));
     for (const Report& report : r.reports) bad_ = bad_ || is_bad(report.finding);
     if (r.reports.empty()) return;
-    if (const std::string picture = scene_picture(r.reports.front()); !picture.empty()) say("\nScene\n{}", picture);
+    if (const std::string picture = text_picture(r.reports.front()); !picture.empty()) say("\nScene\n{}", picture);
     show_earlier_work(t, r.reports.front());
   }
   static void show_earlier_work(const Task& t, const Report& report) {

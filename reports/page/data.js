@@ -24,7 +24,7 @@ nearmiss.data = (() => {
   }
 
   const reports = new Map();
-  /// {"file", "report", "scene", "plots"} of a row's worst or simplest report; null where the page has none.
+  /// {"file", "report", "picture", "plots"} of a row's worst or simplest report; null where the page has none.
   function report(row, which) {
     const both = raw.reports[row];
     if (!both || typeof both[which] !== "string") return null;

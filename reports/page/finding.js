@@ -175,10 +175,10 @@ nearmiss.finding = (() => {
     return section("Reports", element("ul", {class: "files"}, d.files.map(f => element("li", {}, element("a", {href: f}, f))), more > 0 ? element("li", {}, `and ${count(more)} more`) : null));
   }
 
-  /// The scale at which the inputs would have to move, in units of the scene.
+  /// The scale at which the inputs would have to move, in units of the picture.
   function movedBy(r) {
     const b = r.report.finding.backward, moved = b && b.moved ? b.moved.position : null;
-    return typeof moved === "number" ? moved / 2 ** r.scene.unit_exponent : 0;
+    return typeof moved === "number" ? moved / 2 ** r.picture.unit_exponent : 0;
   }
   function show(newRow) {
     row = newRow;
@@ -191,13 +191,13 @@ nearmiss.finding = (() => {
   }
   function draw() {
     const r = data.report(row, which) || data.report(row, "worst") || data.report(row, "simplest");
-    nearmiss.scene.end();
+    nearmiss.picture.end();
     const picture = element("div", {class: "picture"});
     if (!r) {
       panel.replaceChildren(...head(null).filter(Boolean), cause(null) || "", element("p", {class: "note"}, "This page has no report of this signature: it holds those of the most severe ones. Render a folder with fewer to see it."));
     } else {
       panel.replaceChildren(...[...head(r), picture, element("div", {class: "pair"}, answers(r), ranges(r)), plots(r), cause(r), referees(r), replay(r), files()].filter(Boolean));
-      nearmiss.scene.show(picture, r.scene, {subject: r.report.subject.name, moved: movedBy(r), label: `Scene of ${r.report.query}: ${r.report.headline}`});
+      nearmiss.picture.show(picture, r.picture, {subject: r.report.subject.name, moved: movedBy(r), label: `Picture of ${r.report.query}: ${r.report.headline}`});
     }
     panel.scrollTop = 0;
   }

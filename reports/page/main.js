@@ -1,7 +1,7 @@
 "use strict";
 /// The head of the page, its views, and the keys.
 (() => {
-  const {data, table, finding, scene} = nearmiss, {element, count, plural} = nearmiss.numbers;
+  const {data, table, finding, picture} = nearmiss, {element, count, plural} = nearmiss.numbers;
   const {summary} = data.raw, totals = summary.totals || {}, run = summary.run || {};
 
   // --- head ---
@@ -30,7 +30,7 @@
   }
   if (notes.length) document.getElementById("verdict").after(element("p", {class: "notes"}, notes));
 
-  const switchTheme = nearmiss.theme.begin(() => scene.redraw());
+  const switchTheme = nearmiss.theme.begin(() => picture.redraw());
 
   // --- views ---
   const views = nearmiss.views(data.raw.trades, () => (table.selected() < 0 ? "" : data.value(table.selected(), "id")));
@@ -43,7 +43,7 @@
     j: () => steps().step(1), k: () => steps().step(-1), ArrowDown: () => table.step(1), ArrowUp: () => table.step(-1),
     Enter: () => finding.focus(), "/": () => { filter.focus(); filter.select(); }, "?": () => keys.showModal(),
     w: () => finding.choose("worst"), s: () => finding.choose("simplest"), c: () => finding.copyReplay(), t: switchTheme,
-    1: () => scene.level("scene"), 2: () => scene.level("disagreement"), 3: () => scene.level("ulp"), Escape: () => table.focus(),
+    1: () => picture.level("whole"), 2: () => picture.level("disagreement"), 3: () => picture.level("ulp"), Escape: () => table.focus(),
   };
   document.addEventListener("keydown", e => {
     if (keys.open || e.ctrlKey || e.metaKey || e.altKey) return;

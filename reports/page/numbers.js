@@ -24,7 +24,7 @@ nearmiss.numbers = (() => {
   }
   const raised = n => String(n).replace(/[-0-9]/g, c => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
   const count = n => (typeof n === "number" ? n.toLocaleString("en") : "–");
-  /// A share of the scene's size: "0.78 %"; below a thousandth of a percent as a power of ten.
+  /// A share of the size of a case: "0.78 %"; below a thousandth of a percent as a power of ten.
   const percent = x => (typeof x !== "number" ? "–" : x >= 1e-5 ? `${about(100 * x)} %` : about(x));
   /// A whole power of two, or a decimal.
   function epsilons(k) {

@@ -28,7 +28,7 @@ constexpr const char* three_folder = nullptr;
 
 /// Later files use earlier ones.
 constexpr const char* page_scripts[] = {"numbers.js",      "theme.js",      "data.js",         "shapes.js",
-                                        "scene.js",        "plot.js",       "trend.js",        "table.js",
+                                        "picture.js",      "plot.js",       "trend.js",        "table.js",
                                         "finding.js",      "trade_data.js", "trade_panels.js", "trade_profile.js",
                                         "trade_stages.js", "trade_view.js", "views.js",        "main.js"};
 

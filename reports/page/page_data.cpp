@@ -19,7 +19,7 @@
 #include "reports/findings/hash.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/page/error_plot.hpp"
-#include "reports/page/scene.hpp"
+#include "reports/page/picture.hpp"
 #include "reports/page/trade_page.hpp"
 
 namespace nearmiss {
@@ -378,7 +378,7 @@ std::string PageData::report_text(const std::string& path, Workers& workers, con
     const nlohmann::json report = parse_json(text, file.string());
     const FileValue whole(report, file.string());
     const Case question = case_of(report, file.string());
-    Json j{{"file", path}, {"report", Json::parse(text)}, {"scene", scene_of(question, whole)}, {"plots", nullptr}};
+    Json j{{"file", path}, {"report", Json::parse(text)}, {"picture", picture_of(question, whole)}, {"plots", nullptr}};
     const Subject* subject = find_subject(whole.at("subject").at("name").text());
     const bool can_ask = subject != nullptr && subject->scalar == question.scalar &&
                          !(subject->offering(question.query->name).answer == nullptr);

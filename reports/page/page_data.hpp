@@ -26,10 +26,10 @@ class PageData {
   /// Reports at which the judge contradicted itself; they are named under "skipped".
   std::size_t internal_errors() const { return internal_errors_; }
 
-  /// Reads the worst and the simplest report of each signature, the most severe first, and adds their scenes, until the
-  /// data of the page has `byte_limit`. The plots of errors ask the reports' subjects, as long as `has_time` says; a
-  /// subject that this build does not have is not asked. `tick` is called with the number of signatures that are done;
-  /// false ends the reading. A report that cannot be read is named under "skipped".
+  /// Reads the worst and the simplest report of each signature, the most severe first, and adds their pictures, until
+  /// the data of the page has `byte_limit`. The plots of errors ask the reports' subjects, as long as `has_time` says;
+  /// a subject that this build does not have is not asked. `tick` is called with the number of signatures that are
+  /// done; false ends the reading. A report that cannot be read is named under "skipped".
   void add_reports(std::size_t byte_limit, Workers& workers, const std::function<bool()>& has_time,
                    const std::function<bool(std::size_t)>& tick);
 
@@ -43,7 +43,7 @@ class PageData {
   void read_run(const std::filesystem::path& run);
   void read_trend();
   void sort_signatures();
-  /// The report with its scene and its plots as text; "null" where it cannot be read.
+  /// The report with its picture and its plots as text; "null" where it cannot be read.
   std::string report_text(const std::string& path, Workers& workers, const std::function<bool()>& has_time);
   std::filesystem::path file_of(const std::string& path) const;
   /// A link of the page to a file.

@@ -1,8 +1,8 @@
 "use strict";
-/// Turns the shapes of a scene into lines and triangles for one zoom. Coordinates of a scene are relative to the contact
-/// (reports/page/scene.hpp). `by` moves a shape, `zoom` is view units for each unit of the scene; what lies further
+/// Turns the shapes of a picture into lines and triangles for one zoom. Coordinates of a picture are relative to the contact
+/// (reports/page/picture.hpp). `by` moves a shape, `zoom` is view units for each unit of the picture; what lies further
 /// than `far` view units from the contact is cut off, so every coordinate of the result is small and a picture is as
-/// steady at the scale of an ulp as at that of the scene.
+/// steady at the scale of an ulp as at that of the whole.
 nearmiss.shapes = (() => {
   const far = 14;          // view units
   const roundAbove = 150;  // view units: a larger radius is drawn as a patch about the contact

@@ -17,7 +17,7 @@
 #include "reports/tests/program.hpp"
 #include "reports/upstream/emit_test.hpp"
 #include "reports/upstream/right_answers.hpp"
-#include "reports/upstream/scene_picture.hpp"
+#include "reports/upstream/text_picture.hpp"
 
 namespace nearmiss {
 namespace {
@@ -250,13 +250,13 @@ TEST(UpstreamReport, HasEverythingAndNoFolderOfThisMachine) {
 }
 
 /// A sphere of radius 1 that moves along x from 4 to a sphere of radius 2.
-TEST(ScenePicture, DrawsShapesWhereTheyAre) {
+TEST(CasePicture, DrawsShapesWhereTheyAre) {
   const Case question{
       find_query("moving_sphere_sphere"), Scalar::float64, {4, 0, 0, 1, -1, 0, 0, 0, 0, 0, 2}, "", 0, 0, {}};
   Report r;
   r.question = question;
   r.truth = truth_of(question);
-  const std::string picture = scene_picture(r);
+  const std::string picture = text_picture(r);
   const std::string middle = [&] {
     std::size_t at = 0;
     for (std::size_t end = picture.find('\n'); end != std::string::npos; at = end + 1, end = picture.find('\n', at)) {

@@ -23,7 +23,7 @@
 #include "reports/engine/sweep.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/page/page_data.hpp"
-#include "reports/page/scene.hpp"
+#include "reports/page/picture.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/triage/causes/cause_json.hpp"
 #include "reports/triage/comparison/run_diff.hpp"
@@ -225,7 +225,7 @@ TEST_F(JsonFiles, ReportOfATriage) {
     (void)measure_of(j, file.string());
     (void)read_relation_case(j, file.string());
     (void)kind_in_report(report);
-    (void)scene_of(question, report);
+    (void)picture_of(question, report);
     (void)cause_from_json(report.at("cause"));
     Report about;
     about.question = question;

@@ -105,19 +105,19 @@ class Page(unittest.TestCase):
     def selected(self):
         return self.browser.run("return nearmiss.table.selected()")
 
-    def test_draws_the_scene_of_every_query_at_every_zoom(self):
+    def test_draws_the_picture_of_every_query_at_every_zoom(self):
         self.assertGreaterEqual(len({r["query"] for r in self.reports}), 40)
         for i in range(len(self.reports)):
             query = self.browser.run("nearmiss.table.select(arguments[0]); return nearmiss.data.value(nearmiss.table.selected(), 'query')", i)
-            for level in ("scene", "ulp"):
-                self.browser.run("nearmiss.scene.level(arguments[0])", level)
+            for level in ("whole", "ulp"):
+                self.browser.run("nearmiss.picture.level(arguments[0])", level)
                 drawn, colours = self.browser.run(COUNT_PIXELS)
                 self.assertGreater(drawn, 100, f"{query}, {level}")
                 self.assertTrue(colours > 1 or level == "ulp", f"{query}, {level}")
 
     def test_draws_nothing_without_shapes(self):
         """The count of pixels tells a picture from none."""
-        self.browser.run("const p = nearmiss.scene.current(); p.scene.shapes = []; p.scene.contacts = []; p.set(p.fit)")
+        self.browser.run("const p = nearmiss.picture.current(); p.data.shapes = []; p.data.contacts = []; p.set(p.fit)")
         self.assertEqual(self.browser.run(COUNT_PIXELS)[0], 0)
 
     def test_moves_along_the_way(self):
@@ -307,7 +307,7 @@ def write_images(folder):
         select("bullet", "box_box_penetration", "wrong normal")
         keep("page")
         select("fcl", "moving_sphere_box", "false miss")
-        browser.run("nearmiss.scene.level('ulp')")
+        browser.run("nearmiss.picture.level('ulp')")
         browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
         keep("page-ulp")
         browser.cdp("Emulation.setEmulatedMedia", features=[])

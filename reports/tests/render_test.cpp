@@ -1,4 +1,4 @@
-/// The page's data: scenes are complete and exact, plots show where a subject is wrong, and bad folders are refused.
+/// The page's data: pictures are complete and exact, plots show where a subject is wrong, and bad folders are refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/page/error_plot.hpp"
-#include "reports/page/scene.hpp"
+#include "reports/page/picture.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -28,7 +28,7 @@ const Subject& exact_subject() {
   return *std::find_if(own.begin(), own.end(), [](const Subject& s) { return s.name == "collide-certified-double"; });
 }
 
-/// What a scene takes from a report: the exact answer as the claimed one, or a changed one, and the truth.
+/// What a picture takes from a report: the exact answer as the claimed one, or a changed one, and the truth.
 json report_on(const Case& question, const std::function<void(Answer&)>& change = {}) {
   Answer answer = exact_subject().offering(question.query->name).answer(question.values);
   if (change) change(answer);
@@ -36,7 +36,7 @@ json report_on(const Case& question, const std::function<void(Answer&)>& change 
           {"truth", truth_to_json(*question.query, question.scalar, truth_of(question))}};
 }
 
-json scene_in(const Case& question, const json& report) { return scene_of(question, FileValue(report, "report")); }
+json picture_in(const Case& question, const json& report) { return picture_of(question, FileValue(report, "report")); }
 
 Case question_of(const char* query, std::vector<double> values) {
   return {find_query(query), Scalar::float64, std::move(values), "test", 0, 0, {}};
@@ -48,66 +48,66 @@ std::size_t index_of(const Query& query, const std::string& output) {
   return std::size_t(at - query.outputs.begin());
 }
 
-const json& shape_named(const json& scene, const std::string& name) {
-  const json& shapes = scene.at("shapes");
+const json& shape_named(const json& picture, const std::string& name) {
+  const json& shapes = picture.at("shapes");
   return *std::find_if(shapes.begin(), shapes.end(), [&](const json& s) { return s.at("name") == name; });
 }
 
 /// Of every query, including one that was added to the catalogue: whatever is not a number by itself is drawn.
-TEST(Scene, HasTheShapesOfEveryQuery) {
+TEST(Picture, HasTheShapesOfEveryQuery) {
   for (const Query& q : catalogue()) {
     std::set<std::string> drawn, expected;
     for (const fs::directory_entry& file :
          fs::directory_iterator(source_folder() + "/corpus/seeds/" + std::string(q.name))) {
       const Case question = *in_scalar(read_case(file.path()), Scalar::float64);
-      const json scene = scene_in(question, report_on(question));
-      EXPECT_EQ(complaints(scene, "scene.schema.json"), "") << file.path();
-      for (const json& s : scene.at("shapes")) drawn.insert(s.at("name").get<std::string>());
-      if (!scene.at("motion").is_null()) drawn.insert("velocity");
+      const json picture = picture_in(question, report_on(question));
+      EXPECT_EQ(complaints(picture, "picture.schema.json"), "") << file.path();
+      for (const json& s : picture.at("shapes")) drawn.insert(s.at("name").get<std::string>());
+      if (!picture.at("motion").is_null()) drawn.insert("velocity");
       for (const Field& f : q.inputs) {
         const std::string name = f.name.substr(0, f.name.find('.'));
-        if (name != f.name && (name != "velocity" || !scene.at("motion").is_null())) expected.insert(name);
+        if (name != f.name && (name != "velocity" || !picture.at("motion").is_null())) expected.insert(name);
       }
     }
     EXPECT_EQ(drawn, expected) << q.name;
   }
 }
 
-TEST(Scene, KnowsWhatMoves) {
+TEST(Picture, KnowsWhatMoves) {
   const Case c = question_of("moving_sphere_sphere", {-4, 0, 0, 1, 2, 0, 0, 3, 0, 0, 2});
-  const json scene = scene_in(c, report_on(c));
-  EXPECT_EQ(shape_named(scene, "sphere").at("moves"), true);
-  EXPECT_EQ(shape_named(scene, "fixed").at("moves"), false);
-  const double unit = std::ldexp(1.0, scene.at("unit_exponent").get<int>());
-  EXPECT_EQ(scene.at("motion").at("time"), 2);  // the gap of 4 at the speed 2
-  EXPECT_EQ(scene.at("motion").at("start").get<double>() * unit, -4);
-  EXPECT_EQ(scene.at("anchor"), json({1, 0, 0}));
-  EXPECT_DOUBLE_EQ(shape_named(scene, "sphere").at("corners")[0][0].get<double>() * unit,
+  const json picture = picture_in(c, report_on(c));
+  EXPECT_EQ(shape_named(picture, "sphere").at("moves"), true);
+  EXPECT_EQ(shape_named(picture, "fixed").at("moves"), false);
+  const double unit = std::ldexp(1.0, picture.at("unit_exponent").get<int>());
+  EXPECT_EQ(picture.at("motion").at("time"), 2);  // the gap of 4 at the speed 2
+  EXPECT_EQ(picture.at("motion").at("start").get<double>() * unit, -4);
+  EXPECT_EQ(picture.at("anchor"), json({1, 0, 0}));
+  EXPECT_DOUBLE_EQ(shape_named(picture, "sphere").at("corners")[0][0].get<double>() * unit,
                    -1);  // at the time of contact
 }
 
 /// A claimed place one ulp beside the true one is exactly one ulp away, however far from the origin.
-TEST(Scene, TellsAnUlp) {
+TEST(Picture, TellsAnUlp) {
   const double x = 1e6, next = std::nextafter(x, 2e6);
   const Case c = question_of("ray_aabox", {2e6, 0.5, 0.5, -1, 0, 0, 0, 0, 0, x, 1, 1});
   const std::size_t place = index_of(*c.query, "location.x");
-  const json scene = scene_in(c, report_on(c, [&](Answer& a) { a.values[place] = next; }));
-  const double unit = std::ldexp(1.0, scene.at("unit_exponent").get<int>());
-  EXPECT_EQ(scene.at("anchor")[0], x);
-  EXPECT_EQ(scene.at("ulp").get<double>() * unit, next - x);
-  for (const json& contact : scene.at("contacts")) {
+  const json picture = picture_in(c, report_on(c, [&](Answer& a) { a.values[place] = next; }));
+  const double unit = std::ldexp(1.0, picture.at("unit_exponent").get<int>());
+  EXPECT_EQ(picture.at("anchor")[0], x);
+  EXPECT_EQ(picture.at("ulp").get<double>() * unit, next - x);
+  for (const json& contact : picture.at("contacts")) {
     EXPECT_EQ(contact.at("at")[0].get<double>() * unit, contact.at("of") == "true" ? 0 : next - x);
   }
 }
 
 /// The middle of a square is as near to each of its sides: the true point is that of the side which the subject chose.
-TEST(Scene, PrefersTheRightAnswerThatIsNearest) {
+TEST(Picture, PrefersTheRightAnswerThatIsNearest) {
   const Case c = question_of("closest_point_rectangle_perimeter", {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 0, 0});
   const std::size_t x = index_of(*c.query, "point.x"), y = index_of(*c.query, "point.y");
   for (const double side : {-1.0, 1.0}) {
-    const json scene = scene_in(c, report_on(c, [&](Answer& a) { a.values[x] = 0, a.values[y] = side; }));
-    EXPECT_EQ(scene.at("anchor"), json({0, side, 0}));
-    const json& contacts = scene.at("contacts");
+    const json picture = picture_in(c, report_on(c, [&](Answer& a) { a.values[x] = 0, a.values[y] = side; }));
+    EXPECT_EQ(picture.at("anchor"), json({0, side, 0}));
+    const json& contacts = picture.at("contacts");
     EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(), [](const json& k) { return k.at("of") == "true"; }), 1);
     EXPECT_EQ(std::count_if(contacts.begin(), contacts.end(), [](const json& k) { return k.at("of") == "also true"; }),
               3);
@@ -115,33 +115,34 @@ TEST(Scene, PrefersTheRightAnswerThatIsNearest) {
 }
 
 /// The distance of a large ball is right where the square root of doubles has an error of 1e-8.
-TEST(Scene, HasNoCancellation) {
+TEST(Picture, HasNoCancellation) {
   const double r = 1e8 + 1;
   const Case c = question_of("sphere_sphere_overlap", {0, 0, 0, 0, r, 1, 0, r});
-  const json scene = scene_in(c, report_on(c));
-  const double unit = std::ldexp(1.0, scene.at("unit_exponent").get<int>()),
+  const json picture = picture_in(c, report_on(c));
+  const double unit = std::ldexp(1.0, picture.at("unit_exponent").get<int>()),
                gap = 1 / (2 * r);  // of (r, 1, 0) to the origin, but for 1/(8 r^3)
-  EXPECT_NEAR(std::hypot(scene.at("anchor")[0].get<double>(), scene.at("anchor")[1].get<double>()), gap, 1e-6 * gap);
-  EXPECT_LT(std::abs(shape_named(scene, "sphere2").at("distances")[0].get<double>()) * unit, 1e-22);
-  EXPECT_NEAR(shape_named(scene, "sphere1").at("distances")[0].get<double>() * unit, gap, 1e-6 * gap);
+  EXPECT_NEAR(std::hypot(picture.at("anchor")[0].get<double>(), picture.at("anchor")[1].get<double>()), gap,
+              1e-6 * gap);
+  EXPECT_LT(std::abs(shape_named(picture, "sphere2").at("distances")[0].get<double>()) * unit, 1e-22);
+  EXPECT_NEAR(shape_named(picture, "sphere1").at("distances")[0].get<double>() * unit, gap, 1e-6 * gap);
 }
 
 /// Of the corners of a box those behind the plane, as the answer lists them.
-TEST(Scene, HasEveryContact) {
+TEST(Picture, HasEveryContact) {
   const Case c = question_of("box_plane_penetration", {0, 0, 0, 1, 2, 3, 0, 0, 0, 1, 0, 0, 1, 0});
-  const json scene = scene_in(c, report_on(c));
+  const json picture = picture_in(c, report_on(c));
   std::map<std::string, std::set<json>> places;
-  for (const json& contact : scene.at("contacts")) places[contact.at("of")].insert(contact.at("at"));
+  for (const json& contact : picture.at("contacts")) places[contact.at("of")].insert(contact.at("at"));
   EXPECT_EQ(places["true"].size(), 4u);
   EXPECT_EQ(places["claimed"], places["true"]);
 }
 
 /// Numbers of which products and differences leave the range of double.
-TEST(Scene, HoldsTheLargestNumbers) {
+TEST(Picture, HoldsTheLargestNumbers) {
   const double most = largest_finite(Scalar::float64);
   const Case c = question_of("sphere_sphere_overlap", {-most, 0, 0, 1, most, 0, 0, 1});
-  const json scene = scene_in(c, report_on(c));
-  EXPECT_EQ(complaints(scene, "scene.schema.json"), "");
+  const json picture = picture_in(c, report_on(c));
+  EXPECT_EQ(complaints(picture, "picture.schema.json"), "");
 }
 
 Answer blind_above_three(std::span<const double> values) {
@@ -223,7 +224,7 @@ TEST_F(Render, ShowsARun) {
     EXPECT_TRUE(fs::exists(folder_ / file.get<std::string>())) << file;
   const json worst = json::parse(data.at("reports")[0].at("worst").get<std::string>());
   EXPECT_EQ(complaints(worst.at("report"), "report.schema.json"), "");
-  EXPECT_EQ(complaints(worst.at("scene"), "scene.schema.json"), "");
+  EXPECT_EQ(complaints(worst.at("picture"), "picture.schema.json"), "");
   EXPECT_EQ(worst.at("plots").size(), 9u);
 }
 

@@ -256,20 +256,20 @@ Asking sphere_triangle(const NamedShape& a, const NamedShape& b) {
 }
 
 Asking asking_of(const Case& question) {
-  const Scene scene(question);
+  const CaseShapes shapes(question);
   const Scalar scalar = question.scalar;
-  if (scene.has("point.x")) {
-    const NamedShape b = target_of(scene);
-    if (scene.has("triangle.v0.x")) return triangle_ray(moving_of(scene), b, scalar);
-    if (scene.has("aabox.min.x")) return aabox_ray(moving_of(scene), b, scalar);
-    return point_cast(moving_of(scene), b, scalar);
+  if (shapes.has("point.x")) {
+    const NamedShape b = target_of(shapes);
+    if (shapes.has("triangle.v0.x")) return triangle_ray(moving_of(shapes), b, scalar);
+    if (shapes.has("aabox.min.x")) return aabox_ray(moving_of(shapes), b, scalar);
+    return point_cast(moving_of(shapes), b, scalar);
   }
-  const auto [a, b] = two_operands(scene);
-  if (scene.has("velocity.x")) return sweep(moving_of(scene), a, b, scalar);
-  if (scene.has("triangle.v0.x")) return sphere_triangle(a, b);
+  const auto [a, b] = two_operands(shapes);
+  if (shapes.has("velocity.x")) return sweep(moving_of(shapes), a, b, scalar);
+  if (shapes.has("triangle.v0.x")) return sphere_triangle(a, b);
   if (question.query->kind != Kind::depth) return overlap(a, b);
-  const bool plane = scene.has("plane.normal.x");
-  return depth(a, b, plane, scene.has("sphere1.radius") || (plane && scene.has("sphere.radius")));
+  const bool plane = shapes.has("plane.normal.x");
+  return depth(a, b, plane, shapes.has("sphere1.radius") || (plane && shapes.has("sphere.radius")));
 }
 
 }  // namespace

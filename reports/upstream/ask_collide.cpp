@@ -80,10 +80,10 @@ struct Arguments {
 
 Arguments arguments_of(const Case& question, const std::string& tier) {
   const Query& query = *question.query;
-  const Scene scene(question);
+  const CaseShapes given(question);
   const Numbers of{question.scalar};
   Arguments a;
-  const std::vector<NamedShape> shapes = scene.operands();
+  const std::vector<NamedShape> shapes = given.operands();
   for (const InputMember& m : question.operands().members) {
     const Operand* operand = m.operand ? &question.operands()[*m.operand] : nullptr;
     if (m.name == "forever" || (operand != nullptr && m.begin != operand->begin)) continue;
@@ -93,15 +93,15 @@ Arguments arguments_of(const Case& question, const std::string& tier) {
       a.add(fmt::format("auto {} = collide::{}", name, std::visit(CollideShape{of}, shape->shape)),
             prepared(query.name, name, tier));
     } else if (m.is_vector()) {
-      a.add(fmt::format("collide::Vec3<{}> {}{}", of.type(), name, of(scene.vector(name))), name);
+      a.add(fmt::format("collide::Vec3<{}> {}{}", of.type(), name, of(given.vector(name))), name);
     } else if (m.role == Role::flag) {
-      a.add(fmt::format("bool {} = {}", name, scene.flag(name)), name);
+      a.add(fmt::format("bool {} = {}", name, given.flag(name)), name);
     } else if (m.role == Role::index) {
-      a.add(fmt::format("int {} = {}", name, int(scene.number(name))), name);
-    } else if (scene.has("forever") && scene.flag("forever")) {
+      a.add(fmt::format("int {} = {}", name, int(given.number(name))), name);
+    } else if (given.has("forever") && given.flag("forever")) {
       a.add(fmt::format("{} {} = INFINITY", of.type(), name), name);
     } else {
-      a.add(fmt::format("{} {} = {}", of.type(), name, of(scene.number(name))), name);
+      a.add(fmt::format("{} {} = {}", of.type(), name, of(given.number(name))), name);
     }
   }
   return a;

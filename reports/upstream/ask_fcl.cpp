@@ -164,7 +164,7 @@ std::string motion(const Moving& moving, const NamedShape& target, const std::st
 
 Asking ask_fcl(const Case& question, const Subject& subject) {
   using namespace fcl_text;
-  const Scene scene(question);
+  const CaseShapes shapes(question);
   const bool libccd = subject.name == "fcl" || subject.name == "fcl-distance";
   const std::string solver = libccd ? "fcl::GST_LIBCCD" : "fcl::GST_INDEP";
   const bool is_depth = question.query->kind == Kind::depth;
@@ -179,24 +179,24 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
       "#include <fcl/narrowphase/distance.h>\n";
   asking.helpers = at_helper;
   asking.build = "g++ -std=c++17 test.cpp $(pkg-config --cflags --libs fcl eigen3) -lgtest -lpthread";
-  if (scene.has("limit")) {
-    const NamedShape way{"way", way_of_sphere(scene)}, target = target_of(scene);
+  if (shapes.has("limit")) {
+    const NamedShape way{"way", way_of_sphere(shapes)}, target = target_of(shapes);
     asking.statements = declared(way) + declared(target) + decision("way", target.name, solver);
     return asking;
   }
-  const auto [a, b] = two_operands(scene);
+  const auto [a, b] = two_operands(shapes);
   asking.statements = declared(a) + declared(b);
-  if (scene.has("velocity.x")) {
+  if (shapes.has("velocity.x")) {
     const bool naive = subject.name != "fcl-conservative-advancement";
-    asking.statements += motion(moving_of(scene), b, solver, naive);
+    asking.statements += motion(moving_of(shapes), b, solver, naive);
     asking.members = {"time"};
   } else if (subject.name.starts_with("fcl-distance")) {
-    asking.statements += distance(a.name, b.name, solver, scene.has("box1.half.x"));
+    asking.statements += distance(a.name, b.name, solver, shapes.has("box1.half.x"));
     asking.members = {"depth"};
-  } else if (scene.has("triangle.v0.x")) {
+  } else if (shapes.has("triangle.v0.x")) {
     asking.statements += triangle(a.name, libccd);
   } else if (is_depth) {
-    asking.statements += depth(a.name, b.name, solver, scene.has("plane.normal.x") ? -1 : 1);
+    asking.statements += depth(a.name, b.name, solver, shapes.has("plane.normal.x") ? -1 : 1);
     asking.members = {"depth", "normal"};
   } else {
     asking.statements += decision(a.name, b.name, solver);

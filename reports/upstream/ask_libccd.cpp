@@ -134,10 +134,11 @@ std::string settings(const Declared& a, const Declared& b) {
 
 Asking ask_libccd(const Case& question, const Subject& subject) {
   using namespace libccd_text;
-  const Scene scene(question);
+  const CaseShapes shapes(question);
   const bool gjk = subject.name == "libccd-gjk", is_depth = question.query->kind == Kind::depth;
-  const auto [first, second] =
-      scene.has("limit") ? std::pair(NamedShape{"way", way_of_sphere(scene)}, target_of(scene)) : two_operands(scene);
+  const auto [first, second] = shapes.has("limit")
+                                   ? std::pair(NamedShape{"way", way_of_sphere(shapes)}, target_of(shapes))
+                                   : two_operands(shapes);
   const Declared a = std::visit(CcdShape{first.name}, first.shape), b = std::visit(CcdShape{second.name}, second.shape);
   Asking asking;
   asking.includes = "#include <ccd/ccd.h>\n#include <ccd/vec3.h>\n";

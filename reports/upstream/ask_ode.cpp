@@ -109,14 +109,14 @@ std::string ray(const Moving& m, const std::string& to, double horizon, bool wit
          "}\n";
 }
 
-Asking sphere_ray(const Scene& scene, const NamedShape& b) {
-  const Moving m = moving_of(scene);
+Asking sphere_ray(const CaseShapes& shapes, const NamedShape& b) {
+  const Moving m = moving_of(shapes);
   const double horizon = adapters::time_to_pass(m.from, 0, m.velocity, std::get<Sphere<double>>(b.shape));
   Asking asking;
   asking.statements =
       declared(b) + fmt::format("const bool inside = dGeomSpherePointDepth({}, {}) >= 0;\n", b.name, literals(m.from));
   const std::string cast = indented(ray(m, b.name, horizon, true));
-  if (scene.flag("solid")) {
+  if (shapes.flag("solid")) {
     asking.statements +=
         "if (inside) {  // ODE's ray would tell the exit\n  got_yes = true;\n  got_time = 0;\n} else {\n" + cast +
         "}\n";
@@ -128,8 +128,8 @@ Asking sphere_ray(const Scene& scene, const NamedShape& b) {
   return asking;
 }
 
-Asking solid_ray(const Scene& scene, const NamedShape& b, const std::string& point_depth) {
-  const Moving m = moving_of(scene);
+Asking solid_ray(const CaseShapes& shapes, const NamedShape& b, const std::string& point_depth) {
+  const Moving m = moving_of(shapes);
   const double horizon = adapters::time_to_pass(m.from, 0, m.velocity, ball_around(b.shape));
   Asking asking;
   asking.statements =
@@ -140,8 +140,8 @@ Asking solid_ray(const Scene& scene, const NamedShape& b, const std::string& poi
   return asking;
 }
 
-Asking plane_ray(const Scene& scene, const NamedShape& b) {
-  const Moving m = moving_of(scene);
+Asking plane_ray(const CaseShapes& shapes, const NamedShape& b) {
+  const Moving m = moving_of(shapes);
   const Plane<double>& plane = std::get<Plane<double>>(b.shape);
   Asking asking;
   asking.members = {"time", "location", "normal"};
@@ -158,16 +158,16 @@ Asking plane_ray(const Scene& scene, const NamedShape& b) {
 }
 
 Asking asking_of(const Case& question) {
-  const Scene scene(question);
-  if (scene.has("point.x")) {
-    const NamedShape b = target_of(scene);
-    if (scene.has("sphere.radius")) return sphere_ray(scene, b);
-    if (scene.has("plane.normal.x")) return plane_ray(scene, b);
-    return solid_ray(scene, b, scene.has("box.half.x") ? "dGeomBoxPointDepth" : "dGeomCapsulePointDepth");
+  const CaseShapes shapes(question);
+  if (shapes.has("point.x")) {
+    const NamedShape b = target_of(shapes);
+    if (shapes.has("sphere.radius")) return sphere_ray(shapes, b);
+    if (shapes.has("plane.normal.x")) return plane_ray(shapes, b);
+    return solid_ray(shapes, b, shapes.has("box.half.x") ? "dGeomBoxPointDepth" : "dGeomCapsulePointDepth");
   }
-  const auto [a, b] = two_operands(scene);
+  const auto [a, b] = two_operands(shapes);
   if (question.query->kind != Kind::depth) return overlap(a, b);
-  return depth(a, b, scene.has("plane.normal.x"));
+  return depth(a, b, shapes.has("plane.normal.x"));
 }
 
 }  // namespace

@@ -68,27 +68,27 @@ std::string identifier(std::string_view prefix, std::string_view member) {
 std::string variable_of(std::string_view member) { return identifier("got_", member); }
 std::string flag_of(std::string_view member) { return identifier("gave_", member); }
 
-collide::Capsule<double> way_of_sphere(const Scene& scene) {
+collide::Capsule<double> way_of_sphere(const CaseShapes& shapes) {
   struct {
     collide::Sphere<double> sphere;
     collide::Vec3<double> velocity;
     double limit;
     bool forever;
   } q;
-  const Moving moving = moving_of(scene);
-  q = {{moving.from, moving.radius}, moving.velocity, scene.number("limit"), scene.flag("forever")};
-  const auto way = adapters::way_of(q, ball_around(target_of(scene).shape));
+  const Moving moving = moving_of(shapes);
+  q = {{moving.from, moving.radius}, moving.velocity, shapes.number("limit"), shapes.flag("forever")};
+  const auto way = adapters::way_of(q, ball_around(target_of(shapes).shape));
   if (!way) throw BadInput(adapters::no_end);
   return *way;
 }
 
-Moving moving_of(const Scene& scene) {
-  if (scene.has("point.x")) return {scene.vector("point"), 0, scene.vector("velocity")};
-  return {scene.vector("sphere.center"), scene.number("sphere.radius"), scene.vector("velocity")};
+Moving moving_of(const CaseShapes& shapes) {
+  if (shapes.has("point.x")) return {shapes.vector("point"), 0, shapes.vector("velocity")};
+  return {shapes.vector("sphere.center"), shapes.number("sphere.radius"), shapes.vector("velocity")};
 }
 
-NamedShape target_of(const Scene& scene) {
-  const std::vector<NamedShape> all = scene.operands();
+NamedShape target_of(const CaseShapes& shapes) {
+  const std::vector<NamedShape> all = shapes.operands();
   if (all.empty()) throw std::logic_error("nothing to meet");
   return all.back();  // the moving shape, if any, stands first
 }
@@ -102,8 +102,8 @@ collide::Sphere<double> ball_around(const TypedShape& shape) {
       shape);
 }
 
-std::pair<NamedShape, NamedShape> two_operands(const Scene& scene) {
-  const std::vector<NamedShape> all = scene.operands();
+std::pair<NamedShape, NamedShape> two_operands(const CaseShapes& shapes) {
+  const std::vector<NamedShape> all = shapes.operands();
   if (all.size() != 2) throw std::logic_error("not two shapes");
   return {all[0], all[1]};
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "impl/subject/subject.hpp"
-#include "reports/upstream/scene.hpp"
+#include "reports/upstream/case_shapes.hpp"
 
 namespace nearmiss {
 
@@ -50,19 +50,19 @@ std::string variable_of(std::string_view member);
 std::string flag_of(std::string_view member);
 
 /// What the sphere of a motion with a limit sweeps. Throws BadInput where its end is not finite.
-collide::Capsule<double> way_of_sphere(const Scene& scene);
+collide::Capsule<double> way_of_sphere(const CaseShapes& shapes);
 /// The sphere, point or radius that moves, in the forms that adapters cast.
 struct Moving {
   collide::Vec3<double> from;
   double radius;
   collide::Vec3<double> velocity;
 };
-Moving moving_of(const Scene& scene);
+Moving moving_of(const CaseShapes& shapes);
 /// The shape that is met.
-NamedShape target_of(const Scene& scene);
+NamedShape target_of(const CaseShapes& shapes);
 /// A ball around the shape, as adapters choose it for the length of a cast. The shape must be bounded.
 collide::Sphere<double> ball_around(const TypedShape& shape);
 /// The operands of a query that has two shapes.
-std::pair<NamedShape, NamedShape> two_operands(const Scene& scene);
+std::pair<NamedShape, NamedShape> two_operands(const CaseShapes& shapes);
 
 }  // namespace nearmiss

@@ -15,7 +15,7 @@
 #include "reports/findings/text.hpp"
 #include "reports/findings/version.hpp"
 #include "reports/upstream/emit_test.hpp"
-#include "reports/upstream/scene_picture.hpp"
+#include "reports/upstream/text_picture.hpp"
 
 namespace nearmiss {
 
@@ -44,7 +44,7 @@ std::string environment(const Report& r, const Subject& subject) {
 
 std::string scene(const Report& r) {
   std::string text = markdown_block(pretty_json(case_to_json(r.question)["inputs"]), "json");
-  const std::string picture = scene_picture(r);
+  const std::string picture = text_picture(r);
   return picture.empty() ? text : text + "\n" + markdown_block(picture, "text");
 }
 

@@ -1,10 +1,10 @@
-#include "reports/page/scene.hpp"
+#include "reports/page/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "reports/page/scene_shapes.hpp"
+#include "reports/page/picture_shapes.hpp"
 
 namespace nearmiss {
 
@@ -13,16 +13,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A vector of an answer: three enclosures, each one number for a subject's answer.
-struct SceneValue {
+struct PictureValue {
   std::string name;
   std::array<double, 3> low{}, high{};
 
-  SceneVector middle() const {
-    const auto mid = [&](std::size_t i) { return (SceneReal(low[i]) + SceneReal(high[i])) / 2; };
+  PictureVector middle() const {
+    const auto mid = [&](std::size_t i) { return (PictureReal(low[i]) + PictureReal(high[i])) / 2; };
     return {mid(0), mid(1), mid(2)};
   }
-  SceneVector half() const {
-    const auto width = [&](std::size_t i) { return (SceneReal(high[i]) - SceneReal(low[i])) / 2; };
+  PictureVector half() const {
+    const auto width = [&](std::size_t i) { return (PictureReal(high[i]) - PictureReal(low[i])) / 2; };
     return {width(0), width(1), width(2)};
   }
   bool is_finite() const {
@@ -32,8 +32,8 @@ struct SceneValue {
 };
 
 /// What an answer or an alternative says about the contact.
-struct SceneContact {
-  std::vector<SceneValue> places, directions;
+struct PictureContact {
+  std::vector<PictureValue> places, directions;
   std::optional<std::array<double, 2>> time;
 };
 
@@ -51,10 +51,10 @@ std::optional<std::array<double, 2>> bounds_in(const nlohmann::json& j) {
 }
 
 /// A vector as [x, y, z] or, for the enclosure of an item of a list, as {"x", "y", "z"}.
-std::optional<SceneValue> vector_in(const nlohmann::json& values, const std::string& name) {
+std::optional<PictureValue> vector_in(const nlohmann::json& values, const std::string& name) {
   const nlohmann::json* j = value_at(values, name);
   if (j == nullptr || j->size() != 3) return std::nullopt;
-  SceneValue v{name};
+  PictureValue v{name};
   for (std::size_t i = 0; i < 3; ++i) {
     const char component[] = {"xyz"[i], '\0'};
     const nlohmann::json* number = j->is_array() ? &j->at(i) : value_at(*j, component);
@@ -81,9 +81,9 @@ bool has_meaning(const Query& query, std::size_t part, const nlohmann::json& val
   return true;
 }
 
-SceneContact contact_in(const Query& query, const nlohmann::json& values) {
-  SceneContact c;
-  if (query.traits.frame == OutputFrame::operands) return c;  // not in the space of the scene
+PictureContact contact_in(const Query& query, const nlohmann::json& values) {
+  PictureContact c;
+  if (query.traits.frame == OutputFrame::operands) return c;  // not in the space of the inputs
   for (std::size_t p = 0; p < query.layout.parts.size(); ++p) {
     const Layout::Part& part = query.layout.parts[p];
     const std::string name = query.member_name(p);
@@ -98,22 +98,22 @@ SceneContact contact_in(const Query& query, const nlohmann::json& values) {
   return c;
 }
 
-SceneReal distance_of(const SceneContact& a, const SceneContact& b) {
-  SceneReal most = 0;
+PictureReal distance_of(const PictureContact& a, const PictureContact& b) {
+  PictureReal most = 0;
   for (std::size_t i = 0; i < std::min(a.places.size(), b.places.size()); ++i)
-    most = std::max<SceneReal>(most, length(a.places[i].middle() - b.places[i].middle()));
+    most = std::max<PictureReal>(most, length(a.places[i].middle() - b.places[i].middle()));
   return most;
 }
 
 /// Assembles the picture of one report.
-class ScenePicture {
+class CasePicture {
  public:
-  ScenePicture(const Case& question, const FileValue& report) : question_(question), inputs_(scene_inputs(question)) {
+  CasePicture(const Case& question, const FileValue& report) : question_(question), inputs_(picture_inputs(question)) {
     const FileValue answer = report.at("answer");
     if (answer.at("status").text() == "answered") claimed_ = contact_in(*question.query, answer.at("values").json());
     for (const FileValue& a : report.at("truth").at("alternatives").items())
       true_.push_back(contact_in(*question.query, a.at("values").json()));
-    std::stable_sort(true_.begin(), true_.end(), [&](const SceneContact& a, const SceneContact& b) {
+    std::stable_sort(true_.begin(), true_.end(), [&](const PictureContact& a, const PictureContact& b) {
       return distance_of(a, claimed_) < distance_of(b, claimed_);
     });
     choose_time();
@@ -125,10 +125,10 @@ class ScenePicture {
     Json j{{"scalar", name_of(question_.scalar)}, {"anchor", Json::array({anchor_[0], anchor_[1], anchor_[2]})},
            {"unit_exponent", unit_exponent_},     {"ulp", rounded(ulp_at_anchor() / unit_)},
            {"reach", rounded(reach_ / unit_)},    {"shapes", Json::array()}};
-    for (const SceneShape& s : inputs_.shapes) j["shapes"].push_back(shape_to_json(s, unit_));
+    for (const PictureShape& s : inputs_.shapes) j["shapes"].push_back(shape_to_json(s, unit_));
     j["motion"] = motion();
     j["contacts"] = Json::array();
-    for (const SceneContact& c : true_) add_contact(j["contacts"], c, &c == true_.data() ? "true" : "also true");
+    for (const PictureContact& c : true_) add_contact(j["contacts"], c, &c == true_.data() ? "true" : "also true");
     add_contact(j["contacts"], claimed_, "claimed");
     return j;
   }
@@ -139,7 +139,7 @@ class ScenePicture {
   void choose_time() {
     if (!inputs_.velocity || dot(*inputs_.velocity, *inputs_.velocity) == 0) return;
     if (!true_.empty() && true_[0].time) {
-      time_ = (SceneReal((*true_[0].time)[0]) + SceneReal((*true_[0].time)[1])) / 2;
+      time_ = (PictureReal((*true_[0].time)[0]) + PictureReal((*true_[0].time)[1])) / 2;
     } else if (claimed_.time) {
       time_ = (*claimed_.time)[0];
     } else if (inputs_.time && !decides(question_.query->kind)) {
@@ -147,40 +147,40 @@ class ScenePicture {
     } else {
       time_ = time_of_approach();
     }
-    for (SceneShape& s : inputs_.shapes) {
+    for (PictureShape& s : inputs_.shapes) {
       if (s.moves) move_by(s, *inputs_.velocity * time_);
     }
   }
-  const SceneShape* moving() const {
+  const PictureShape* moving() const {
     const auto found =
-        std::find_if(inputs_.shapes.begin(), inputs_.shapes.end(), [](const SceneShape& s) { return s.moves; });
+        std::find_if(inputs_.shapes.begin(), inputs_.shapes.end(), [](const PictureShape& s) { return s.moves; });
     return found == inputs_.shapes.end() ? nullptr : &*found;
   }
-  const SceneShape* other_than(const SceneShape* shape) const {
+  const PictureShape* other_than(const PictureShape* shape) const {
     const auto found = std::find_if(inputs_.shapes.rbegin(), inputs_.shapes.rend(),
-                                    [&](const SceneShape& s) { return &s != shape && s.is_body(); });
+                                    [&](const PictureShape& s) { return &s != shape && s.is_body(); });
     return found == inputs_.shapes.rend() ? nullptr : &*found;
   }
   /// When the path of the moving shape's first corner is nearest to the other shape.
-  SceneReal time_of_approach() const {
-    const SceneShape *mover = moving(), *other = other_than(mover);
+  PictureReal time_of_approach() const {
+    const PictureShape *mover = moving(), *other = other_than(mover);
     if (mover == nullptr || other == nullptr || mover->corners.empty()) return 0;
-    const SceneShape path{"", Shape::ray, {mover->corners[0]}, *inputs_.velocity};
-    const SceneVector met = meeting(path, *other).second;
-    const SceneReal t = dot(nearest_point(path, met) - mover->corners[0], path.axis) / dot(path.axis, path.axis);
-    return inputs_.time && t > *inputs_.time ? SceneReal(*inputs_.time) : t;
+    const PictureShape path{"", Shape::ray, {mover->corners[0]}, *inputs_.velocity};
+    const PictureVector met = meeting(path, *other).second;
+    const PictureReal t = dot(nearest_point(path, met) - mover->corners[0], path.axis) / dot(path.axis, path.axis);
+    return inputs_.time && t > *inputs_.time ? PictureReal(*inputs_.time) : t;
   }
   /// Points of two convex shapes that are near each other, by alternating projections.
-  static std::pair<SceneVector, SceneVector> meeting(const SceneShape& a, const SceneShape& b) {
+  static std::pair<PictureVector, PictureVector> meeting(const PictureShape& a, const PictureShape& b) {
     constexpr int rounds = 64;  // a picture's center need not be the nearest point
-    SceneVector p = nearest_point(a, a.corners.empty() ? SceneVector{} : a.corners[0]), q = nearest_point(b, p);
+    PictureVector p = nearest_point(a, a.corners.empty() ? PictureVector{} : a.corners[0]), q = nearest_point(b, p);
     for (int i = 0; i < rounds; ++i) p = nearest_point(a, q), q = nearest_point(b, p);
     return {p, q};
   }
 
   /// The point that the coordinates are relative to, rounded to a number of the scalar.
   void choose_anchor() {
-    SceneVector at;
+    PictureVector at;
     if (!true_.empty() && !true_[0].places.empty()) {
       at = true_[0].places[0].middle();
     } else if (!claimed_.places.empty()) {
@@ -189,28 +189,28 @@ class ScenePicture {
       at = where_shapes_meet();
     }
     anchor_ = {in_scalar_of(at.x), in_scalar_of(at.y), in_scalar_of(at.z)};
-    for (SceneShape& s : inputs_.shapes) move_by(s, anchor() * SceneReal(-1));
+    for (PictureShape& s : inputs_.shapes) move_by(s, anchor() * PictureReal(-1));
   }
-  SceneVector where_shapes_meet() const {
-    const SceneShape *first = moving() != nullptr ? moving() : first_body(), *other = other_than(first);
+  PictureVector where_shapes_meet() const {
+    const PictureShape *first = moving() != nullptr ? moving() : first_body(), *other = other_than(first);
     if (first == nullptr) return {};
     if (other == nullptr) return nearest_point(*first, {});
-    SceneShape core = *first;  // of a ball its center: the nearest point to it is where the balls meets
+    PictureShape core = *first;  // of a ball its center: the nearest point to it is where the balls meets
     if (core.shape == Shape::sphere) core.radius = 0;
     return meeting(core, *other).second;
   }
-  const SceneShape* first_body() const {
+  const PictureShape* first_body() const {
     const auto found =
-        std::find_if(inputs_.shapes.begin(), inputs_.shapes.end(), [](const SceneShape& s) { return s.is_body(); });
+        std::find_if(inputs_.shapes.begin(), inputs_.shapes.end(), [](const PictureShape& s) { return s.is_body(); });
     return found == inputs_.shapes.end() ? nullptr : &*found;
   }
-  double in_scalar_of(const SceneReal& x) const {
+  double in_scalar_of(const PictureReal& x) const {
     const double most = largest_finite(question_.scalar), d = std::clamp(x.convert_to<double>(), -most, most);
     return question_.scalar == Scalar::float32 ? double(float(d)) : d;
   }
-  SceneVector anchor() const { return {anchor_[0], anchor_[1], anchor_[2]}; }
+  PictureVector anchor() const { return {anchor_[0], anchor_[1], anchor_[2]}; }
   /// Of the anchor's largest coordinate; of the largest input where the anchor is the origin.
-  SceneReal ulp_at_anchor() const {
+  PictureReal ulp_at_anchor() const {
     double most = 0;
     for (const double x : anchor_) most = std::max(most, std::abs(x));
     for (std::size_t i = 0; most == 0 && i < question_.values.size(); ++i) {
@@ -219,25 +219,25 @@ class ScenePicture {
     return ulp(most == 0 ? 1.0 : most, question_.scalar);
   }
 
-  /// The scene is as large as its shapes, its true contacts and the way of what moves.
+  /// The picture is as large as its shapes, its true contacts and the way of what moves.
   void choose_unit() {
-    for (const SceneShape& s : inputs_.shapes) reach_ = std::max<SceneReal>(reach_, reach(s));
+    for (const PictureShape& s : inputs_.shapes) reach_ = std::max<PictureReal>(reach_, reach(s));
     if (reach_ == 0) reach_ = distance_of_planes();
-    for (const SceneContact& c : true_) {
-      for (const SceneValue& v : c.places) reach_ = std::max<SceneReal>(reach_, length(v.middle() - anchor()));
+    for (const PictureContact& c : true_) {
+      for (const PictureValue& v : c.places) reach_ = std::max<PictureReal>(reach_, length(v.middle() - anchor()));
     }
-    SceneReal all = reach_;
-    if (inputs_.velocity) all = std::max<SceneReal>(all, length(*inputs_.velocity) * time_);
+    PictureReal all = reach_;
+    if (inputs_.velocity) all = std::max<PictureReal>(all, length(*inputs_.velocity) * time_);
     if (all == 0) all = ulp_at_anchor();
     unit_exponent_ = int(ilogb(all)) + 1;
-    unit_ = ldexp(SceneReal(1), unit_exponent_);
+    unit_ = ldexp(PictureReal(1), unit_exponent_);
     if (reach_ == 0) reach_ = all;
   }
 
   /// Where all else is one point: the nearest plane.
-  SceneReal distance_of_planes() const {
-    SceneReal least = 0;
-    for (const SceneShape& s : inputs_.shapes) {
+  PictureReal distance_of_planes() const {
+    PictureReal least = 0;
+    for (const PictureShape& s : inputs_.shapes) {
       if (s.shape == Shape::plane && (least == 0 || length(nearest_point(s, {})) < least))
         least = length(nearest_point(s, {}));
     }
@@ -247,8 +247,8 @@ class ScenePicture {
   /// Distances along the way from the place at `time` on; a time is time + distance * time_per_unit.
   Json motion() const {
     if (!inputs_.velocity || moving() == nullptr) return nullptr;
-    const SceneReal speed = length(*inputs_.velocity);
-    const auto distance = [&](const SceneReal& t) { return rounded((t - time_) * speed / unit_); };
+    const PictureReal speed = length(*inputs_.velocity);
+    const auto distance = [&](const PictureReal& t) { return rounded((t - time_) * speed / unit_); };
     Json j{{"along", vector_to_json(unit(*inputs_.velocity))},
            {"time", rounded(time_)},
            {"time_per_unit", speed == 0 ? 0.0 : rounded(unit_ / speed)},
@@ -262,16 +262,16 @@ class ScenePicture {
   }
 
   /// The point at which an arrow of an answer without a place begins: the last point among the inputs.
-  SceneVector foot_of_arrows() const {
+  PictureVector foot_of_arrows() const {
     for (auto s = inputs_.shapes.rbegin(); s != inputs_.shapes.rend(); ++s) {
       if (s->shape == Shape::point) return s->corners[0];
     }
     return {};
   }
-  void add_contact(Json& list, const SceneContact& c, const char* of) const {
+  void add_contact(Json& list, const PictureContact& c, const char* of) const {
     const Json direction =
         c.directions.empty() ? Json(nullptr) : vector_to_json(::nearmiss::unit(c.directions[0].middle()));
-    for (const SceneValue& v : c.places) {
+    for (const PictureValue& v : c.places) {
       list.push_back({{"of", of},
                       {"name", v.name},
                       {"at", vector_to_json((v.middle() - anchor()) * (1 / unit_))},
@@ -287,18 +287,18 @@ class ScenePicture {
   }
 
   const Case& question_;
-  SceneInputs inputs_;
-  SceneContact claimed_;
-  std::vector<SceneContact> true_;
-  SceneReal time_ = 0, unit_ = 1, reach_ = 0;
+  PictureInputs inputs_;
+  PictureContact claimed_;
+  std::vector<PictureContact> true_;
+  PictureReal time_ = 0, unit_ = 1, reach_ = 0;
   int unit_exponent_ = 0;
   std::array<double, 3> anchor_{};
 };
 
 }  // namespace
 
-nlohmann::ordered_json scene_of(const Case& question, const FileValue& report) {
-  return ScenePicture(question, report).to_json();
+nlohmann::ordered_json picture_of(const Case& question, const FileValue& report) {
+  return CasePicture(question, report).to_json();
 }
 
 }  // namespace nearmiss

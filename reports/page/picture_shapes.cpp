@@ -1,4 +1,4 @@
-#include "reports/page/scene_shapes.hpp"
+#include "reports/page/picture_shapes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,18 +7,18 @@
 
 namespace nearmiss {
 
-double rounded(const SceneReal& x) {
+double rounded(const PictureReal& x) {
   constexpr double most = std::numeric_limits<double>::max();
   return std::clamp(x.convert_to<double>(), -most, most);
 }
 
-SceneReal dot(const SceneVector& a, const SceneVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-SceneVector cross(const SceneVector& a, const SceneVector& b) {
+PictureReal dot(const PictureVector& a, const PictureVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+PictureVector cross(const PictureVector& a, const PictureVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-SceneReal length(const SceneVector& a) { return sqrt(dot(a, a)); }
-SceneVector unit(const SceneVector& a) {
-  const SceneReal l = length(a);
+PictureReal length(const PictureVector& a) { return sqrt(dot(a, a)); }
+PictureVector unit(const PictureVector& a) {
+  const PictureReal l = length(a);
   return l == 0 ? a : a * (1 / l);
 }
 
@@ -30,28 +30,28 @@ using Json = nlohmann::ordered_json;
 
 using Values = std::span<const double>;
 
-SceneVector vector_at(Values v, std::size_t i) { return {v[i], v[i + 1], v[i + 2]}; }
+PictureVector vector_at(Values v, std::size_t i) { return {v[i], v[i + 1], v[i + 2]}; }
 
 /// The axes of the rotation x, y, z, w, which need not have unit length.
-std::vector<SceneVector> axes_of(Values q) {
-  const SceneReal x = q[0], y = q[1], z = q[2], w = q[3], s = 2 / (x * x + y * y + z * z + w * w);
+std::vector<PictureVector> axes_of(Values q) {
+  const PictureReal x = q[0], y = q[1], z = q[2], w = q[3], s = 2 / (x * x + y * y + z * z + w * w);
   return {{1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
           {s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x)},
           {s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y)}};
 }
 
-SceneShape drawn(const Operand& o, Values values) {
-  SceneShape s{.name = o.name, .shape = o.shape};
+PictureShape drawn(const Operand& o, Values values) {
+  PictureShape s{.name = o.name, .shape = o.shape};
   for (const std::size_t at : o.positions) s.corners.push_back(vector_at(values, at));
   if (o.direction) s.axis = vector_at(values, *o.direction);
   if (o.offset) s.offset = values[*o.offset];
   if (o.radius) s.radius = values[*o.radius];
   if (o.shape == Shape::box) {
-    const SceneVector half = vector_at(values, *o.half);
+    const PictureVector half = vector_at(values, *o.half);
     s.axes = axes_of(values.subspan(*o.rotation, 4));
     s.half = {half.x, half.y, half.z};
   } else if (o.shape == Shape::aabox) {
-    const SceneVector low = s.corners[0], half = (s.corners[1] - low) * SceneReal(0.5);
+    const PictureVector low = s.corners[0], half = (s.corners[1] - low) * PictureReal(0.5);
     s.corners = {low + half};
     s.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     s.half = {half.x, half.y, half.z};
@@ -60,46 +60,46 @@ SceneShape drawn(const Operand& o, Values values) {
 }
 
 /// An input that is no shape: a direction is an arrow.
-void add_loose(SceneInputs& scene, const InputMember& m, Values values) {
-  if (m.role == Role::time) scene.time = values[m.begin];
+void add_loose(PictureInputs& inputs, const InputMember& m, Values values) {
+  if (m.role == Role::time) inputs.time = values[m.begin];
   if (!m.is_vector()) return;
   if (m.role == Role::direction)
-    scene.shapes.push_back({.name = m.name, .shape = std::nullopt, .axis = vector_at(values, m.begin)});
+    inputs.shapes.push_back({.name = m.name, .shape = std::nullopt, .axis = vector_at(values, m.begin)});
   if (m.role != Role::velocity) return;
-  scene.velocity = vector_at(values, m.begin);
-  if (!scene.shapes.empty()) scene.shapes.back().moves = true;
+  inputs.velocity = vector_at(values, m.begin);
+  if (!inputs.shapes.empty()) inputs.shapes.back().moves = true;
 }
 
 // --- nearest points ------------------------------------------------------------------------------------------------
 
-SceneReal within(const SceneReal& x, const SceneReal& low, const SceneReal& high) {
+PictureReal within(const PictureReal& x, const PictureReal& low, const PictureReal& high) {
   return x < low ? low : x > high ? high : x;
 }
 
-SceneVector nearest_on_carrier(const SceneVector& p, const SceneVector& from, const SceneVector& along,
-                               std::optional<double> low, std::optional<double> high) {
-  const SceneReal square = dot(along, along);
+PictureVector nearest_on_carrier(const PictureVector& p, const PictureVector& from, const PictureVector& along,
+                                 std::optional<double> low, std::optional<double> high) {
+  const PictureReal square = dot(along, along);
   if (square == 0) return from;
-  SceneReal t = dot(p - from, along) / square;
+  PictureReal t = dot(p - from, along) / square;
   if (low && t < *low) t = *low;
   if (high && t > *high) t = *high;
   return from + along * t;
 }
 
-SceneVector nearest_on_segment(const SceneVector& p, const SceneVector& a, const SceneVector& b) {
+PictureVector nearest_on_segment(const PictureVector& p, const PictureVector& a, const PictureVector& b) {
   return nearest_on_carrier(p, a, b - a, 0, 1);
 }
 
-const SceneVector& nearer(const SceneVector& p, const SceneVector& a, const SceneVector& b) {
+const PictureVector& nearer(const PictureVector& p, const PictureVector& a, const PictureVector& b) {
   return dot(a - p, a - p) <= dot(b - p, b - p) ? a : b;
 }
 
-SceneVector nearest_on_triangle(const SceneVector& p, const SceneVector& a, const SceneVector& b,
-                                const SceneVector& c) {
-  const SceneVector normal = cross(b - a, c - a);
-  const SceneReal square = dot(normal, normal);
+PictureVector nearest_on_triangle(const PictureVector& p, const PictureVector& a, const PictureVector& b,
+                                  const PictureVector& c) {
+  const PictureVector normal = cross(b - a, c - a);
+  const PictureReal square = dot(normal, normal);
   if (square > 0) {
-    const SceneVector foot = p - normal * (dot(p - a, normal) / square);
+    const PictureVector foot = p - normal * (dot(p - a, normal) / square);
     const bool inside = dot(cross(b - a, foot - a), normal) >= 0 && dot(cross(c - b, foot - b), normal) >= 0 &&
                         dot(cross(a - c, foot - c), normal) >= 0;
     if (inside) return foot;
@@ -107,13 +107,13 @@ SceneVector nearest_on_triangle(const SceneVector& p, const SceneVector& a, cons
   return nearer(p, nearest_on_segment(p, a, b), nearer(p, nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)));
 }
 
-SceneVector nearest_in_ball(const SceneVector& p, const SceneVector& center, const SceneReal& radius) {
-  const SceneReal distance = length(p - center);
+PictureVector nearest_in_ball(const PictureVector& p, const PictureVector& center, const PictureReal& radius) {
+  const PictureReal distance = length(p - center);
   return distance <= radius ? p : center + (p - center) * (radius / distance);
 }
 
-SceneVector nearest_in_box(const SceneVector& p, const SceneShape& box) {
-  SceneVector q = box.corners[0];
+PictureVector nearest_in_box(const PictureVector& p, const PictureShape& box) {
+  PictureVector q = box.corners[0];
   for (std::size_t k = 0; k < 3; ++k)
     q = q + box.axes[k] * within(dot(p - box.corners[0], box.axes[k]), -box.half[k], box.half[k]);
   return q;
@@ -123,76 +123,78 @@ SceneVector nearest_in_box(const SceneVector& p, const SceneShape& box) {
 
 /// The line that carries a shape: its point nearest to the origin, the unit direction, and where the shape begins and
 /// ends on it; null: it does not end.
-Json carrier_to_json(const SceneVector& point, const SceneVector& along, const std::optional<SceneReal>& low,
-                     const std::optional<SceneReal>& high) {
-  const SceneVector u = unit(along);
-  const SceneReal at = dot(point, u), step = length(along);
-  const auto end = [&](const std::optional<SceneReal>& t) { return t ? Json(rounded(at + *t * step)) : Json(nullptr); };
+Json carrier_to_json(const PictureVector& point, const PictureVector& along, const std::optional<PictureReal>& low,
+                     const std::optional<PictureReal>& high) {
+  const PictureVector u = unit(along);
+  const PictureReal at = dot(point, u), step = length(along);
+  const auto end = [&](const std::optional<PictureReal>& t) {
+    return t ? Json(rounded(at + *t * step)) : Json(nullptr);
+  };
   return {
       {"foot", vector_to_json(point - u * at)}, {"along", vector_to_json(u)}, {"from", end(low)}, {"to", end(high)}};
 }
 
-Json face_to_json(const SceneVector& normal, const SceneReal& d) {
+Json face_to_json(const PictureVector& normal, const PictureReal& d) {
   return {{"n", vector_to_json(normal)}, {"d", rounded(d)}};
 }
 
 /// A flat convex piece: its plane, and the half-spaces of its edges. Empty for points on one line.
-std::optional<Json> piece_to_json(const SceneVector& a, const SceneVector& b, const SceneVector& c) {
-  const SceneVector n = unit(cross(b - a, c - a));
+std::optional<Json> piece_to_json(const PictureVector& a, const PictureVector& b, const PictureVector& c) {
+  const PictureVector n = unit(cross(b - a, c - a));
   if (dot(n, n) == 0) return std::nullopt;
   Json piece = face_to_json(n, dot(n, a));
   const std::array corners{a, b, c};
   for (std::size_t i = 0; i < 3; ++i) {
-    const SceneVector& from = corners[i];
-    const SceneVector outward = unit(cross(corners[(i + 1) % 3] - from, n));
+    const PictureVector& from = corners[i];
+    const PictureVector outward = unit(cross(corners[(i + 1) % 3] - from, n));
     piece["edges"].push_back(face_to_json(outward, dot(outward, from)));
   }
   return piece;
 }
 
-void add_pieces(Json& j, const std::vector<SceneVector>& c) {
+void add_pieces(Json& j, const std::vector<PictureVector>& c) {
   j["pieces"] = Json::array();
   for (std::size_t i = 2; i < c.size(); ++i) {
     if (const auto piece = piece_to_json(c[0], c[i - 1], c[i])) j["pieces"].push_back(*piece);
   }
   for (std::size_t i = 0; i < c.size(); ++i)
-    j["sides"].push_back(carrier_to_json(c[i], c[(i + 1) % c.size()] - c[i], SceneReal(0), SceneReal(1)));
+    j["sides"].push_back(carrier_to_json(c[i], c[(i + 1) % c.size()] - c[i], PictureReal(0), PictureReal(1)));
 }
 
-Json faces_to_json(const SceneShape& box) {
+Json faces_to_json(const PictureShape& box) {
   Json faces = Json::array();
   for (std::size_t k = 0; k < 3; ++k) {
     for (const int sign : {1, -1}) {
-      const SceneVector n = box.axes[k] * SceneReal(sign);
+      const PictureVector n = box.axes[k] * PictureReal(sign);
       faces.push_back(face_to_json(n, dot(n, box.corners[0]) + box.half[k]));
     }
   }
   return faces;
 }
 
-SceneShape divided(SceneShape s, const SceneReal& by) {
-  for (SceneVector& c : s.corners) c = c * (1 / by);
-  for (SceneReal& h : s.half) h /= by;
+PictureShape divided(PictureShape s, const PictureReal& by) {
+  for (PictureVector& c : s.corners) c = c * (1 / by);
+  for (PictureReal& h : s.half) h /= by;
   s.radius /= by;
   return s;
 }
 
 }  // namespace
 
-SceneInputs scene_inputs(const Case& question) {
-  SceneInputs scene;
+PictureInputs picture_inputs(const Case& question) {
+  PictureInputs inputs;
   const Operands& operands = question.operands();
   for (const InputMember& m : operands.members) {
     if (!m.operand) {
-      add_loose(scene, m, question.values);
+      add_loose(inputs, m, question.values);
     } else if (m.begin == operands[*m.operand].begin) {
-      scene.shapes.push_back(drawn(operands[*m.operand], question.values));
+      inputs.shapes.push_back(drawn(operands[*m.operand], question.values));
     }
   }
-  return scene;
+  return inputs;
 }
 
-SceneVector nearest_point(const SceneShape& s, const SceneVector& p) {
+PictureVector nearest_point(const PictureShape& s, const PictureVector& p) {
   if (!s.shape) return p;
   switch (*s.shape) {
     case Shape::segment: return nearest_on_segment(p, s.corners[0], s.corners[1]);
@@ -212,25 +214,25 @@ SceneVector nearest_point(const SceneShape& s, const SceneVector& p) {
   return s.corners[0];
 }
 
-void move_by(SceneShape& s, const SceneVector& by) {
-  for (SceneVector& c : s.corners) c = c + by;
+void move_by(PictureShape& s, const PictureVector& by) {
+  for (PictureVector& c : s.corners) c = c + by;
   if (s.shape == Shape::plane) s.offset -= dot(s.axis, by);
 }
 
-SceneReal reach(const SceneShape& s) {
+PictureReal reach(const PictureShape& s) {
   if (!s.is_body()) return 0;
-  SceneReal most = 0;
-  for (const SceneVector& c : s.corners) most = std::max<SceneReal>(most, length(c));
+  PictureReal most = 0;
+  for (const PictureVector& c : s.corners) most = std::max<PictureReal>(most, length(c));
   if (!s.half.empty()) return most + length({s.half[0], s.half[1], s.half[2]});
   return most + s.radius;
 }
 
-Json vector_to_json(const SceneVector& v) { return Json::array({rounded(v.x), rounded(v.y), rounded(v.z)}); }
+Json vector_to_json(const PictureVector& v) { return Json::array({rounded(v.x), rounded(v.y), rounded(v.z)}); }
 
-Json shape_to_json(const SceneShape& shape, const SceneReal& by) {
-  const SceneShape s = divided(shape, by);
+Json shape_to_json(const PictureShape& shape, const PictureReal& by) {
+  const PictureShape s = divided(shape, by);
   Json j{{"name", s.name}, {"kind", s.shape ? name_of(*s.shape) : "direction"}, {"moves", s.moves}};
-  for (const SceneVector& c : s.corners) j["corners"].push_back(vector_to_json(c));
+  for (const PictureVector& c : s.corners) j["corners"].push_back(vector_to_json(c));
   if (!s.shape) {
     j["direction"] = vector_to_json(unit(s.axis));
     return j;
@@ -240,7 +242,7 @@ Json shape_to_json(const SceneShape& shape, const SceneReal& by) {
       j["sides"] = Json::array({carrier_to_json(s.corners[0], s.corners[1] - s.corners[0], 0, 1)});
       break;
     case Shape::ray:
-      j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, SceneReal(0), std::nullopt)});
+      j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, PictureReal(0), std::nullopt)});
       break;
     case Shape::line:
       j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, std::nullopt, std::nullopt)});
@@ -255,7 +257,7 @@ Json shape_to_json(const SceneShape& shape, const SceneReal& by) {
       [[fallthrough]];
     case Shape::sphere:
       j["radius"] = rounded(s.radius);
-      for (const SceneVector& c : s.corners) j["distances"].push_back(rounded(length(c) - s.radius));
+      for (const PictureVector& c : s.corners) j["distances"].push_back(rounded(length(c) - s.radius));
       break;
     case Shape::box:
     case Shape::aabox: j["faces"] = faces_to_json(s); break;

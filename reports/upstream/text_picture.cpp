@@ -1,4 +1,4 @@
-#include "reports/upstream/scene_picture.hpp"
+#include "reports/upstream/text_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "impl/adapters/motion.hpp"
-#include "reports/upstream/scene.hpp"
+#include "reports/upstream/case_shapes.hpp"
 
 namespace nearmiss {
 
@@ -135,13 +135,13 @@ double exact_time(const Report& r) {
 }
 
 Things things_of(const Report& r) {
-  const Scene scene(r.question);
-  Things t{scene.operands(), {}, {}, exact_vector(r, "location"), exact_vector(r, "normal"), exact_time(r)};
-  if (scene.has("velocity.x")) t.velocity = scene.vector("velocity");
-  if (scene.has("point.x")) {
-    t.start = scene.vector("point");
-  } else if (t.velocity && scene.has("sphere.center.x")) {
-    t.start = scene.vector("sphere.center");
+  const CaseShapes shapes(r.question);
+  Things t{shapes.operands(), {}, {}, exact_vector(r, "location"), exact_vector(r, "normal"), exact_time(r)};
+  if (shapes.has("velocity.x")) t.velocity = shapes.vector("velocity");
+  if (shapes.has("point.x")) {
+    t.start = shapes.vector("point");
+  } else if (t.velocity && shapes.has("sphere.center.x")) {
+    t.start = shapes.vector("sphere.center");
   }
   return t;
 }
@@ -249,7 +249,7 @@ std::string legend(const Report& r, const Things& t, const View& view, double ce
   return text + fmt::format("{}\n", fmt::join(parts, "; "));
 }
 
-/// Behind a plane, in the section through the middle of the scene.
+/// Behind a plane, in the section through the middle of the picture.
 bool is_behind(const Plane<double>& plane, const View& view, const Flat& p, double middle) {
   double along = plane.offset;
   for (int k = 0; k < 3; ++k) {
@@ -260,7 +260,7 @@ bool is_behind(const Plane<double>& plane, const View& view, const Flat& p, doub
 
 }  // namespace
 
-std::string scene_picture(const Report& r) {
+std::string text_picture(const Report& r) {
   const Things t = things_of(r);
   std::vector<Rounded> shapes;
   for (const NamedShape& o : t.shapes) {

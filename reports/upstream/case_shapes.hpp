@@ -23,9 +23,9 @@ struct NamedShape {
 };
 
 /// Finds the inputs of a case by name. Refers to the case.
-class Scene {
+class CaseShapes {
  public:
-  explicit Scene(const Case& question) : question_(question) {}
+  explicit CaseShapes(const Case& question) : question_(question) {}
 
   bool has(std::string_view name) const;
   /// The input must be there: "limit", "box.center.x".

@@ -1,4 +1,4 @@
-#include "reports/upstream/scene.hpp"
+#include "reports/upstream/case_shapes.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -16,18 +16,18 @@ std::size_t place_of(const Case& c, std::string_view name) {
 
 }  // namespace
 
-bool Scene::has(std::string_view name) const { return place_of(question_, name) < question_.fields().size(); }
+bool CaseShapes::has(std::string_view name) const { return place_of(question_, name) < question_.fields().size(); }
 
-double Scene::number(std::string_view name) const {
+double CaseShapes::number(std::string_view name) const {
   if (!has(name)) throw std::logic_error("no input " + std::string(name));
   return question_.values[place_of(question_, name)];
 }
 
-Vec3<double> Scene::vector(const std::string& name) const {
+Vec3<double> CaseShapes::vector(const std::string& name) const {
   return {number(name + ".x"), number(name + ".y"), number(name + ".z")};
 }
 
-std::vector<NamedShape> Scene::operands() const {
+std::vector<NamedShape> CaseShapes::operands() const {
   std::vector<NamedShape> all;
   for (const Operand& o : question_.operands()) {
     with_typed(o, question_.values.data(), [&]<class S>(const S& shape) {

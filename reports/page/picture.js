@@ -1,6 +1,6 @@
 "use strict";
-/// The picture of a scene: turn, pan, zoom from the scene to the last bit, and move along the way.
-nearmiss.scene = (() => {
+/// The picture of a case: turn, pan, zoom from the whole to the last bit, and move along the way.
+nearmiss.picture = (() => {
   const {element, about, exact} = nearmiss.numbers;
   const {draw, Drawing, carrier, add, times, cross, dot, length, unit, tangents, zero} = nearmiss.shapes;
   const colour = name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -31,8 +31,8 @@ nearmiss.scene = (() => {
   }
 
   class Picture {
-    constructor(host, scene, texts) {
-      Object.assign(this, {host, scene, texts, at: 0});
+    constructor(host, data, texts) {
+      Object.assign(this, {host, data, texts, at: 0});
       this.canvas = rendererOrNull().domElement;
       this.canvas.setAttribute("role", "img");
       this.canvas.setAttribute("aria-label", texts.label);
@@ -44,7 +44,7 @@ nearmiss.scene = (() => {
       this.resize();
       this.observer = new ResizeObserver(() => this.resize());
       this.observer.observe(this.frame);
-      this.set(this.levels.scene);
+      this.set(this.levels.whole);
     }
     end() {
       this.observer.disconnect();
@@ -52,20 +52,20 @@ nearmiss.scene = (() => {
       this.clear();
     }
 
-    // --- zoom: the logarithm to base 2 of view units for each unit of the scene ---
+    // --- zoom: the logarithm to base 2 of view units for each unit of the picture ---
     limits() {
-      const s = this.scene, log = x => Math.log2(x);
+      const s = this.data, log = x => Math.log2(x);
       const start = s.motion ? Math.abs(s.motion.start) : 0;
       this.fit = log(1.45 / Math.max(s.reach, 0.7 * Math.min(start, 4 * s.reach), 1e-300));  // with the start where it is near
       this.least = Math.min(this.fit, log(0.9 / Math.max(start, s.reach, 1e-300))) - 1;
       this.most = Math.max(log(0.35 / s.ulp), this.fit) + 2;
       const apart = this.disagreement();
-      this.levels = {scene: this.fit, ulp: log(0.35 / s.ulp),
+      this.levels = {whole: this.fit, ulp: log(0.35 / s.ulp),
                      disagreement: apart > 0 ? Math.min(this.most, Math.max(this.least, log(0.7 / apart))) : null};
     }
     /// How far the claimed contact is from the true one; without both, how far the inputs may move.
     disagreement() {
-      const {contacts, motion} = this.scene, truth = contacts.find(c => c.of === "true"), claim = contacts.find(c => c.of === "claimed");
+      const {contacts, motion} = this.data, truth = contacts.find(c => c.of === "true"), claim = contacts.find(c => c.of === "claimed");
       const apart = truth && claim ? length(add(truth.at, claim.at, -1)) : 0;
       const late = motion && motion.true && motion.claimed !== null ? Math.abs(motion.claimed - motion.true[0]) : 0;
       return Math.max(apart, late) || this.texts.moved || 0;
@@ -80,21 +80,21 @@ nearmiss.scene = (() => {
 
     // --- time: distance along the way from the true contact ---
     retime() {
-      const m = this.scene.motion;
+      const m = this.data.motion;
       if (!m) return;
       const window = 3 / this.zoom, end = Math.max(0, m.claimed ?? 0, m.true ? m.true[1] : 0);
-      const spare = Math.max(0.15 * (end - m.start), m.true || m.claimed !== null ? 0 : this.scene.reach);
+      const spare = Math.max(0.15 * (end - m.start), m.true || m.claimed !== null ? 0 : this.data.reach);
       this.from = Math.max(m.start, -window);
       this.to = Math.max(this.from, Math.min(m.limit ?? Infinity, end + spare, window));
       this.at = Math.min(this.to, Math.max(this.from, this.at));
       this.timer.value = String(this.to > this.from ? 1000 * (this.at - this.from) / (this.to - this.from) : 0);
     }
     tellTime() {
-      const m = this.scene.motion;
+      const m = this.data.motion;
       if (!m) return;
       const change = this.at * m.time_per_unit, near = Math.abs(change) < 1e-6 * Math.abs(m.time);
       const base = m.true ? "true time" : m.claimed !== null ? "claimed time" : "nearest approach";
-      this.time.textContent = this.at === 0 ? `${base} ${exact(m.time, this.scene.scalar)}`
+      this.time.textContent = this.at === 0 ? `${base} ${exact(m.time, this.data.scalar)}`
         : near ? `${base} ${change < 0 ? "−" : "+"} ${about(Math.abs(change))}` : `time ${about(m.time + change)}`;
     }
 
@@ -110,8 +110,8 @@ nearmiss.scene = (() => {
       this.bar = element("div", {class: "bar"}, element("i"), this.barText = element("span"));
       this.frame = element("div", {class: "frame"}, this.canvas, this.bar);
       const zoom = element("div", {class: "control"}, element("span", {class: "what"}, "Zoom"), this.zoomer,
-        button("scene", "1", "scene"), button("disagreement", "2", "disagreement"), button("ulp", "3", "ulp"));
-      const time = this.scene.motion ? element("div", {class: "control"}, element("span", {class: "what"}, "Time"), this.timer,
+        button("whole", "1", "whole"), button("disagreement", "2", "disagreement"), button("ulp", "3", "ulp"));
+      const time = this.data.motion ? element("div", {class: "control"}, element("span", {class: "what"}, "Time"), this.timer,
         element("button", {type: "button", onclick: () => { this.at = 0; this.retime(); this.draw(); }}, "contact"), this.time) : null;
       this.host.replaceChildren(this.frame, zoom, ...(time ? [time] : []), this.legend());
       this.canvas.onwheel = e => { e.preventDefault(); this.set(this.level - e.deltaY / 240); };
@@ -122,7 +122,7 @@ nearmiss.scene = (() => {
       this.set(this.levels[name]);
     }
     legend() {
-      const s = this.scene, entries = [];
+      const s = this.data, entries = [];
       const entry = (c, text, sign = "area") => entries.push(element("span", {}, element("i", {class: sign, style: `--own: var(--${c})`}), text));
       s.shapes.filter(x => x.kind !== "direction").forEach(x => entry(this.colourOf(x), `${x.name}${x.moves ? ", moves" : ""}`, x.kind === "point" ? "dot" : "area"));
       s.shapes.filter(x => x.kind === "direction").forEach(x => entry("fixed", x.name, "stroke"));
@@ -143,7 +143,7 @@ nearmiss.scene = (() => {
     }
     /// Looks across the motion and the normal, so that the contact is seen in profile.
     look() {
-      const s = this.scene, normal = (s.contacts.find(c => c.normal) || {}).normal;
+      const s = this.data, normal = (s.contacts.find(c => c.normal) || {}).normal;
       const along = s.motion ? s.motion.along : null;
       let up = normal && length(normal) > 0 ? normal : [0, 0, 1], side = along ? cross(along, up) : zero;
       if (length(side) < 0.05) side = tangents(up)[0];
@@ -169,7 +169,7 @@ nearmiss.scene = (() => {
     }
     draw() {
       this.clear();
-      const s = this.scene, m = s.motion, along = m ? m.along : zero;
+      const s = this.data, m = s.motion, along = m ? m.along : zero;
       for (const shape of s.shapes) {
         if (shape.kind === "direction") continue;
         if (!shape.moves) { this.add(draw(shape, zero, this.zoom), this.colourOf(shape), {}); continue; }
@@ -186,9 +186,9 @@ nearmiss.scene = (() => {
       this.render();
     }
     /// Where nothing moves, the first shape has the colour of what moves, to tell the two apart.
-    colourOf(shape) { return shape.moves || (!this.scene.motion && shape === this.scene.shapes[0]) ? "moving" : "fixed"; }
+    colourOf(shape) { return shape.moves || (!this.data.motion && shape === this.data.shapes[0]) ? "moving" : "fixed"; }
     way(shape) {
-      const m = this.scene.motion, p = shape.corners ? shape.corners[0] : zero, at = dot(p, m.along), d = new Drawing();
+      const m = this.data.motion, p = shape.corners ? shape.corners[0] : zero, at = dot(p, m.along), d = new Drawing();
       const end = Math.max(0, m.claimed ?? 0, this.at) + 0.5 / this.zoom;
       carrier(d, {foot: add(p, m.along, -at), along: m.along, from: at + m.start, to: at + end}, this.zoom);
       this.add(d, "moving", {thin: true});
@@ -196,7 +196,7 @@ nearmiss.scene = (() => {
     /// Input directions begin at the last point before them, otherwise at the contact.
     directions() {
       let foot = zero;
-      for (const s of this.scene.shapes) {
+      for (const s of this.data.shapes) {
         if (s.kind === "point") foot = s.corners[0];
         if (s.kind === "direction") this.arrow(times(foot, this.zoom), s.direction, "fixed", 0.6);
       }
@@ -227,7 +227,7 @@ nearmiss.scene = (() => {
     }
     /// Numbers of the scalar next to each other, in the plane of two coordinates that is seen best.
     lattice() {
-      const step = this.scene.ulp * this.zoom, visible = step > 0.11 && step < 3;
+      const step = this.data.ulp * this.zoom, visible = step > 0.11 && step < 3;
       this.spacing.hidden = !visible;
       if (!visible) return;
       const view = this.camera.position.clone().sub(this.controls.target).toArray().map(Math.abs);
@@ -266,13 +266,13 @@ nearmiss.scene = (() => {
         this.world.add(points);
       }
     }
-    /// A length of the picture at the contact, in the scene's unit and in ulps.
+    /// A length of the picture at the contact, in the unit of the picture and in ulps.
     tellScale() {
       const pixels = this.size[1] / (2 * Math.tan(this.camera.fov * Math.PI / 360) * this.camera.position.distanceTo(this.controls.target));
-      const unit = 2 ** this.scene.unit_exponent, real = 90 / pixels / this.zoom;
+      const unit = 2 ** this.data.unit_exponent, real = 90 / pixels / this.zoom;
       this.bar.hidden = !(unit > 0 && unit < Infinity);
       const nice = 10 ** Math.floor(Math.log10(real * unit)), wide = nice / unit;
-      const fits = [5, 2, 1].find(k => k * wide <= real) || 1, ulps = fits * wide / this.scene.ulp;
+      const fits = [5, 2, 1].find(k => k * wide <= real) || 1, ulps = fits * wide / this.data.ulp;
       this.bar.firstChild.style.width = `${fits * wide * this.zoom * pixels}px`;
       this.barText.textContent = `${about(fits * nice)}${ulps < 1e6 ? ` = ${about(ulps)} ulp` : ""}`;
     }
@@ -280,14 +280,14 @@ nearmiss.scene = (() => {
   }
 
   let current = null;
-  function show(host, scene, texts) {
+  function show(host, data, texts) {
     if (current) current.end();
     current = null;
     if (!rendererOrNull()) {
       host.replaceChildren(element("p", {class: "note"}, "This browser draws no picture, because it has no WebGL."));
       return;
     }
-    current = new Picture(host, scene, texts);
+    current = new Picture(host, data, texts);
   }
   return {show, current: () => current, redraw: () => { if (current) current.draw(); },
           level: name => { if (current) current.goTo(name); }, end: () => { if (current) current.end(); current = null; }};
