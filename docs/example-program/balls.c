@@ -1,4 +1,5 @@
-/* A collision library in C as a subject of Nearmiss, over pipes in binary; docs/reference/protocol.md explains each line.
+/* A collision library in C as a subject of Nearmiss, over pipes in binary; docs/reference/protocol.md explains each
+ * line.
  *
  *   cc -O2 -o balls docs/example-program/balls.c   &&   ./nearmiss run --command ./balls --subject balls-c
  */
