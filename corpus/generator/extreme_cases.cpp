@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr double offsets[] = {0, 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e12, 1e13, 1e14, 1e15};
+constexpr double far_offsets[] = {0, 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e12, 1e13, 1e14, 1e15};
 constexpr double scales[] = {-1060, -1000, -700, -480, -300, -145, -120, -80, -40, -20,
                              0,     20,    40,   80,   120,  300,  480,  700, 1000};
 constexpr double speeds[] = {1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6, 1e9, 1e12};
@@ -160,7 +160,7 @@ ExtremeAxisName name_of(ExtremeAxis axis) {
 
 std::span<const double> values_of(ExtremeAxis axis) {
   switch (axis) {
-    case ExtremeAxis::offset: return offsets;
+    case ExtremeAxis::offset: return far_offsets;
     case ExtremeAxis::scale: return scales;
     case ExtremeAxis::speed: return speeds;
     case ExtremeAxis::ratio: return ratios;
