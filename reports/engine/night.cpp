@@ -20,9 +20,13 @@
 
 namespace nearmiss {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Clock = Run::Clock;
+
+}  // namespace
 
 Clock::time_point between(Clock::time_point a, Clock::time_point b, double share) {
   return a + std::chrono::duration_cast<Clock::duration>((b - a) * share);
