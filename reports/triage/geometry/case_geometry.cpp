@@ -39,7 +39,7 @@ class GeometryReader {
     for (const InputMember& m : parts_.members) {
       const Operand* operand = m.operand ? &parts_[*m.operand] : nullptr;
       if (operand != nullptr && operand->radius == m.begin) g_.radii.emplace_back(operand->name, c_.values[m.begin]);
-      if (m.role == Role::position)
+      if (operand != nullptr && m.role == Role::position)
         g_.places.push_back({m.name, operand->name, at(m.begin), true, is_corner(*operand), m.begin});
       if (m.role == Role::velocity || m.role == Role::direction) g_.directions.push_back({m.name, at(m.begin)});
       if (m.role == Role::velocity && !g_.velocity) g_.velocity = at(m.begin);
