@@ -666,7 +666,7 @@ bool largest_or_least(CaseBuilder& d) {
 
 /// The closed table. Mutators apply in this order: exact constructions come before transforms of the scene, and changes
 /// of the last ulps come last.
-constexpr Mutator table[] = {
+constexpr Mutator all_mutators[] = {
     {"small-lattice", "every number a small integer", small_lattice},
     {"dyadic-grid", "every number a multiple of a power of two", dyadic_grid},
     {"equal-vectors", "two positions are the same: a duplicate vertex, coincident centers", equal_vectors},
@@ -725,6 +725,6 @@ constexpr Mutator table[] = {
 
 }  // namespace
 
-std::span<const Mutator> mutators() { return table; }
+std::span<const Mutator> mutators() { return all_mutators; }
 
 }  // namespace nearmiss

@@ -5,7 +5,7 @@ namespace nearmiss {
 namespace {
 
 /// The closed table. The first group depends on the roles of the numbers alone and holds for every query.
-constexpr Relation table[] = {
+constexpr Relation all_relations[] = {
     {"scaled-lengths", "all lengths times a power of two: lengths of the answer alike, times unchanged", true,
      metamorphic::scaled_lengths},
     {"scaled-time", "velocities times a power of two: times divided by it", true, metamorphic::scaled_time},
@@ -48,10 +48,10 @@ constexpr Relation table[] = {
 
 }  // namespace
 
-std::span<const Relation> relations() { return table; }
+std::span<const Relation> relations() { return all_relations; }
 
 const Relation* find_relation(std::string_view name) {
-  for (const Relation& r : table) {
+  for (const Relation& r : all_relations) {
     if (r.name == name) return &r;
   }
   return nullptr;
