@@ -18,6 +18,7 @@ fail() {
 # The page's blocks of output, in order; everything but the time that it took and the name of the folder.
 run=reports/runs/20260131T120000Z-1
 cd "$work"
+"$nearmiss" check-subject --subject skim >check.txt && fail "check-subject sees no mistake"
 status=0
 "$nearmiss" run --subject skim --cases 100000 --seed 1 --out "$run" >run.txt 2>&1 || status=$?
 [ "$status" = 1 ] || { cat run.txt; fail "run ends with exit code $status, not 1"; }
@@ -31,7 +32,7 @@ finding=$(grep -o "$run/findings/moving_point_sphere/.*json" run.txt | head -n 1
 
 awk -v name="$(basename "$finding")" '
   function show(file,  line) { while ((getline line < file) > 0) print line }
-  /^```text$/ { print; show(++blocks == 1 ? "run.txt" : "replay.txt"); hidden = 1; next }
+  /^```text$/ { print; show(++blocks == 1 ? "check.txt" : blocks == 2 ? "run.txt" : "replay.txt"); hidden = 1; next }
   /^```$/ { hidden = 0 }
   hidden { next }
   /^\.\/nearmiss replay / { sub(/skim-[-a-z0-9]*\.json/, name) }

@@ -23,6 +23,8 @@ class ChosenFinding {
   Asked ask() const;
   /// Writes the text to the file of --out and prints its name, or prints the text.
   void write(const std::string& text) const;
+  /// The file of --out; empty without it.
+  const std::string& file() const { return out_; }
 
  private:
   std::string file_, for_, out_;

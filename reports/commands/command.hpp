@@ -49,6 +49,7 @@ std::unique_ptr<Command> promote_command();
 std::unique_ptr<Command> bisect_command();
 std::unique_ptr<Command> emit_test_command();
 std::unique_ptr<Command> upstream_report_command();
+std::unique_ptr<Command> check_subject_command();
 std::unique_ptr<Command> import_command();
 std::unique_ptr<Command> scene_command();
 std::unique_ptr<Command> extremes_command();

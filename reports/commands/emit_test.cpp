@@ -37,7 +37,7 @@ class EmitTestCommand : public Command {
   void declare(CLI::App& app) override { chosen_.declare(app, "the test"); }
   int run(const CLI::App&) override {
     const ChosenFinding::Asked asked = chosen_.ask();
-    chosen_.write(emit_test(asked.report, *asked.subject).text);
+    chosen_.write(emit_test(asked.report, *asked.subject, chosen_.file()).text);
     return 0;
   }
 

@@ -90,7 +90,8 @@ class NightlyCommand : public Command {
          "ends with an error.",
          "The run folder is that of 'nearmiss run --climb', with relations.json and relations/ of 'nearmiss "
          "relations', properties/ for messages and reports of property tests, corpus/QUERY/ for the corpus of the "
-         "fuzz targets, fuzz/ for their files and messages, and fixed/ for earlier reports whose findings are "
+         "fuzz targets, tables.txt for the counts of each query and subject, fuzz/ for their files and messages, and "
+         "fixed/ for earlier reports whose findings are "
          "fixed. Give the same folder every night to keep the corpus and to compare."},
         judging_exit_status(),
         {{"nearmiss nightly --minutes 60", "One hour."},
@@ -184,10 +185,12 @@ class NightlyCommand : public Command {
     run.note("night", changes.to_json());
     run.finish();
     put_aside_fixed(changes, earlier, run.settings().folder);
+    run.write_tables();
     const std::optional<NightTriage> triaged = triage(run, for_triage);
-    say("\n{}\n{}{}\n{}\n{}{}; fuzzing: {}\n", run.counts().table(), run.counts().touches_text(),
-        run.kept().worst_text(), triaged ? triaged->text() : changes.text(run.settings().folder),
-        unexpected_text(stored.unexpected()), run.summary(), fuzzing.text);
+    say("\n{}\n{}\ntables: {}\n\n{}{}; fuzzing: {}\n", run.counts().totals(),
+        triaged ? triaged->text() : changes.text(run.settings().folder),
+        path_text(run.settings().folder / "tables.txt"), unexpected_text(stored.unexpected()), run.summary(),
+        fuzzing.text);
     if (const auto why = run.shortfall()) say_on_stderr(fmt::format("nearmiss: {}\n", *why));
     if (building.has_failed())
       say_on_stderr(

@@ -49,6 +49,11 @@ std::string percent_text(std::uint64_t part, std::uint64_t whole) {
 }
 
 /// The cells of one row. A false hit is never added to a false miss.
+std::vector<std::string> heading() {
+  return {"",      "CASES",   "AGREE",     "NOT PROVED", "FALSE HIT", "FALSE MISS", "WRONG",
+          "BROKE", "OUTSIDE", "NO ANSWER", "BACKWARD",   "FORWARD",   "YES",        "EXACT"};
+}
+
 std::vector<std::string> table_row(const Tally& t) {
   const std::uint64_t hits = t.violations_by(Disagreement::false_hit),
                       misses = t.violations_by(Disagreement::false_miss);
@@ -198,10 +203,28 @@ std::string Counts::violated_text() const {
          (unasked == 0 ? "" : fmt::format(", {} of {} queries not asked", unasked, asked.size()));
 }
 
+std::vector<std::vector<std::string>> Counts::rows_of_totals() const {
+  std::vector<std::vector<std::string>> rows;
+  for (const Subject* s : subjects_) {
+    Tally all{nullptr, s};
+    for (const auto& [key, t] : tallies_) {
+      if (key.second == s) all.add(t);
+    }
+    if (all.cases > 0) rows.push_back(table_row(all));
+  }
+  return rows;
+}
+
+std::string Counts::totals() const {
+  if (cases_ == 0) return "";
+  std::vector<std::vector<std::string>> rows = rows_of_totals();
+  rows.insert(rows.begin(), heading());
+  return table_text(rows, "", 1);
+}
+
 std::string Counts::table() const {
   if (cases_ == 0) return "";
-  std::vector<std::vector<std::string>> rows{{"", "CASES", "AGREE", "NOT PROVED", "FALSE HIT", "FALSE MISS", "WRONG",
-                                              "BROKE", "OUTSIDE", "NO ANSWER", "BACKWARD", "FORWARD", "YES", "EXACT"}};
+  std::vector<std::vector<std::string>> rows{heading()};
   for (const Query* q : queries_) {
     bool first = true;
     for (const Subject* s : subjects_) {
@@ -211,13 +234,10 @@ std::string Counts::table() const {
       rows.push_back(table_row(found->second));
     }
   }
-  if (queries_.size() > 1) rows.push_back({"all queries"});
-  for (const Subject* s : subjects_) {
-    Tally all{nullptr, s};
-    for (const auto& [key, t] : tallies_) {
-      if (key.second == s) all.add(t);
-    }
-    if (queries_.size() > 1 && all.cases > 0) rows.push_back(table_row(all));
+  if (queries_.size() > 1) {
+    rows.push_back({"all queries"});
+    const std::vector<std::vector<std::string>> totals = rows_of_totals();
+    rows.insert(rows.end(), totals.begin(), totals.end());
   }
   return table_text(rows, "", 1) + breakages_text() + passed_over_text() + stages_text();
 }

@@ -45,6 +45,8 @@ class Counts : public Sink {
   /// A table with one row for each query and subject, and the share that the exact stage decided; empty where nothing
   /// was asked.
   std::string table() const;
+  /// The rows of table() for all queries together, one for each subject; empty where nothing was asked.
+  std::string totals() const;
   /// A table of the findings of every subject by mutator of the generator.
   std::string table_by_class() const;
   /// The answers to exact touches: counts where some are no, and subjects with two conventions; empty where all are
@@ -60,6 +62,7 @@ class Counts : public Sink {
     double exact_share() const { return exact == 0 ? 0 : double(exact) / double(interval + exact); }
   };
   Stages stages_of(const Query& query) const;
+  std::vector<std::vector<std::string>> rows_of_totals() const;
   std::string breakages_text() const;
   std::string passed_over_text() const;
   std::string stages_text() const;

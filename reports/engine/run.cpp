@@ -234,6 +234,10 @@ void Run::finish() {
   finished_ = true;
 }
 
+void Run::write_tables() const {
+  write("tables.txt", fmt::format("{}\n{}{}", counts_.table(), counts_.touches_text(), kept_.worst_text()));
+}
+
 std::vector<WrittenReport> Run::written_now() const {
   std::vector<WrittenReport> now = kept_.written();
   std::erase_if(now, [](const WrittenReport& w) { return w.earlier; });

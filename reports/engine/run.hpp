@@ -91,6 +91,8 @@ class Run {
 
   /// Writes the last index, with the state interrupted or finished, and with the reports that have vanished.
   void finish();
+  /// Writes tables.txt: the counts of each query and subject, the exact touches and the worst findings.
+  void write_tables() const;
   /// One line with the number of answers, the time, the violations and the reports.
   std::string summary() const;
   /// One line where the run was interrupted, had no time for a single case, or has lost reports; empty otherwise.

@@ -100,13 +100,20 @@ bool NightTriage::is_regression() const {
 std::string NightTriage::counts_text(bool ours) const {
   std::vector<std::string> parts;
   for (const SignatureChange c : signature_changes) parts.push_back(fmt::format("{} {}", count(ours, c), name_of(c)));
-  std::string text = fmt::format("{}", fmt::join(parts, ", "));
-  const auto first = std::find_if(triage_.signatures.begin(), triage_.signatures.end(), [&](const auto& s) {
-    return is_ours(s.kind.subject) == ours &&
-           (s.change == SignatureChange::fresh || s.change == SignatureChange::worse);
-  });
-  if (first == triage_.signatures.end()) return text;
-  return fmt::format("{}\n  {}: {}\n    {}", text, name_of(*first->change), first->headline, first->worst);
+  return fmt::format("{}{}", fmt::join(parts, ", "), changed_text(ours));
+}
+
+std::string NightTriage::changed_text(bool ours) const {
+  constexpr std::size_t most = 6;
+  std::string text;
+  std::size_t seen = 0;
+  for (const TriagedSignature& s : triage_.signatures) {
+    const bool is_changed = s.change == SignatureChange::fresh || s.change == SignatureChange::worse;
+    if (is_ours(s.kind.subject) != ours || !is_changed || ++seen > most) continue;
+    text += fmt::format("\n  {}: {}", name_of(*s.change), s.headline);
+    if (ours) text += fmt::format("\n    {}", s.worst);
+  }
+  return seen > most ? fmt::format("{}\n  and {} more", text, seen - most) : text;
 }
 
 std::string NightTriage::text() const {

@@ -24,8 +24,8 @@ class NightTriage {
 
   /// True where a subject whose night it is has a new or a worse signature.
   bool is_regression() const;
-  /// Two lines, for the subjects whose night it is and for the others: how many signatures are new, worse, known and
-  /// fixed; each with the most severe of the new or worse ones. A third line names the page.
+  /// For the subjects whose night it is and for the others: how many signatures are new, worse, known and fixed, then the
+  /// most severe of the new and worse ones, a few lines. The last line names the page.
   std::string text() const;
   /// The counts and the files, relative to the folder: "triage" in reports/run.schema.json.
   nlohmann::ordered_json to_json() const;
@@ -37,6 +37,7 @@ class NightTriage {
   void write_page(const Settings& settings, Workers& workers);
   std::size_t count(bool ours, SignatureChange change) const;
   std::string counts_text(bool ours) const;
+  std::string changed_text(bool ours) const;
 
   std::filesystem::path folder_;
   bool compared_ = false;  ///< with a last night

@@ -151,8 +151,8 @@ TEST(EmitTest, CollideLinksItsLibrary) {
   }
 }
 
-/// A plugin's test is in C and is linked with the plugin's sources: it fails with a mistake, and passes without it,
-/// also where the plugin gives fewer members than the query has.
+/// A plugin's test is in C and links the plugin. With the plugin's sources in its place it fails with a mistake, and
+/// passes without it, also where the plugin gives fewer members than the query has.
 TEST(EmitTest, PluginFailsAndPassesAsSaid) {
   const TemporaryFolder folder;
   const fs::path example = fs::path(source_folder()) / "docs/example-library";
@@ -169,15 +169,29 @@ TEST(EmitTest, PluginFailsAndPassesAsSaid) {
         nearmiss({"emit-test", "--plugin", plugin_file("skim_plugin"), "--for", "skim", report.string()});
     ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
     std::string text = emitted.out;
-    const std::size_t source = text.find("plugin.c");
-    ASSERT_NE(source, std::string::npos);
-    text.replace(source, 8, (example / "plugin.c").string() + " " + (example / "skim.c").string());
+    const std::string library = plugin_file("skim_plugin");
+    const std::size_t linked = text.find(library + " -lm");
+    ASSERT_NE(linked, std::string::npos) << text;
+    text.replace(linked, library.size(), (example / "plugin.c").string() + " " + (example / "skim.c").string());
     const Ran wrong = compiled_and_run(folder, "plugin", text, "c", flags);
     EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
     EXPECT_NE(wrong.out.find(fault), std::string::npos) << wrong.out;
     const Ran mended = compiled_and_run(folder, "plugin", text, "c", flags + " -DSKIM_MENDED");
     EXPECT_EQ(mended.exit_code, 0) << text << mended.out << mended.err;
   }
+}
+
+TEST(EmitTest, ItsCommandLineNamesFilesThatExist) {
+  const TemporaryFolder folder;
+  const std::string ball =
+      folder.file("ball.json", R"({"query": "moving_point_sphere", "scalar": "float", "inputs": {"point": [-3, 0, 0],
+      "velocity": [1, 0, 0], "sphere": {"center": [0, 0, 0], "radius": 1}, "solid": true}})");
+  const std::string bug = (folder / "a bug.c").string();
+  const Ran emitted =
+      nearmiss({"emit-test", "--plugin", plugin_file("skim_plugin"), "--for", "skim", ball, "--out", bug});
+  ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
+  const std::string text = read_file(bug);
+  EXPECT_NE(text.find("cc '" + bug + "' " + plugin_file("skim_plugin") + " -lm\n"), std::string::npos) << text;
 }
 
 TEST(EmitTest, RefusesInOneLine) {

@@ -276,6 +276,10 @@ TEST(Nightly, EndsWithATriageAgainstTheLastNightAndAPage) {
   EXPECT_EQ(first.exit_code, 1) << first.out << first.err;
   EXPECT_EQ(changes_of_planted(), std::set<std::string>{"new"}) << first.out;
   EXPECT_NE(first.out.find("no earlier night to compare with\n"), std::string::npos) << first.out;
+  constexpr std::ptrdiff_t lines_of_a_screen = 60;
+  EXPECT_LT(std::count(first.out.begin(), first.out.end(), '\n'), lines_of_a_screen) << first.out;
+  const std::string tables = read_file(folder / "r/tables.txt");
+  EXPECT_NE(tables.find("\nsphere_sphere_overlap\n"), std::string::npos) << tables;
   const Ran second = night();
   EXPECT_LE(second.exit_code, 1) << second.err;
   EXPECT_TRUE(changes_of_planted().contains("known")) << second.out;

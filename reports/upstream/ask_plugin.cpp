@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "reports/findings/encoded.hpp"
 #include "reports/upstream/asking.hpp"
 
 namespace nearmiss {
@@ -20,7 +21,7 @@ static nearmiss_answer_function function_for(const char* query) {
 }  // namespace
 }  // namespace plugin_text
 
-Asking ask_plugin(const Case& question, const Subject&) {
+Asking ask_plugin(const Case& question, const Subject& subject) {
   using namespace plugin_text;
   const Query& query = *question.query;
   std::string inputs;
@@ -52,7 +53,7 @@ Asking ask_plugin(const Case& question, const Subject&) {
                                        variable_of(query.member_name(m)), index, i);
     }
   }
-  asking.build = "cc test.c plugin.c -lm";
+  asking.build = fmt::format("cc test.c {} -lm", shell_quoted(subject.plugin));
   return asking;
 }
 

@@ -226,7 +226,8 @@ int main(int argc, char** argv) {
     return (in_c_ ? "/*\n" : "") + paragraph(headline(r_) + ".") + empty + paragraph(explanation(r_)) +
            paragraph(allowance_text(r_, right_) + ".") + empty +
            paragraph(fmt::format("Seen with {} ({}). Build:", r_.version, r_.subject)) + (in_c_ ? " *   " : "//   ") +
-           asking_.build + "\n" + paragraph(fmt::format("Written by Nearmiss {}.", version())) + (in_c_ ? " */\n" : "");
+           in_c_comment(asking_.build) + "\n" + paragraph(fmt::format("Written by Nearmiss {}.", version())) +
+           (in_c_ ? " */\n" : "");
   }
   std::string includes() const {
     std::string text = asking_.includes + "\n";
@@ -285,18 +286,19 @@ std::string allowance_text(const Report& r, const RightAnswers& right) {
       right.narrowed ? ". The tolerances are narrower than that, because the numbers are wrong only together" : "");
 }
 
-EmittedTest emit_test(const Report& r, const Subject& subject) {
+EmittedTest emit_test(const Report& r, const Subject& subject, const std::string& file) {
   if (r.finding.verdict == Verdict::cannot_answer || r.finding.verdict == Verdict::not_asked)
     throw BadInput(fmt::format("{} has no answer to this case: {}", subject.name, r.finding.clause));
-  const Asking asking = asking_for(r, subject);
+  Asking asking = asking_for(r, subject);
+  const std::string extension = asking.style == Asking::Style::c ? "c" : "cpp", usual = "test." + extension;
+  if (!file.empty()) asking.build.replace(asking.build.find(usual), usual.size(), shell_quoted(file));
   const std::vector<std::size_t> declared = declared_members(r, asking), compared = compared_members(r, asking);
   const RightAnswers right = right_answers(r.question, r.answer, r.finding, r.standard, r.truth, compared);
   if (accepts(right, *r.question.query, r.answer) == is_bad(r.finding)) {
     throw BadInput(
         fmt::format("{}: its answer is neither proved to be wrong nor one of the right answers", subject.name));
   }
-  return {Emitter(r, asking, right, declared, compared).text(), asking.style == Asking::Style::c ? "c" : "cpp",
-          asking.build};
+  return {Emitter(r, asking, right, declared, compared).text(), extension, asking.build};
 }
 
 }  // namespace nearmiss

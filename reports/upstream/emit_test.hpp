@@ -11,13 +11,15 @@ namespace nearmiss {
 struct EmittedTest {
   std::string text;
   std::string extension;  ///< "cpp" or "c"
-  std::string build;      ///< the compiler's command line for the file "test.cpp" or "test.c"
+  std::string build;      ///< the compiler's command line
 };
 
 /// The test asks the library in the same way as its adapter. It fails where a finding is proved against the report's
 /// answer, and passes with a right answer. Throws BadInput where the subject cannot be asked outside of Nearmiss, or
 /// where its answer is no finding and no right answer either.
-EmittedTest emit_test(const Report& r, const Subject& subject);
+///
+/// `file` is the name of the test in the compiler's command line; empty: "test.cpp" or "test.c".
+EmittedTest emit_test(const Report& r, const Subject& subject, const std::string& file = "");
 
 /// "within 1e-4 of the largest number in its group (…)": what the test of the report allows, in words.
 std::string allowance_text(const Report& r, const RightAnswers& right);

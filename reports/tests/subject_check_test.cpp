@@ -1,0 +1,167 @@
+/// The check of a new subject: adapters that take one input or answer for another, and what is said about each.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "impl/catalogue/roles.hpp"
+#include "impl/subject/provenance.hpp"
+#include "reports/tests/program.hpp"
+#include "reports/triage/examination/subject_check.hpp"
+
+namespace nearmiss {
+namespace {
+
+using Values = std::span<const double>;
+
+const Query& sphere_box() { return *find_query("moving_sphere_box"); }
+
+Answer right(Values values) {
+  static const Subject certified = [] {
+    for (const Subject& own : own_subjects_in_process()) {
+      if (own.name == "collide-certified-double") return own;
+    }
+    throw std::logic_error("no certified tier");
+  }();
+  return certified.offering(sphere_box().name).answer(values);
+}
+
+CheckedQuery check(Answer (*answer)(Values)) {
+  Subject s{.name = "planted", .version = "1", .scalar = Scalar::float64, .offerings = {}};
+  s.offerings.push_back({std::string(sphere_box().name), Offer::answers, "", {.backward = 0x1p20}, answer, {}});
+  Workers workers;
+  return check_query(sphere_box(), s, workers);
+}
+
+std::vector<std::string_view> names_of(const CheckedQuery& c) {
+  std::vector<std::string_view> names;
+  if (c.misreading) {
+    for (const Reading* r : c.misreading->readings) names.push_back(r->name);
+  }
+  return names;
+}
+
+using Names = std::vector<std::string_view>;
+
+std::vector<double> with_halved_extents(Values given) {
+  std::vector<double> values(given.begin(), given.end());
+  for (const Operand& o : sphere_box().operands) {
+    for (std::size_t k = 0; o.half && k < 3; ++k) values[*o.half + k] /= 2;
+  }
+  return values;
+}
+
+Answer with_reversed_normal(Answer a) {
+  for (const Layout::Part& p : sphere_box().layout.parts) {
+    for (std::size_t i = p.begin; p.role == Role::normal && i < p.end; ++i) a.values[i] = -a.values[i];
+  }
+  return a;
+}
+
+Answer of_full_extents(Values values) { return right(with_halved_extents(values)); }
+
+TEST(SubjectCheck, TellsFullExtentsFromHalfExtents) {
+  const CheckedQuery c = check(of_full_extents);
+  EXPECT_GT(c.wrong, 10u);
+  EXPECT_TRUE(c.is_explained());
+  EXPECT_EQ(names_of(c), Names{"half extents halved"});
+  const std::string text = checked_text(c, Scalar::float64);
+  EXPECT_NE(text.find("right if the given half extents are full extents."), std::string::npos) << text;
+  EXPECT_NE(text.find("For example"), std::string::npos) << text;
+}
+
+Answer of_a_quaternion_that_begins_with_w(Values given) {
+  std::vector<double> values(given.begin(), given.end());
+  const std::size_t q = sphere_box().operands.quaternions[0];
+  for (std::size_t k = 0; k < 4; ++k) values[q + k] = given[q + (k + 1) % 4];
+  return right(values);
+}
+
+TEST(SubjectCheck, TellsTheOrderOfAQuaternion) {
+  const CheckedQuery c = check(of_a_quaternion_that_begins_with_w);
+  EXPECT_TRUE(c.is_explained()) << checked_text(c, Scalar::float64);
+  EXPECT_EQ(names_of(c), Names{"quaternion begins with w"});
+}
+
+Answer of_distances(Values values) {
+  Answer a = right(values);
+  const std::size_t v = sphere_box().operands.velocities[0], time = *index_of_role(sphere_box().outputs, Role::time);
+  if (a.yes) a.values[time] *= std::hypot(values[v], values[v + 1], values[v + 2]);
+  return a;
+}
+
+TEST(SubjectCheck, TellsADistanceFromATime) {
+  const CheckedQuery c = check(of_distances);
+  EXPECT_TRUE(c.is_explained()) << checked_text(c, Scalar::float64);
+  EXPECT_EQ(names_of(c), Names{"distance in place of time"});
+}
+
+Answer of_two_meanings(Values values) { return with_reversed_normal(right(with_halved_extents(values))); }
+
+TEST(SubjectCheck, TellsTwoMeaningsTogether) {
+  const CheckedQuery c = check(of_two_meanings);
+  EXPECT_TRUE(c.is_explained()) << checked_text(c, Scalar::float64);
+  const Names names = names_of(c);
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_NE(std::find(names.begin(), names.end(), "half extents halved"), names.end());
+  EXPECT_NE(std::find(names.begin(), names.end(), "normal reversed"), names.end());
+}
+
+Answer always_a_miss(Values) {
+  Answer a;
+  a.yes = false;
+  return a;
+}
+
+/// Without sizes, or with the velocity reversed, nearly everything is a miss.
+TEST(SubjectCheck, ExplainsNothingByAMeaningThatMissesNearlyEverything) {
+  const CheckedQuery c = check(always_a_miss);
+  EXPECT_GT(c.wrong, 10u);
+  EXPECT_FALSE(c.misreading) << checked_text(c, Scalar::float64);
+}
+
+Answer half_of_the_time_wrong(Values values) {
+  Answer a = right(values);
+  if (std::fmod(std::abs(values[0]) * 64, 2) < 1) a.yes = !a.yes;
+  return a;
+}
+
+TEST(SubjectCheck, SaysWhatIsUnexplained) {
+  const CheckedQuery c = check(half_of_the_time_wrong);
+  EXPECT_GT(c.wrong, 10u);
+  EXPECT_FALSE(c.is_explained());
+  const std::string text = checked_text(c, Scalar::float64);
+  EXPECT_TRUE(text.find("No other meaning") != std::string::npos || text.find("Nothing explains") != std::string::npos)
+      << text;
+}
+
+Answer throws(Values) { throw std::runtime_error("no boxes today"); }
+
+TEST(SubjectCheck, CountsWhatBroke) {
+  const CheckedQuery c = check(throws);
+  EXPECT_EQ(c.broke, c.asked);
+  EXPECT_EQ(c.wrong, 0u);
+  EXPECT_FALSE(c.is_fine());
+  EXPECT_NE(checked_text(c, Scalar::float64).find("no boxes today"), std::string::npos);
+}
+
+TEST(SubjectCheck, FindsNothingInARightSubject) {
+  const CheckedQuery c = check(right);
+  EXPECT_GT(c.asked, 64u);  // with the seeds
+  EXPECT_EQ(c.right, c.asked);
+  EXPECT_TRUE(c.is_fine());
+  EXPECT_FALSE(c.misreading);
+}
+
+TEST(SubjectCheck, IsACommand) {
+  const Ran fine = nearmiss({"check-subject", "--subject", "collide-certified-double", "--query", "moving_sphere_box"});
+  EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  EXPECT_EQ(fine.out, "collide-certified-double: 1 of 1 query answered without a mistake\n");
+  const Ran json = nearmiss({"check-subject", "--json", "--plugin", plugin_file("skim_plugin"), "--subject", "skim"});
+  EXPECT_EQ(json.exit_code, 1) << json.err;
+  const nlohmann::json skim = nlohmann::json::parse(json.out).at("subjects").at("skim");
+  EXPECT_EQ(skim.size(), 3u);
+}
+
+}  // namespace
+}  // namespace nearmiss
