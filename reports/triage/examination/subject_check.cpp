@@ -8,6 +8,7 @@
 #include "corpus/storage/store.hpp"
 #include "impl/subject/printable.hpp"
 #include "oracles/confirmed.hpp"
+#include "oracles/exact_decision.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
@@ -94,16 +95,22 @@ class SubjectCheck {
     }
   }
 
-  /// Whether the answer is right under the readings; empty where none of them makes a difference.
+  /// Whether the answer is right under the readings; empty where none of them makes a difference. Two readings together
+  /// must judge every number that the answer gives: one that leaves some out explains more by chance.
   std::optional<bool> fits(std::span<const Reading* const> all, const Case& c, const Answer& a) const {
     const auto judged = [this](const Case& other, const Answer& given) { return is_right(other, given); };
     if (all.size() == 1) return all[0]->right(c, a, judged);
-    const auto rest = all.subspan(1);
-    const auto read_on = [&](const Case& other, const Answer& given) {
-      return fits(rest, other, given).value_or(is_right(other, given));
+    bool is_judged = false;
+    const auto in_full = [&](const Case& other, const Answer& given) {
+      is_judged = given.given == a.given;
+      return is_judged && is_right(other, given);
     };
-    const std::optional<bool> first = all[0]->right(c, a, read_on);
-    return first ? first : fits(rest, c, a);
+    const auto read_on = [&](const Case& other, const Answer& given) {
+      return all[1]->right(other, given, in_full).value_or(in_full(other, given));
+    };
+    std::optional<bool> fit = all[0]->right(c, a, read_on);
+    if (!fit) fit = all[1]->right(c, a, in_full);
+    return fit ? std::optional(*fit && is_judged) : fit;
   }
   using Together = std::vector<const Reading*>;
 
@@ -129,13 +136,22 @@ class SubjectCheck {
   /// nearly all for which they make a difference.
   void try_together(Together all, Misreading& best) const {
     std::size_t explained = 0, affected = 0;
+    const bool decide = are_about_decisions(all);
     for (const Ordinary* o : wrong_) {
+      if (decide && o->answer.yes == exact_decision(o->question)) continue;  // its numbers are wrong
       const std::optional<bool> fit = fits(all, o->question, o->answer);
       affected += fit.has_value(), explained += fit.value_or(false);
     }
-    if (!nearly_all(explained, are_about_decisions(all) ? affected : wrong_.size())) return;
+    if (!is_enough(all, explained, affected)) return;
     if (explained <= best.explained || spoil_a_right_answer(all) || !is_seen_in_a_yes(all)) return;
     best = {std::move(all), explained};
+  }
+  /// A decision without numbers is right by chance in half of the cases.
+  bool is_enough(const Together& all, std::size_t explained, std::size_t affected) const {
+    constexpr std::size_t least_of_decisions = 8;
+    if (are_about_decisions(all)) return nearly_all(explained, affected);
+    if (query_.kind != Kind::decision) return nearly_all(explained, wrong_.size());
+    return explained == wrong_.size() && explained >= least_of_decisions;
   }
   /// Two meanings that are taken for others make most answers wrong.
   bool is_mostly_wrong() const {
