@@ -42,6 +42,7 @@ constexpr Room rooms[] = {
     {"oracles/algorithms", 5},
     {"oracles", 6},
     {"corpus/files", 7},
+    {"corpus/field-causes", 7},
     {"corpus/generator", 7},
     {"corpus/storage", 8},
     {"corpus/importers", 9},

@@ -53,7 +53,7 @@ load("cannon-es").then(({ version, library: C }) => {
   const deepest = (all) => all.reduce((best, c) => (best && best.depth >= c.depth ? best : c), null);
   function depth(method, a, b, more) {
     const c = deepest(contacts(method, a, b));
-    if (!c || !(c.depth >= 0)) return { yes: false, values: [c ? c.depth : -1, ...Array(more + 3).fill("none")] };
+    if (!c || !(c.depth >= 0)) return { yes: false, values: Array(more + 4).fill("none") };
     return { yes: true, values: [c.depth, ...c.normal, ...Array(more).fill(null)], contact: c };
   }
 

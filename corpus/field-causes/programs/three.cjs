@@ -1,8 +1,11 @@
 // three: Ray, Box3, OBB, Line3 and Triangle of its math, and Octree of its examples.
 const { load, speak, length, scaled, unit } = require("./speak.cjs");
 
-Promise.all([load("three", "build/three.module.js"), load("three", "examples/jsm/math/OBB.js"), load("three", "examples/jsm/math/Octree.js")])
-  .then(([{ version, library: T }, { library: { OBB } }, { library: { Octree } }]) => {
+const name = process.argv[3] || "three";  // of the package, and of the subject
+
+Promise.all([load(name, "build/three.module.js"), load(name, "examples/jsm/math/OBB.js"), load(name, "examples/jsm/math/Octree.js"),
+  load(name, "examples/jsm/math/Capsule.js")])
+  .then(([{ version, library: T }, { library: { OBB } }, { library: { Octree } }, { library: { Capsule } }]) => {
     const vec = (v) => new T.Vector3(...v);
     const list = (v) => [v.x, v.y, v.z];
     const sphere = (v) => new T.Sphere(vec(v), v[3]);
@@ -42,6 +45,12 @@ Promise.all([load("three", "build/three.module.js"), load("three", "examples/jsm
       box_box_overlap: (v) => ({ yes: obb(v).intersectsOBB(obb(v.slice(10))), values: [null] }),
       sphere_triangle_overlap: (v) => ({ yes: !!new Octree().triangleSphereIntersect(sphere(v), triangle(v.slice(4))) }),
       aabox_triangle_overlap: (v) => ({ yes: box3(v).intersectsTriangle(triangle(v.slice(6))) }),
+      moving_sphere_passes_box: (v) => {  // of an axis-aligned box, with the sphere's way as a capsule
+        if (v[13] || v[14] || v[15] || v[18]) return { cannot: "a turned box, or a way without end" };
+        const way = new Capsule(vec(v), vec([v[0] + v[4] * v[17], v[1] + v[5] * v[17], v[2] + v[6] * v[17]]), v[3]);
+        const low = [v[7] - v[10], v[8] - v[11], v[9] - v[12]], high = [v[7] + v[10], v[8] + v[11], v[9] + v[12]];
+        return { yes: way.intersectsBox(box3([...low, ...high])) };
+      },
       closest_point_segment: (v) => ({ values: list(new T.Line3(vec(v), vec(v.slice(3, 6))).closestPointToPoint(vec(v.slice(6)), true, new T.Vector3())) }),
       point_in_triangle: (v) => {
         const t = triangle(v), p = vec(v.slice(13, 16)), weights = t.getBarycoord(p, new T.Vector3());
@@ -49,7 +58,7 @@ Promise.all([load("three", "build/three.module.js"), load("three", "examples/jsm
       },
     };
     const impacts = ["time", "location"];
-    speak({ name: "three", version: `three ${version}`, scalar: "double" }, {
+    speak({ name, version: `three ${version}`, scalar: "double" }, {
       moving_point_sphere: impacts, moving_point_plane: impacts, moving_point_triangle: impacts, moving_point_box: impacts,
       moving_point_aabox: impacts, ray_aabox: ["location"], box_box_overlap: [],
     }, functions);

@@ -1,0 +1,127 @@
+/// Wild Magic 5 as a plugin: rays, static and moving spheres, and lines, by the Find() of its Intersection and Distance
+/// classes, in double.
+#include <Wm5DistLine3Line3.h>
+#include <Wm5IntrBox3Sphere3.h>
+#include <Wm5IntrRay3Box3.h>
+#include <Wm5IntrRay3Capsule3.h>
+#include <Wm5IntrRay3Sphere3.h>
+#include <Wm5IntrRay3Triangle3.h>
+#include <Wm5IntrSphere3Sphere3.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "nearmiss_plugin.h"
+
+namespace {
+
+using Vector = Wm5::Vector3<double>;
+
+constexpr uint64_t time_alone = 1, time_and_place = 15;
+
+Vector vector(const double* p) { return {p[0], p[1], p[2]}; }
+Wm5::Sphere3<double> sphere(const double* p) { return {vector(p), p[3]}; }
+/// Center, half extents, quaternion x y z w.
+Wm5::Box3<double> box(const double* p) {
+  const double n = std::sqrt(p[6] * p[6] + p[7] * p[7] + p[8] * p[8] + p[9] * p[9]);
+  const double x = p[6] / n, y = p[7] / n, z = p[8] / n, w = p[9] / n;
+  return {vector(p),
+          {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+          {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+          {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)},
+          p[3],
+          p[4],
+          p[5]};
+}
+
+int cannot(nearmiss_answer* answer, const char* why) {
+  std::strcpy(answer->why, why);
+  return NEARMISS_CANNOT_ANSWER;
+}
+int miss(nearmiss_answer* answer) {
+  answer->yes = 0;
+  return NEARMISS_ANSWERED;
+}
+int hit(nearmiss_answer* answer, double time, const Vector* place) {
+  answer->yes = 1;
+  answer->given = place ? time_and_place : time_alone;
+  answer->values[0] = time;
+  for (int i = 0; place && i < 3; ++i) answer->values[1 + i] = (*place)[i];
+  return NEARMISS_ANSWERED;
+}
+/// The first point of a class of intersection of a ray with a shape.
+template <class Intersection, class Shape>
+int ray(const double* in, const Shape& shape, nearmiss_answer* answer) {
+  const double speed = std::hypot(in[3], in[4], in[5]);
+  if (!(speed > 0)) return cannot(answer, "a ray has a direction");
+  const Wm5::Ray3<double> r(vector(in), vector(in + 3) / speed);
+  Intersection i(r, shape);
+  if (!i.Find()) return miss(answer);
+  const Vector place = i.GetPoint(0);
+  return hit(answer, (place - r.Origin).Length() / speed, &place);
+}
+
+int moving_point_sphere(const double* in, nearmiss_answer* answer) {
+  return ray<Wm5::IntrRay3Sphere3<double>>(in, sphere(in + 6), answer);
+}
+int moving_point_box(const double* in, nearmiss_answer* answer) {
+  return ray<Wm5::IntrRay3Box3<double>>(in, box(in + 6), answer);
+}
+int moving_point_capsule(const double* in, nearmiss_answer* answer) {
+  const Wm5::Segment3<double> axis(vector(in + 6), vector(in + 9));
+  return ray<Wm5::IntrRay3Capsule3<double>>(in, Wm5::Capsule3<double>(axis, in[12]), answer);
+}
+int moving_point_triangle(const double* in, nearmiss_answer* answer) {
+  const double speed = std::hypot(in[3], in[4], in[5]);
+  if (!(speed > 0)) return cannot(answer, "a ray has a direction");
+  const Wm5::Ray3<double> r(vector(in), vector(in + 3) / speed);
+  const Wm5::Triangle3<double> t(vector(in + 6), vector(in + 9), vector(in + 12));
+  Wm5::IntrRay3Triangle3<double> i(r, t);
+  return i.Find() ? hit(answer, i.GetRayParameter() / speed, nullptr) : miss(answer);
+}
+template <class Intersection>
+int moved(Intersection i, const double* velocity, bool sphere_is_first, nearmiss_answer* answer) {
+  const Vector still(0, 0, 0), v = vector(velocity);
+  const double ever = std::numeric_limits<double>::max();
+  if (!i.Find(ever, sphere_is_first ? v : still, sphere_is_first ? still : v)) return miss(answer);
+  const Vector place = i.GetContactPoint();
+  return i.GetContactTime() > 0 ? hit(answer, i.GetContactTime(), &place) : hit(answer, 0, nullptr);
+}
+int moving_sphere_sphere(const double* in, nearmiss_answer* answer) {
+  const Wm5::Sphere3<double> moving = sphere(in), fixed = sphere(in + 7);
+  return moved(Wm5::IntrSphere3Sphere3<double>(moving, fixed), in + 4, true, answer);
+}
+int moving_sphere_box(const double* in, nearmiss_answer* answer) {
+  const Wm5::Sphere3<double> moving = sphere(in);
+  const Wm5::Box3<double> fixed = box(in + 7);
+  return moved(Wm5::IntrBox3Sphere3<double>(fixed, moving), in + 4, false, answer);
+}
+int closest_points_lines(const double* in, nearmiss_answer* answer) {
+  const double l1 = std::hypot(in[3], in[4], in[5]), l2 = std::hypot(in[9], in[10], in[11]);
+  const Wm5::Line3<double> a(vector(in), vector(in + 3) / l1), b(vector(in + 6), vector(in + 9) / l2);
+  Wm5::DistLine3Line3<double> distance(a, b);
+  distance.GetSquared();
+  answer->yes = 1;
+  for (int i = 0; i < 3; ++i) {
+    answer->values[i] = distance.GetClosestPoint0()[i];
+    answer->values[3 + i] = distance.GetClosestPoint1()[i];
+  }
+  return NEARMISS_ANSWERED;
+}
+
+const nearmiss_offer offers[] = {
+    {"moving_point_sphere", 11, 7, nullptr, nullptr, moving_point_sphere, 0},
+    {"moving_point_box", 16, 7, nullptr, nullptr, moving_point_box, 0},
+    {"moving_point_capsule", 13, 7, nullptr, nullptr, moving_point_capsule, 0},
+    {"moving_point_triangle", 15, 7, nullptr, nullptr, moving_point_triangle, 0},
+    {"moving_sphere_sphere", 11, 7, nullptr, nullptr, moving_sphere_sphere, 0},
+    {"moving_sphere_box", 17, 7, nullptr, nullptr, moving_sphere_box, 0},
+    {"closest_points_lines", 12, 6, nullptr, nullptr, closest_points_lines, 0},
+};
+const nearmiss_plugin wild_magic = {NEARMISS_PLUGIN_VERSION,        "wild-magic", "Wild Magic 5.17", NEARMISS_DOUBLE,
+                                    sizeof offers / sizeof *offers, offers};
+
+}  // namespace
+
+extern "C" const nearmiss_plugin* nearmiss_plugin_entry(void) { return &wild_magic; }
