@@ -20,6 +20,11 @@ int answer_by(typename Q::Answer (*mistake)(Q), const double* numbers, nearmiss_
 
 namespace {
 
+template <class Q>
+int answer_right(const double* numbers, nearmiss_answer* to) {
+  return answer_by<Q>([](Q q) { return right(q); }, numbers, to);
+}
+
 template <class S>
 int count_of_leaves() {
   S s{};
@@ -46,5 +51,13 @@ nearmiss_offer offer(const char* query, nearmiss_answer_function answer) {
   template nearmiss_offer offer<inputs::query<double>>(const char*, nearmiss_answer_function);
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
+
+nearmiss_answer_function right_answer_to(std::string_view query) {
+#define NEARMISS_QUERY(name) \
+  if (query == #name) return answer_right<inputs::name<double>>;
+#include "impl/catalogue/catalogue.def"
+#undef NEARMISS_QUERY
+  return nullptr;
+}
 
 }  // namespace nearmiss::planted

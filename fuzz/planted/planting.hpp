@@ -195,6 +195,9 @@ inline Wide wide_local(const collide::Box<double>& box, const Wide& p) {
 template <class Q>
 int answer_by(typename Q::Answer (*mistake)(Q), const double* numbers, nearmiss_answer* to);
 
+/// Answers a case of this query right.
+nearmiss_answer_function right_answer_to(std::string_view query);
+
 /// Promises what the tier Accurate of collide promises.
 template <class Q>
 nearmiss_offer offer(const char* query, nearmiss_answer_function answer);

@@ -30,14 +30,16 @@ class TriageCommand : public Command {
         "group findings into bugs, with their causes, and compare them with a baseline",
         {"SOURCE is a run folder, a folder of reports or run folders, or a report. Every report's subject is asked "
          "again. Of each kind of finding a few reports are minimised, and their causes are looked for by asking the "
-         "subject changed cases. Findings of the same query, subject, fault, cause, branch of the exact algorithm "
-         "and regions of the inputs have one signature: one row, with its number, its worst and its simplest case. "
-         "Rows are in the order of severity; docs/triage.md has the formula. Files that are no reports of this "
+         "subject changed cases. Findings that are probably one bug have one signature: one row, with its number, its "
+         "worst and its simplest case. Rows are in the order of severity; docs/triage.md has the formula. Findings "
+         "that vanish where the same scene is asked at ordinary magnitude are one row for each query, the last ones; "
+         "they do not change the exit status. Files that are no reports of this "
          "version are named on standard error and skipped.",
          "The result is written to FOLDER/triage.json, and the simplest cases to FOLDER/simplest/. What was "
          "examined is kept there, so that the same command goes on where an earlier one ended.",
-         "With --baseline, rows are new, worse (at least twice the proved size), known, or fixed: the subject, asked "
-         "the cases of the baseline again, is right. A line 'ID accepted|upstream|reported URL|fixed VERSION "
+         "With --baseline, rows are new or worse (proved by the numbers of findings and cases of both runs, or by the "
+         "same cases), known, unproved (too rare to be proved new), or fixed: the subject, asked the cases of the "
+         "baseline again, is right. A line 'ID accepted|upstream|reported URL|fixed VERSION "
          "[at N %]  # why' in the file of --decisions takes a row out of the exit status until its proved size is "
          "at least twice N % of the scene, or until it is found in that version."},
         {{"0", "Nothing is new or worse, or decisions about it hold."},
@@ -58,6 +60,9 @@ class TriageCommand : public Command {
     app.add_option("--decisions", decisions_, "The file of what was decided about signatures")->type_name("FILE");
     add_positive_number(app, "--minutes", minutes_, "The most time to examine findings. Default: 5", "M", 1e5);
     add_whole_number(app, "--rows", rows_, "How many rows are printed. Default: 8", 0, 1'000'000);
+    app.add_flag("--ordinary", ordinary_, "Leave out findings that vanish at ordinary magnitude");
+    app.add_flag("--all-magnitudes", all_magnitudes_, "Let these findings change the exit status, too")
+        ->excludes("--ordinary");
     add_output_folder(app, out_, "The folder. Default: SOURCE/triage of the first folder");
     app.add_option("--json", json_, "Also write the result to this file as JSON")->type_name("FILE");
     app.add_option("--sarif", sarif_, "Also write it as SARIF 2.1.0")->type_name("FILE");
@@ -77,8 +82,11 @@ class TriageCommand : public Command {
                                     progress_.set_activity(what);
                                     progress_.show(done, of, std::nullopt, std::nullopt);
                                   }};
+    std::optional<Baseline> before;
+    if (!baseline_.empty()) before = read_baseline(baseline_, settings, workers_);
     Triage t = triage(sources, settings, workers_);
-    if (!baseline_.empty() && !interrupted()) compare(settings, t);
+    if (before && !interrupted()) compare(*before, settings, t);
+    choose_magnitudes(t);
     for (const std::string& id : apply(decisions, t)) {
       say_on_stderr(fmt::format("nearmiss: {}: no signature has the id {}\n", decisions_, id));
     }
@@ -108,8 +116,15 @@ class TriageCommand : public Command {
       if (!file.empty()) check_can_write(file);
     }
   }
-  void compare(const TriageSettings& settings, Triage& t) {
-    const std::vector<std::string> unasked = compare_with(read_baseline(baseline_, settings, workers_), t, workers_);
+  void choose_magnitudes(Triage& t) const {
+    for (TriagedSignature& s : t.signatures) {
+      if (s.range) s.may_stand = all_magnitudes_;
+      if (s.range && ordinary_) t.left_out += s.findings;
+    }
+    if (ordinary_) std::erase_if(t.signatures, [](const TriagedSignature& s) { return s.range.has_value(); });
+  }
+  void compare(const Baseline& before, const TriageSettings& settings, Triage& t) {
+    const std::vector<std::string> unasked = compare_with(before, t, settings, workers_);
     for (const std::string& subject : unasked) {
       say_on_stderr(
           fmt::format("nearmiss: {}: findings of {} are left out, which cannot be asked here\n", baseline_, subject));
@@ -126,6 +141,7 @@ class TriageCommand : public Command {
 
   std::vector<std::string> sources_;
   std::string baseline_, decisions_, out_, json_, sarif_, junit_;
+  bool ordinary_ = false, all_magnitudes_ = false;
   std::optional<double> minutes_;
   std::optional<std::uint64_t> rows_;
   Workers workers_{[] { return !interrupted(); }};

@@ -17,7 +17,7 @@ void VariantCounts::count(const Tally& tally, const Examined& e, const Variant& 
     if (broke) kind.words.clause = std::get<KindKey>(at->first).breakage;
   }
   const bool is_known = kind.variants.contains(variant) || kind.variants.size() < most_variants;
-  Count& c = kind.variants[is_known ? variant : Variant{0, {}, variant.ordinary}];
+  Count& c = kind.variants[is_known ? variant : Variant{0, variant.regions, variant.ordinary}];
   ++c.findings;
   c.kept += kept;
 }

@@ -19,7 +19,7 @@ class VariantCounts {
     std::uint64_t findings = 0;
     std::uint64_t kept = 0;  ///< that became reports
   };
-  /// After the first `most_variants` variants of a kind every other one counts as one without branches and regions.
+  /// After the first `most_variants` variants of a kind every other one counts as one without branches.
   static constexpr std::size_t most_variants = 256;
 
   void count(const Tally& tally, const Examined& e, const Variant& variant, bool kept);

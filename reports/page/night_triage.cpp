@@ -28,9 +28,6 @@ using NightClock = std::chrono::steady_clock;
 /// The share of the time for the plots of the page.
 constexpr double plots_share = 0.2;
 
-constexpr SignatureChange signature_changes[] = {SignatureChange::fresh, SignatureChange::worse, SignatureChange::known,
-                                                 SignatureChange::fixed};
-
 fs::path triage_file(const fs::path& folder) { return folder / "triage" / "triage.json"; }
 
 }  // namespace
@@ -55,8 +52,8 @@ NightTriage::NightTriage(const Settings& settings) : folder_(settings.folder) {
 
 void NightTriage::compare(const Settings& settings, const TriageSettings& how, Workers& workers) {
   try {
-    const std::vector<TriagedSignature> before = read_baseline(settings.before->string(), how, workers);
-    for (const std::string& subject : compare_with(before, triage_, workers)) {
+    const Baseline before = read_baseline(settings.before->string(), how, workers);
+    for (const std::string& subject : compare_with(before, triage_, how, workers)) {
       say_on_stderr(fmt::format("nearmiss: {}: findings of {} are left out, which cannot be asked here\n",
                                 settings.before->string(), subject));
     }
@@ -94,12 +91,14 @@ std::size_t NightTriage::count(bool ours, SignatureChange change) const {
 }
 
 bool NightTriage::is_regression() const {
-  return count(true, SignatureChange::fresh) + count(true, SignatureChange::worse) > 0;
+  return std::any_of(triage_.signatures.begin(), triage_.signatures.end(),
+                     [](const auto& s) { return is_ours(s.kind.subject) && s.stands(); });
 }
 
 std::string NightTriage::counts_text(bool ours) const {
   std::vector<std::string> parts;
-  for (const SignatureChange c : signature_changes) parts.push_back(fmt::format("{} {}", count(ours, c), name_of(c)));
+  for (const SignatureChange c : all_signature_changes)
+    parts.push_back(fmt::format("{} {}", count(ours, c), name_of(c)));
   return fmt::format("{}{}", fmt::join(parts, ", "), changed_text(ours));
 }
 
@@ -108,8 +107,7 @@ std::string NightTriage::changed_text(bool ours) const {
   std::string text;
   std::size_t seen = 0;
   for (const TriagedSignature& s : triage_.signatures) {
-    const bool is_changed = s.change == SignatureChange::fresh || s.change == SignatureChange::worse;
-    if (is_ours(s.kind.subject) != ours || !is_changed || ++seen > most) continue;
+    if (is_ours(s.kind.subject) != ours || !s.stands() || ++seen > most) continue;
     text += fmt::format("\n  {}: {}", name_of(*s.change), s.headline);
     if (ours) text += fmt::format("\n    {}", s.worst);
   }
@@ -129,7 +127,7 @@ Json NightTriage::to_json() const {
          {"all_examined", triage_.all_examined}};
   for (const bool ours : {true, false}) {
     Json& side = j[ours ? "ours" : "others"] = Json::object();
-    for (const SignatureChange c : signature_changes) side[std::string(name_of(c))] = count(ours, c);
+    for (const SignatureChange c : all_signature_changes) side[std::string(name_of(c))] = count(ours, c);
   }
   return j;
 }

@@ -114,7 +114,7 @@ nearmiss.table = (() => {
     const button = (value, text) => element("button", {type: "button", "aria-pressed": String(change === value),
       onclick: () => { change = value; changes(); update(); }}, text);
     document.getElementById("changes").replaceChildren(button(null, "all"),
-      ...["new", "worse", "known", "fixed"].filter(n => names.has(n)).map(n => button(n, `${n} ${count(names.get(n))}`)));
+      ...["new", "worse", "known", "unproved", "fixed"].filter(n => names.has(n)).map(n => button(n, `${n} ${count(names.get(n))}`)));
   }
 
   function begin(listener) {

@@ -23,6 +23,8 @@ static int ball_ball(const double* q, nearmiss_answer* answer) {
   if (is_planted('b') && (q[3] == 0 || q[7] == 0)) answer->yes = 0;
   /* c: nor do two balls with the same center, of which none has radius 0 */
   if (is_planted('c') && square == 0 && q[3] > 0 && q[7] > 0) answer->yes = 0;
+  /* o: the range of a float: large balls meet nothing */
+  if (is_planted('o') && reach * reach > 3e38L) answer->yes = 0;
   /* w: always wrong */
   if (is_planted('w')) answer->yes = !answer->yes;
   return NEARMISS_ANSWERED;

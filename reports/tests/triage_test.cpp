@@ -29,10 +29,12 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
 class Triaged : public testing::Test {
  protected:
   static std::vector<std::string> planted(const std::string& mistakes) { return {"NEARMISS_PLANTED=" + mistakes}; }
-  std::string run(const std::string& name, const std::string& mistakes, const std::string& cases = "20000") {
+  std::string run(const std::string& name, const std::string& mistakes, const std::string& cases = "20000",
+                  const std::string& seed = "1") {
     const std::string to = (folder_ / name).string();
-    const Ran ran = nearmiss(
-        {"run", "--plugin", plugin_, "-s", "planted", "--cases", cases, "--seed", "1", "--out", to}, planted(mistakes));
+    const Ran ran =
+        nearmiss({"run", "--plugin", plugin_, "-s", "planted", "--cases", cases, "--seed", seed, "--out", to},
+                 planted(mistakes));
     EXPECT_EQ(ran.exit_code, mistakes.empty() ? 0 : 1) << ran.err;
     return to;
   }
@@ -145,6 +147,86 @@ TEST_F(Triaged, ANewMistakeIsNewAgainstARunThatWasNotTriaged) {
   EXPECT_EQ(signature_in(t, "false-miss", {same_place})["change"], "new") << ran.out;
   EXPECT_EQ(signature_in(t, "false-miss", {zero_size})["change"], "known") << ran.out;
   EXPECT_EQ(triage("b", {before, "--baseline", before}).exit_code, 0);
+}
+
+/// The number of rows with this change.
+std::size_t with_change(const json& result, const std::string& change) {
+  const json& all = result.at("signatures");
+  return std::size_t(std::count_if(all.begin(), all.end(), [&](const json& s) { return s.at("change") == change; }));
+}
+
+TEST_F(Triaged, TheSameMistakesInOtherCasesAreKnownAndOneMoreIsNew) {
+  const std::string before = run("before", "ab", "4000");
+  triage("ab", {before});
+  for (const std::string seed : {"2", "3"}) {
+    const std::string same = run("same" + seed, "ab", "4000", seed), more = run("more" + seed, "abc", "4000", seed);
+    const Ran unchanged = triage("ab", {same, "--baseline", before});
+    EXPECT_EQ(unchanged.exit_code, 0) << unchanged.out;
+    EXPECT_EQ(with_change(result(same), "new") + with_change(result(same), "worse"), 0u) << unchanged.out;
+    const Ran changed = triage("abc", {more, "--baseline", before});
+    EXPECT_EQ(changed.exit_code, 1) << changed.out;
+    const json added = signature_in(result(more), "false-miss", {same_place});
+    EXPECT_EQ(added["change"], "new") << changed.out;
+    EXPECT_NE(added["why"], "");
+    EXPECT_EQ(with_change(result(more), "new"), 1u) << changed.out;
+  }
+}
+
+TEST_F(Triaged, FindingsOfExtremeMagnitudeAreOneRowThatMakesNoBuildRed) {
+  const std::string of = run("r", "o");
+  const Ran ran = triage("o", {of});
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  const json t = result(of);
+  EXPECT_EQ(complaints(t, "triage.schema.json"), "");
+  ASSERT_EQ(t["signatures"].size(), 1u) << ran.out;
+  const json& range = t["signatures"][0]["range"];
+  ASSERT_TRUE(range.is_object()) << ran.out;
+  EXPECT_GT(range["up_from"].get<double>(), 1e18);
+  EXPECT_TRUE(range["down_from"].is_null());
+  EXPECT_EQ(triage("o", {of, "--all-magnitudes"}).exit_code, 1);
+  const Ran ordinary = triage("o", {of, "--ordinary"});
+  EXPECT_EQ(ordinary.exit_code, 0);
+  EXPECT_TRUE(result(of)["signatures"].empty());
+  EXPECT_EQ(result(of)["totals"]["left_out"], t["totals"]["findings"]);
+  const std::string both = run("both", "bo");
+  EXPECT_EQ(triage("bo", {both}).exit_code, 1);
+  const json rows = result(both)["signatures"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_TRUE(rows[0]["range"].is_null());
+  EXPECT_FALSE(rows[1]["range"].is_null()) << "it is the last";
+}
+
+TEST_F(Triaged, TotalsAreThoseOfTheRunAndOfThePage) {
+  const std::string of = run("r", "wbo", "30000");
+  const json index = json::parse(read_file(fs::path(of) / "index.json"));
+  fs::remove(fs::path(of) / index["reports"][0]["file"].get<std::string>());
+  triage("wbo", {of});
+  const json t = result(of);
+  EXPECT_EQ(t["totals"]["findings"], index["findings"]) << "also with a report that is gone";
+  std::uint64_t findings = 0, reports = 0, without = 0;
+  for (const json& s : t["signatures"]) {
+    findings += s["findings"].get<std::uint64_t>(), reports += s["count"].get<std::uint64_t>();
+    without += s["without_report"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(findings, t["totals"]["findings"]);
+  EXPECT_EQ(findings, reports + without);
+  triage("", {of});
+  EXPECT_EQ(result(of)["totals"]["findings_right_now"], index["findings"]);
+}
+
+TEST_F(Triaged, TheSimplestCaseIsOrdinaryWhereTheFindingIs) {
+  const std::string of = run("r", "bR");
+  triage("bR", {of});
+  for (const json& s : result(of)["signatures"]) {
+    for (const auto& [name, value] : s["case"]["inputs"].items()) {
+      for (const json& x : value.is_object() ? value : json::array({value})) {
+        const json& numbers = x.is_array() ? x : json::array({x});
+        for (const json& n : numbers) {
+          if (n.is_number() && n != 0) EXPECT_LE(std::abs(std::log2(std::abs(n.get<double>()))), 10) << s["case"];
+        }
+      }
+    }
+  }
 }
 
 TEST_F(Triaged, ADecisionHoldsUntilTheFindingGetsWorse) {

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 
-#include "oracles/confirmed.hpp"
-#include "oracles/requirements.hpp"
+#include "oracles/scene_limits.hpp"
 #include "reports/engine/interrupt.hpp"
 #include "reports/engine/night_changes.hpp"
 #include "reports/findings/hash.hpp"
-#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/examination/examined_cases.hpp"
+#include "reports/triage/candidates.hpp"
+#include "reports/triage/one_bug.hpp"
 
 namespace nearmiss {
 
@@ -23,94 +21,117 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// How many reports of a kind are minimised at most, and the most time for one of them.
-constexpr std::size_t most_examined = 6;
+/// The most time for the examination of one report.
 constexpr Seconds most_for_one{16};
 
-/// A report whose subject was asked again and still has a finding.
-struct Candidate {
-  const FiledReport* filed = nullptr;
-  Finding finding;  ///< in full
-  Variant variant;
-  ErrorSize size;
-  std::string headline;
-  std::optional<ExaminedCase> examined;
+std::string hash_of(std::initializer_list<std::string_view> words) {
+  Fnv1a fnv;
+  for (const std::string_view word : words) fnv.add(word);
+  return fnv.id();
+}
+
+/// The name of a part without its cause.
+std::string name_of_class(const FindingPart& part) {
+  const FindingClass of = class_of(part.kind, part.regions);
+  return hash_of(
+      {"class", of.query, of.subject, of.fault, of.breakage, fmt::format("{}", fmt::join(part.regions.names(), ","))});
+}
+
+/// The name of a cause that may have several parts; empty for one that is told by the regions.
+std::string name_of_cause(const FindingKind& kind, const Cause& cause) {
+  if (is_shared_by_queries(cause)) return hash_of({"cause", kind.subject, name_of(cause.kind), cause.key});
+  if (told_by_regions(cause) > 0) return "";
+  return hash_of({"cause", kind.subject, kind.query, name_of(cause.kind), cause.key});
+}
+
+FeatureRegions common(FeatureRegions a, FeatureRegions b) {
+  FeatureRegions both;
+  for (int r = 0; r < feature_region_count; ++r) {
+    if (a.has(FeatureRegion(r)) && b.has(FeatureRegion(r))) both.add(FeatureRegion(r));
+  }
+  return both;
+}
+
+Cause unknown_cause() {
+  Cause cause;
+  cause.text = "It was not looked for: the time was over.";
+  return cause;
+}
+
+/// The findings that are one bug, as a row.
+class RowOfBug {
+ public:
+  explicit RowOfBug(std::vector<const ExaminedFinding*> parts) : parts_(std::move(parts)) {}
+
+  TriagedSignature row() const {
+    TriagedSignature s;
+    const ExaminedFinding& main = main_part();
+    s.kind = main.kind();
+    s.version = main.examined->filed->subject->version;
+    s.examined = main.has_cause();
+    s.cause = cause_part().has_cause() ? cause_part().cause() : unknown_cause();
+    name_parts(s);
+    const std::string of_cause = cause_part().has_cause() ? name_of_cause(s.kind, s.cause) : "";
+    s.id = of_cause.empty() ? name_of_class({main.kind(), main.regions()}) : of_cause;
+    const ExaminedFinding& simplest = simplest_part();
+    s.case_of_simplest = simplest.simplest();
+    s.simplest = (simplest.has_cause() ? simplest.examined->examined->file : simplest.examined->filed->file).string();
+    s.branches = simplest.has_cause() ? simplest.examined->examined->branches : simplest.examined->variant.branches;
+    return s;
+  }
+
+ private:
+  void name_parts(TriagedSignature& s) const {
+    s.regions = main_part().regions();
+    for (const ExaminedFinding* p : parts_) {
+      const FindingPart part{p->kind(), p->regions()};
+      s.names.merge(names_of_finding(part, p->has_cause() ? p->cause() : unknown_cause()));
+      s.parts.push_back(part);
+      s.regions = common(s.regions, p->regions());
+    }
+    std::sort(s.parts.begin(), s.parts.end());
+    s.parts.erase(std::unique(s.parts.begin(), s.parts.end()), s.parts.end());
+  }
+  /// The part with the most reports.
+  const ExaminedFinding& main_part() const {
+    return **std::max_element(parts_.begin(), parts_.end(), [](const ExaminedFinding* a, const ExaminedFinding* b) {
+      return std::tuple(a->cases.size(), name_of_class({b->kind(), b->regions()})) <
+             std::tuple(b->cases.size(), name_of_class({a->kind(), a->regions()}));
+    });
+  }
+  /// The part whose cause says most: a mechanism before regions.
+  const ExaminedFinding& cause_part() const {
+    const auto rank_of = [](const ExaminedFinding* f) {
+      const int told = f->has_cause() ? told_by_regions(f->cause()) : 0;
+      const bool has_key = f->has_cause() && !f->cause().key.empty();
+      return std::tuple(f->has_cause(), told == 0, told == 0 ? int(has_key) : told, f->cases.size());
+    };
+    return **std::max_element(parts_.begin(), parts_.end(), [&](const ExaminedFinding* a, const ExaminedFinding* b) {
+      return rank_of(a) < rank_of(b);
+    });
+  }
+  /// Of the parts with the row's cause, the one with the plainest case.
+  const ExaminedFinding& simplest_part() const {
+    const ExaminedFinding& cause = cause_part();
+    const auto rank_of = [&](const ExaminedFinding* f) {
+      const bool has_cause =
+          f->has_cause() == cause.has_cause() && (!f->has_cause() || f->cause().kind == cause.cause().kind);
+      return std::tuple(!has_cause, plainness_of(f->simplest()));
+    };
+    return **std::min_element(parts_.begin(), parts_.end(), [&](const ExaminedFinding* a, const ExaminedFinding* b) {
+      return rank_of(a) < rank_of(b);
+    });
+  }
+
+  std::vector<const ExaminedFinding*> parts_;
 };
 
-/// The candidates of one kind. Those to be examined come first, in their order.
-struct CandidatesOfKind {
-  FindingKind kind;
-  std::vector<Candidate> all;
-  std::size_t to_examine = 0;
-};
-
-/// How much there is to read in a case: the digits of its numbers, each number once.
-std::size_t digits_of(const Case& c) {
-  std::set<double> numbers(c.values.begin(), c.values.end());
-  std::size_t digits = 0;
-  for (const double x : numbers) digits += number_text(x, c.scalar).size();
-  return digits;
+/// "from 1e+19 up and 1e-20 down".
+std::string borders_text(const ExtremeMagnitudes& m) {
+  const std::string up = m.up_from > 0 ? fmt::format("from {:.0e} up", m.up_from) : "";
+  const std::string down = m.down_from > 0 ? fmt::format("from {:.0e} down", m.down_from) : "";
+  return up.empty() ? down : down.empty() ? up : fmt::format("{} and {}", up, down);
 }
-
-/// Asks the subject of a report again. Empty where it has no finding now.
-std::optional<Candidate> asked_again(const FiledReport& r, Workers& workers, FindingKind& kind) {
-  use_measure(r.measure);
-  const Standard standard = r.subject->standard_for(r.question.query->name);
-  Report now;
-  now.question = r.question;
-  now.subject = r.subject->name;
-  now.answer = workers.ask(*r.subject, r.question);
-  now.finding = confirmed(r.question, now.answer, standard, Detail::full);
-  now.standard = standard;
-  if (!is_bad(now.finding)) return std::nullopt;
-  Candidate c{&r, now.finding, {}, error_size(r.question, now.finding), headline(now), {}};
-  c.variant = {confirmed(r.question, now.answer, standard, Detail::verdict).branches, feature_regions_of(r.question),
-               is_ordinary(r.question)};
-  kind = kind_of_finding(*r.question.query, r.subject->name, now.finding);
-  return c;
-}
-
-/// Moves the candidates that are to be examined to the front: the worst, the simplest, then one of each further
-/// variant.
-void choose(CandidatesOfKind& group) {
-  std::vector<Candidate>& all = group.all;
-  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tuple(a.size.relative, digits_of(b.filed->question)) >
-           std::tuple(b.size.relative, digits_of(a.filed->question));
-  });
-  std::set<Variant> chosen{all.front().variant};
-  const auto move_to_front = [&](std::size_t from) {
-    std::rotate(all.begin() + std::ptrdiff_t(group.to_examine), all.begin() + std::ptrdiff_t(from),
-                all.begin() + std::ptrdiff_t(from) + 1);
-    chosen.insert(all[group.to_examine++].variant);
-  };
-  move_to_front(0);
-  const auto simplest = std::min_element(all.begin() + 1, all.end(), [](const Candidate& a, const Candidate& b) {
-    return digits_of(a.filed->question) < digits_of(b.filed->question);
-  });
-  if (simplest != all.end()) move_to_front(std::size_t(simplest - all.begin()));
-  for (std::size_t i = group.to_examine; i < all.size() && group.to_examine < most_examined; ++i) {
-    if (!chosen.contains(all[i].variant)) move_to_front(i);
-  }
-}
-
-/// Causes that name no mechanism of arithmetic: what is wrong is told by the regions. The test of each looks at other
-/// cases too, where another mistake may show, so that they do not tell rows apart. 0: any other cause; otherwise the
-/// larger, the more it says.
-int told_by_regions(CauseKind kind) {
-  switch (kind) {
-    case CauseKind::unexplained: return 1;
-    case CauseKind::logic: return 2;
-    case CauseKind::unsupported: return 3;
-    default: return 0;
-  }
-}
-
-/// The cause as a part of the signature, and its key.
-std::string_view cause_in_signature(const TriagedSignature& s) {
-  return told_by_regions(s.cause.kind) > 0 ? name_of(CauseKind::logic) : name_of(s.cause.kind);
-}
-std::string key_in_signature(const TriagedSignature& s) { return told_by_regions(s.cause.kind) > 0 ? "" : s.cause.key; }
 
 /// One triage.
 class Work {
@@ -125,16 +146,24 @@ class Work {
   Triage result() {
     triage_.sources = sources_.names;
     triage_.skipped = sources_.skipped;
+    triage_.sample = sources_.sample;
     ask_again();
     for (CandidatesOfKind& g : groups_) choose(g);
     examine_groups();
-    for (CandidatesOfKind& g : groups_) put_into_signatures(g);
+    for (const CandidatesOfKind& g : groups_) take_parts(g);
+    make_rows();
+    for (const CandidatesOfKind& g : groups_) {
+      for (const Candidate& c : g.all) add(c);
+    }
     count();
+    for (TriagedSignature& s : triage_.signatures) describe_range(s);
     rank(triage_.signatures);
     return std::move(triage_);
   }
 
  private:
+  using Of = std::pair<std::string, std::string>;  ///< query and subject
+
   Seconds time_left() const { return settings_.time - Seconds(Clock::now() - begin_); }
 
   void ask_again() {
@@ -142,15 +171,14 @@ class Work {
     for (std::size_t i = 0; i < sources_.reports.size() && !interrupted(); ++i) {
       settings_.tick("asking again", i, sources_.reports.size());
       const FiledReport& r = sources_.reports[i];
-      FindingKind kind;
-      std::optional<Candidate> c = asked_again(r, workers_, kind);
+      std::optional<Candidate> c = asked_again(r, workers_);
       if (interrupted()) return;  // the answer may be that the worker gave up
       if (!c) {
         triage_.right_now.push_back(r);
         continue;
       }
-      const auto [found, is_new] = at.try_emplace(kind, groups_.size());
-      if (is_new) groups_.push_back({kind, {}, 0});
+      const auto [found, is_new] = at.try_emplace(c->kind, groups_.size());
+      if (is_new) groups_.push_back({c->kind, {}, 0});
       groups_[found->second].all.push_back(std::move(*c));
     }
   }
@@ -166,121 +194,181 @@ class Work {
           triage_.all_examined = false;
           return;
         }
-        examine(g.all[turn], g.kind, done++, total);
+        examine(g.all[turn], done++, total);
       }
     }
   }
-  void examine(Candidate& c, const FindingKind& kind, std::size_t done, std::size_t total) {
-    const std::string activity = fmt::format("examining {} of {}", kind.query, kind.subject);
+  void examine(Candidate& c, std::size_t done, std::size_t total) {
+    const std::string activity = fmt::format("examining {} of {}", c.kind.query, c.kind.subject);
     const auto tick = [&](std::uint64_t) { settings_.tick(activity, done, total); };
     tick(0);
     use_measure(c.filed->measure);
     c.examined = examined_.earlier(*c.filed);
-    if (!c.examined) c.examined = examined_.examine(*c.filed, std::min(most_for_one, time_left()), tick);
+    if (!c.examined) c.examined = examined_.examine(*c.filed, c.plain, std::min(most_for_one, time_left()), tick);
   }
 
-  /// The signature of an examined case; a new one where no other case had it.
-  TriagedSignature& signature_of(const CandidatesOfKind& g, const Candidate& c) {
-    TriagedSignature s;
-    s.kind = g.kind;
-    s.version = c.filed->subject->version;
-    s.cause.text = "It was not looked for: the time was over.";
-    s.regions = c.variant.regions;
-    s.branches = c.variant.branches;
-    if (c.examined) {
-      s.examined = true;
-      s.cause = c.examined->cause, s.branches = c.examined->branches, s.regions = c.examined->regions;
+  /// The examined findings of a kind, each with the reports that are most like it. Where none was examined, the first
+  /// report stands for all.
+  void take_parts(const CandidatesOfKind& g) {
+    const std::size_t first = parts_.size();
+    for (const Candidate& c : g.all) {
+      if (c.examined) parts_.push_back({&c, {}});
     }
-    s.id = id_of(s);
+    if (parts_.size() == first && g.to_examine > 0) parts_.push_back({&g.all.front(), {}});
+    if (parts_.size() == first) return;
+    const auto tolerance = std::find_if(parts_.begin() + std::ptrdiff_t(first), parts_.end(), [](const auto& p) {
+      return p.has_cause() && p.cause().kind == CauseKind::absolute_tolerance;
+    });
+    for (const Candidate& c : g.all) {
+      if (c.extreme && tolerance == parts_.end()) continue;  // the row of the range takes it
+      const auto part = c.extreme ? tolerance : most_alike(first, c);
+      part->cases.push_back(&c);
+    }
+  }
+  std::vector<ExaminedFinding>::iterator most_alike(std::size_t first, const Candidate& c) {
+    return std::max_element(parts_.begin() + std::ptrdiff_t(first), parts_.end(), [&](const auto& a, const auto& b) {
+      const auto rank_of = [&](const ExaminedFinding& p) {
+        return std::tuple(p.examined == &c, likeness(*p.examined, c.variant));
+      };
+      return rank_of(a) < rank_of(b);
+    });
+  }
+
+  void make_rows() {
+    for (const std::vector<std::size_t>& group : one_bug_each(parts_, workers_)) {
+      std::vector<const ExaminedFinding*> parts;
+      for (const std::size_t i : group) {
+        parts.push_back(&parts_[i]);
+        for (const Candidate* c : parts_[i].cases) row_of_[c] = triage_.signatures.size();
+      }
+      triage_.signatures.push_back(RowOfBug(std::move(parts)).row());
+      make_id_unique();
+    }
+    for (const CandidatesOfKind& g : groups_) {
+      for (const Candidate& c : g.all) {
+        if (!row_of_.contains(&c)) row_of_[&c] = row_of_range(c);
+      }
+    }
+  }
+  /// Two bugs may have the same part, where their causes differ.
+  void make_id_unique() {
     std::vector<TriagedSignature>& all = triage_.signatures;
-    auto same = std::find_if(all.begin(), all.end(), [&](const TriagedSignature& o) { return o.id == s.id; });
-    if (same == all.end() && s.cause.key.empty()) {
-      same =
-          std::find_if(all.begin(), all.end(), [&](const TriagedSignature& o) { return differs_in_key_alone(o, s); });
-    }
-    if (same != all.end()) {
-      if (told_by_regions(s.cause.kind) > told_by_regions(same->cause.kind)) same->cause = s.cause;
-      return *same;
-    }
-    s.case_of_simplest = c.examined ? c.examined->simplest : c.filed->question;
-    s.simplest = c.examined ? c.examined->file.string() : c.filed->file.string();
-    all.push_back(std::move(s));
-    return all.back();
-  }
-  void put_into_signatures(const CandidatesOfKind& g) {
-    std::vector<const Candidate*> examined;
-    for (const Candidate& c : g.all) {
-      if (c.examined) examined.push_back(&c);
-    }
-    // A cause without a key joins a signature that has one.
-    for (const Candidate* e : examined) {
-      if (!e->examined->cause.key.empty()) signature_of(g, *e);
-    }
-    for (const Candidate& c : g.all) {
-      const Candidate* like = c.examined ? &c : most_alike(examined, c.variant);
-      add(signature_of(g, like != nullptr ? *like : g.all.front()), c);
-    }
-    for (const Candidate* e : examined) use_simpler(signature_of(g, *e), *e);
-    like_[g.kind] = std::move(examined);
-  }
-  static void use_simpler(TriagedSignature& s, const Candidate& c) {
-    if (digits_of(c.examined->simplest) >= digits_of(s.case_of_simplest)) return;
-    s.case_of_simplest = c.examined->simplest;
-    s.simplest = c.examined->file.string();
-  }
-  /// The examined case whose regions a case has, and the most of them; of the same variant where there is one. The
-  /// first one where no case has its regions; nullptr where none was examined.
-  static const Candidate* most_alike(const std::vector<const Candidate*>& examined, const Variant& variant) {
-    const Candidate* best = nullptr;
-    const auto rank_of = [&](const Candidate& c) {
-      const bool within = c.examined->regions.within(variant.regions);
-      return std::tuple(c.variant == variant, within && c.variant.ordinary == variant.ordinary, within,
-                        within ? c.examined->regions.names().size() : 0, c.variant.branches == variant.branches);
+    const auto is_taken = [&](const std::string& id) {
+      return std::any_of(all.begin(), all.end() - 1, [&](const TriagedSignature& s) { return s.id == id; });
     };
-    for (const Candidate* c : examined) {
-      if (best == nullptr || rank_of(*c) > rank_of(*best)) best = c;
+    std::string& id = all.back().id;
+    for (const std::string& name : all.back().names) {
+      if (is_taken(id)) id = name;
     }
-    return best;
+    for (int n = 2; is_taken(id); ++n) id = hash_of({id, std::to_string(n)});
+    all.back().names.insert(id);
   }
-  void add(TriagedSignature& s, const Candidate& c) {
+  std::size_t row_of_range(const Candidate& c) {
+    const std::string id = name_of_range(c.kind.query, c.kind.subject);
+    std::vector<TriagedSignature>& all = triage_.signatures;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const TriagedSignature& s) { return s.id == id; });
+    if (found != all.end()) return std::size_t(found - all.begin());
+    TriagedSignature s;
+    s.id = id;
+    s.names = {id};
+    s.kind = c.kind;
+    s.version = c.filed->subject->version;
+    s.examined = true;
+    s.range.emplace();
+    s.may_stand = false;
+    s.regions = c.variant.regions, s.branches = c.variant.branches;
+    s.case_of_simplest = c.filed->question;
+    s.simplest = c.filed->file.string();
+    all.push_back(std::move(s));
+    return all.size() - 1;
+  }
+
+  void add(const Candidate& c) {
+    TriagedSignature& s = triage_.signatures[row_of_.at(&c)];
     s.reports.push_back(c.filed->file.string());
     s.ids.push_back(c.filed->id);
-    const bool is_worst = s.worst.empty() || c.size.relative > s.size.relative;
-    ordinary_[s.id] += is_ordinary(c.filed->question);
-    finding_of_[s.id] = is_worst ? c.finding : finding_of_[s.id];
-    if (!is_worst) return;
+    ordinary_[s.id] += c.variant.ordinary;
+    if (s.range) add_to_range(s, c);
+    const auto worst = finding_of_.find(s.id);
+    const double severity = severity_of(c.finding, c.size, 1);
+    if (worst != finding_of_.end() && severity <= severity_of(worst->second, s.size, 1)) return;
+    finding_of_[s.id] = c.finding;
     s.worst = c.filed->file.string();
+    s.case_of_worst = c.filed->question;
+    s.kind = c.kind;
     s.size = c.size;
     s.headline = c.headline;
   }
+  static void add_to_range(TriagedSignature& s, const Candidate& c) {
+    s.range->add(*c.extreme);
+    s.regions = common(s.regions, c.variant.regions);
+    const FindingPart part{c.kind, {}};
+    if (std::find(s.parts.begin(), s.parts.end(), part) == s.parts.end()) s.parts.push_back(part);
+    if (plainness_of(c.filed->question) >= plainness_of(s.case_of_simplest)) return;
+    s.case_of_simplest = c.filed->question;
+    s.simplest = c.filed->file.string();
+    s.branches = c.variant.branches;
+  }
+  static void describe_range(TriagedSignature& s) {
+    if (!s.range) return;
+    s.cause.text = fmt::format(
+        "Only with numbers {}: the same scenes at ordinary magnitude are answered right. Such numbers are out of range "
+        "where the documentation of the library states a domain.",
+        borders_text(*s.range));
+    s.cause.evidence = {{"The scene of each report was asked again at ordinary magnitude.",
+                         fmt::format("The fault is gone in all of {}.", plural_text(s.reports.size(), "report"))}};
+  }
 
-  /// The numbers of findings: those of the indexes where the kind is in one, otherwise those of the reports.
+  /// One finding for each report, and those that the indexes count beyond their reports.
   void count() {
-    struct Sum {
-      std::uint64_t findings = 0, ordinary = 0;
-    };
-    std::map<std::string, Sum> counted;
+    for (TriagedSignature& s : triage_.signatures) s.findings = s.reports.size();
+    triage_.findings_right_now = triage_.right_now.size();
+    std::map<Of, std::uint64_t> beyond;
     for (const CountedVariant& v : sources_.counts) {
-      const TriagedSignature* s = signature_for(v);
-      if (s == nullptr) continue;
-      Sum& sum = counted[s->id];
-      sum.findings += v.count.findings;
-      if (v.variant.ordinary) sum.ordinary += v.count.findings;
+      count_for(row_like(v), v.count.findings - v.count.kept, v.variant.ordinary);
+      beyond[{v.kind.query, v.kind.subject}] += v.count.kept;
     }
+    for (const FiledReport& r : sources_.reports) {
+      std::uint64_t& kept = beyond[{std::string(r.question.query->name), r.subject->name}];
+      if (r.is_counted && kept > 0) --kept;
+    }
+    for (const auto& [of, without_file] : beyond) count_for(largest_row(of), without_file, false);
     for (TriagedSignature& s : triage_.signatures) {
-      const Sum& sum = counted[s.id];
-      const bool is_counted = sum.findings >= s.reports.size();
-      s.findings = is_counted ? sum.findings : s.reports.size();
-      s.ordinary_share = double(is_counted ? sum.ordinary : ordinary_[s.id]) / double(s.findings);
+      s.ordinary_share = double(ordinary_[s.id]) / double(s.findings);
       s.severity = severity_of(finding_of_[s.id], s.size, s.ordinary_share);
     }
   }
-  const TriagedSignature* signature_for(const CountedVariant& v) {
-    const auto group =
-        std::find_if(groups_.begin(), groups_.end(), [&](const CandidatesOfKind& g) { return g.kind == v.kind; });
-    if (group == groups_.end()) return nullptr;
-    const Candidate* like = most_alike(like_[v.kind], v.variant);
-    return &signature_of(*group, like != nullptr ? *like : group->all.front());
+  void count_for(TriagedSignature* row, std::uint64_t findings, bool ordinary) {
+    (row != nullptr ? row->findings : triage_.findings_right_now) += findings;
+    if (row != nullptr && ordinary) ordinary_[row->id] += findings;
+  }
+  /// The row of the report that is most like a counted variant; nullptr where the subject is right now.
+  TriagedSignature* row_like(const CountedVariant& v) {
+    const auto of_kind = [&](const CandidatesOfKind& g) { return g.kind == v.kind; };
+    const auto of_class = [&](const CandidatesOfKind& g) { return class_of(g.kind, {}) == class_of(v.kind, {}); };
+    if (const Candidate* c = most_alike_of(v, of_kind)) return &triage_.signatures[row_of_.at(c)];
+    if (const Candidate* c = most_alike_of(v, of_class)) return &triage_.signatures[row_of_.at(c)];
+    return nullptr;
+  }
+  template <class Fits>
+  const Candidate* most_alike_of(const CountedVariant& v, const Fits& fits) const {
+    const Candidate* best = nullptr;
+    for (const CandidatesOfKind& g : groups_) {
+      if (!fits(g)) continue;
+      for (const Candidate& c : g.all) {
+        if (best == nullptr || likeness(c, v.variant) > likeness(*best, v.variant)) best = &c;
+      }
+    }
+    return best;
+  }
+  TriagedSignature* largest_row(const Of& of) {
+    TriagedSignature* largest = nullptr;
+    for (TriagedSignature& s : triage_.signatures) {
+      const bool fits = std::any_of(s.parts.begin(), s.parts.end(),
+                                    [&](const FindingPart& p) { return Of(p.kind.query, p.kind.subject) == of; });
+      if (fits && (largest == nullptr || s.findings > largest->findings)) largest = &s;
+    }
+    return largest;
   }
 
   const Sources& sources_;
@@ -290,7 +378,8 @@ class Work {
   Clock::time_point begin_;
   Triage triage_;
   std::vector<CandidatesOfKind> groups_;
-  std::map<FindingKind, std::vector<const Candidate*>> like_;
+  std::vector<ExaminedFinding> parts_;
+  std::map<const Candidate*, std::size_t> row_of_;
   std::map<std::string, std::uint64_t> ordinary_;  ///< by the id of the signature
   std::map<std::string, Finding> finding_of_;      ///< the worst one
 };
@@ -302,6 +391,7 @@ std::string_view name_of(SignatureChange c) {
     case SignatureChange::fresh: return "new";
     case SignatureChange::worse: return "worse";
     case SignatureChange::known: return "known";
+    case SignatureChange::unproved: return "unproved";
     case SignatureChange::fixed: return "fixed";
   }
   return "?";
@@ -318,37 +408,34 @@ std::string_view name_of(SignatureDecision::Kind k) {
 }
 
 bool TriagedSignature::stands() const {
-  if (change == SignatureChange::fixed) return false;
+  if (change == SignatureChange::fixed || !may_stand) return false;
   if (decision) return decision->reopened;
-  return change != SignatureChange::known;
+  return change != SignatureChange::known && change != SignatureChange::unproved;
 }
 
 Triage triage(const Sources& sources, const TriageSettings& settings, Workers& workers) {
   return Work(sources, settings, workers).result();
 }
 
-std::string id_of(const TriagedSignature& s) {
-  Fnv1a fnv;
-  for (const std::string* part : {&s.kind.query, &s.kind.subject, &s.kind.fault, &s.kind.member, &s.kind.clause}) {
-    fnv.add(*part);
-  }
-  if (s.examined) fnv.add(cause_in_signature(s));
-  fnv.add(key_in_signature(s));
-  fnv.add(fmt::format("{:x} {}", s.branches, fmt::join(s.regions.names(), ",")));
-  return fnv.id();
+std::set<std::string> names_of_finding(const FindingPart& part, const Cause& cause) {
+  std::set<std::string> names{name_of_class(part)};
+  if (const std::string of_cause = name_of_cause(part.kind, cause); !of_cause.empty()) names.insert(of_cause);
+  return names;
 }
 
-bool differs_in_key_alone(const TriagedSignature& a, const TriagedSignature& b) {
-  return a.kind == b.kind && a.examined && b.examined && cause_in_signature(a) == cause_in_signature(b) &&
-         a.branches == b.branches && a.regions == b.regions &&
-         (key_in_signature(a).empty() || key_in_signature(b).empty());
+std::string name_of_range(const std::string& query, const std::string& subject) {
+  return hash_of({"range", query, subject});
+}
+
+bool share_a_name(const TriagedSignature& a, const TriagedSignature& b) {
+  return std::any_of(a.names.begin(), a.names.end(), [&](const std::string& n) { return b.names.contains(n); });
 }
 
 void rank(std::vector<TriagedSignature>& signatures) {
   std::stable_sort(signatures.begin(), signatures.end(), [](const TriagedSignature& a, const TriagedSignature& b) {
     const auto key = [](const TriagedSignature& s) {
       const bool is_regression = s.change && s.stands() && is_ours(s.kind.subject);
-      return std::tuple(is_regression, s.change != SignatureChange::fixed, s.severity);
+      return std::tuple(!s.range, is_regression, s.change != SignatureChange::fixed, s.severity);
     };
     return key(a) > key(b);
   });

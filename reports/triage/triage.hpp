@@ -1,15 +1,18 @@
 /// Groups findings into signatures: what may be one bug is one row.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "reports/triage/causes/cause.hpp"
+#include "reports/triage/examination/ordinary_scene.hpp"
 #include "reports/triage/examination/severity.hpp"
 #include "reports/triage/examination/sources.hpp"
 
@@ -17,11 +20,15 @@ namespace nearmiss {
 
 /// What became of a signature since the baseline.
 enum class SignatureChange {
-  fresh,  ///< the baseline does not have it
-  worse,  ///< the proved size is at least twice that of the baseline
-  known,  ///< the baseline has it
-  fixed,  ///< the baseline has it, and the subject, asked its cases again, is right now
+  fresh,     ///< the baseline does not have it, and its findings are proved to be more frequent than before
+  worse,     ///< the baseline has it, and its findings are proved to be more frequent, or the error of its case larger
+  known,     ///< the baseline has it, or has findings of its kind in such cases
+  unproved,  ///< the baseline does not have it, but at its rate the baseline's run may have missed it
+  fixed,     ///< the baseline has it, and the subject, asked its cases again, is right now
 };
+inline constexpr SignatureChange all_signature_changes[] = {SignatureChange::fresh, SignatureChange::worse,
+                                                            SignatureChange::known, SignatureChange::unproved,
+                                                            SignatureChange::fixed};
 std::string_view name_of(SignatureChange c);
 
 /// What was decided about a signature, in a line of a decisions file.
@@ -37,14 +44,29 @@ struct SignatureDecision {
 };
 std::string_view name_of(SignatureDecision::Kind k);
 
+/// Findings of one kind whose simplest cases need the same regions: a part of a row.
+struct FindingPart {
+  FindingKind kind;
+  FeatureRegions regions;
+  auto operator<=>(const FindingPart&) const = default;
+};
+
 /// The findings with one signature: a row.
 struct TriagedSignature {
   // The signature.
-  std::string id;  ///< twelve hexadecimal digits, a hash of the signature: the same in every triage
-  FindingKind kind;
+  std::string id;               ///< twelve hexadecimal digits: the same in every triage
+  std::set<std::string> names;  ///< of all that was merged into the row: its id is one of them
+  FindingKind kind;             ///< of the worst
+  std::vector<FindingPart> parts;
   Cause cause;
   std::uint64_t branches = 0;  ///< of the oracle on the simplest case
-  FeatureRegions regions;      ///< those that the finding needs: of the simplest case
+  FeatureRegions regions;      ///< those that every one of its simplest cases needs
+
+  /// The row of a query's findings that vanish where the same scene is asked at ordinary magnitude; empty for any
+  /// other.
+  std::optional<ExtremeMagnitudes> range;
+  /// It may make a command exit with 1: not the row of a range, unless that is asked for.
+  bool may_stand = true;
 
   std::string version;    ///< of the subject
   bool examined = false;  ///< false: the time was over, and the cause is not known
@@ -55,21 +77,28 @@ struct TriagedSignature {
   double ordinary_share = 0;    ///< of these
   std::string worst, simplest;  ///< files; empty for what the baseline alone has
   Case case_of_simplest;
-  std::vector<std::string> reports;  ///< files
-  std::vector<std::string> ids;      ///< of the reports
+  std::optional<Case> case_of_worst;  ///< empty in a row of an older triage
+  std::vector<std::string> reports;   ///< files
+  std::vector<std::string> ids;       ///< of the reports
 
   std::optional<SignatureChange> change;  ///< empty: without a baseline
+  std::string why;                        ///< the numbers that `change` follows from; may be empty
   std::optional<SignatureDecision> decision;
 
   /// True where the row makes a command exit with 1: new, worse or without a baseline, and no decision about it holds.
   bool stands() const;
+  /// Findings that no report shows.
+  std::uint64_t without_report() const { return findings - std::min<std::uint64_t>(findings, reports.size()); }
 };
 
 struct Triage {
   std::vector<std::string> sources;
   std::vector<std::pair<std::string, std::string>> skipped;
   std::vector<TriagedSignature> signatures;  ///< in the order of severity
+  Sample sample;                             ///< what the runs asked and found
   std::vector<FiledReport> right_now;        ///< reports whose subject, asked again, is right
+  std::uint64_t findings_right_now = 0;      ///< counted by the runs, of such reports and of their kinds
+  std::uint64_t left_out = 0;                ///< findings of rows that were taken out, as --ordinary does
   bool all_examined = true;                  ///< false where the time was over or an interrupt came
 };
 
@@ -81,15 +110,21 @@ struct TriageSettings {
 };
 
 /// Asks the subject of every report again. Minimises a few reports of each kind (the worst, the simplest, and one of
-/// each variant), finds their causes, and puts every report to the one that is like it. Results are kept in the folder
-/// by the id of the report, and used again where the subject still gives the same answer.
+/// each variant) and finds their causes. Findings that are probably one bug (one_bug.hpp) are one row; every other
+/// report goes to the row of the examined case that is most like it. Results are kept in the folder by the id of the
+/// report, and used again where the subject still gives the same answer.
+///
+/// The findings of all rows and those that are right now are together those that the indexes count, and one for each
+/// report that none counts.
 Triage triage(const Sources& sources, const TriageSettings& settings, Workers& workers);
 
-/// The hash of a signature.
-std::string id_of(const TriagedSignature& s);
-/// True for signatures that differ at most in the key of their cause, where one of them has none: both may be one bug.
-bool differs_in_key_alone(const TriagedSignature& a, const TriagedSignature& b);
-/// Orders signatures: the project's own that stand first, then by severity.
+/// The names of a part of a row with this cause. None depends on a case.
+std::set<std::string> names_of_finding(const FindingPart& part, const Cause& cause);
+/// The name of the row of a query's findings of extreme scenes.
+std::string name_of_range(const std::string& query, const std::string& subject);
+/// True where both have a name in common.
+bool share_a_name(const TriagedSignature& a, const TriagedSignature& b);
+/// Orders signatures: the project's own that stand first, then by severity; rows of a range last.
 void rank(std::vector<TriagedSignature>& signatures);
 
 }  // namespace nearmiss

@@ -41,10 +41,32 @@ Json case_of_signature(const Case& c) {
   return j;
 }
 
+Json part_to_json(const FindingPart& p) {
+  return {{"query", p.kind.query},
+          {"fault", p.kind.fault},
+          {"member", p.kind.member},
+          {"clause", p.kind.clause},
+          {"regions", p.regions.names()}};
+}
+
+Json parts_to_json(const std::vector<FindingPart>& parts) {
+  Json all = Json::array();
+  for (const FindingPart& p : parts) all.push_back(part_to_json(p));
+  return all;
+}
+
+Json magnitude_or_null(double x) { return x > 0 ? Json(x) : Json(nullptr); }
+
+Json range_to_json(const std::optional<ExtremeMagnitudes>& r) {
+  if (!r) return nullptr;
+  return {{"up_from", magnitude_or_null(r->up_from)}, {"down_from", magnitude_or_null(r->down_from)}};
+}
+
 Json signature_to_json(const TriagedSignature& s) {
   Json cause = cause_to_json(s.cause);
   cause.erase("questions");
   return {{"id", s.id},
+          {"names", s.names},
           {"query", s.kind.query},
           {"subject", s.kind.subject},
           {"version", s.version},
@@ -52,16 +74,20 @@ Json signature_to_json(const TriagedSignature& s) {
           {"fault", s.kind.fault},
           {"member", s.kind.member},
           {"clause", s.kind.clause},
+          {"parts", parts_to_json(s.parts)},
+          {"range", range_to_json(s.range)},
           {"cause", cause},
           {"examined", s.examined},
           {"regions", s.regions.names()},
           {"branches", fmt::format("{:016x}", s.branches)},
           {"change", s.change ? Json(name_of(*s.change)) : Json(nullptr)},
+          {"why", s.why},
           {"decision", decision_to_json(s.decision)},
           {"severity", s.severity},
           {"severity_text", severity_text(s)},
           {"count", s.reports.size()},
           {"findings", s.findings},
+          {"without_report", s.without_report()},
           {"ordinary_share", s.ordinary_share},
           {"headline", s.headline},
           {"above_epsilon", or_null(s.size.above_epsilon)},
@@ -71,6 +97,7 @@ Json signature_to_json(const TriagedSignature& s) {
           {"worst", s.worst},
           {"simplest", s.simplest},
           {"case", case_of_signature(s.case_of_simplest)},
+          {"worst_case", s.case_of_worst ? case_of_signature(*s.case_of_worst) : Json(nullptr)},
           {"reports", s.reports},
           {"ids", s.ids}};
 }
@@ -90,9 +117,12 @@ Json totals(const Triage& t) {
           {"new", of(SignatureChange::fresh)},
           {"worse", of(SignatureChange::worse)},
           {"known", of(SignatureChange::known)},
+          {"unproved", of(SignatureChange::unproved)},
           {"fixed", of(SignatureChange::fixed)},
           {"reopened", reopened},
-          {"right_now", t.right_now.size()}};
+          {"right_now", t.right_now.size()},
+          {"findings_right_now", t.findings_right_now},
+          {"left_out", t.left_out}};
 }
 
 /// The case of a signature, of the signature's query.
@@ -111,11 +141,40 @@ double number_up_to(double most, const FileValue& j) {
 
 std::optional<SignatureChange> change_in(const FileValue& word) {
   if (word.is_null()) return std::nullopt;
-  for (const SignatureChange c :
-       {SignatureChange::fresh, SignatureChange::worse, SignatureChange::known, SignatureChange::fixed}) {
+  for (const SignatureChange c : all_signature_changes) {
     if (word.json() == name_of(c)) return c;
   }
-  word.fail("\"new\", \"worse\", \"known\", \"fixed\" or null");
+  word.fail("\"new\", \"worse\", \"known\", \"unproved\", \"fixed\" or null");
+}
+
+FindingPart part_in(const FileValue& j, const std::string& subject) {
+  return {{j.at("query").text(), subject, j.at("fault").text(), j.at("member").text(), j.at("clause").text()},
+          feature_regions_named(j.at("regions").texts())};
+}
+
+std::optional<ExtremeMagnitudes> range_in(const FileValue& j) {
+  if (j.is_null()) return std::nullopt;
+  return ExtremeMagnitudes{j.at("up_from").number_or_null().value_or(0),
+                           j.at("down_from").number_or_null().value_or(0)};
+}
+
+/// What a file of an older version does not have.
+void read_what_identifies(const FileValue& j, TriagedSignature& s) {
+  if (const auto range = j.find("range")) s.range = range_in(*range);
+  s.may_stand = !s.range;
+  if (const auto parts = j.find("parts")) {
+    for (const FileValue& p : parts->items()) s.parts.push_back(part_in(p, s.kind.subject));
+  } else {
+    s.parts = {{s.kind, s.regions}};
+  }
+  if (const auto names = j.find("names")) {
+    for (const std::string& name : names->texts()) s.names.insert(name);
+  } else {
+    s.names = names_of_finding(s.parts.front(), s.cause);
+  }
+  s.names.insert(s.id);
+  const auto worst = j.find("worst_case");
+  if (worst && !worst->is_null()) s.case_of_worst = case_in(*worst);
 }
 
 TriagedSignature signature_from_json(const FileValue& j) {
@@ -139,6 +198,7 @@ TriagedSignature signature_from_json(const FileValue& j) {
   s.case_of_simplest = case_in(j.at("case"));
   s.reports = j.at("reports").texts();
   s.ids = j.at("ids").texts();
+  read_what_identifies(j, s);
   if (change_in(j.at("change")) == SignatureChange::fixed) s.change = SignatureChange::fixed;
   return s;
 }
@@ -155,6 +215,7 @@ std::string_view baseline_state(SignatureChange c) {
     case SignatureChange::fresh: return "new";
     case SignatureChange::worse: return "updated";
     case SignatureChange::known: return "unchanged";
+    case SignatureChange::unproved: return "new";
     case SignatureChange::fixed: return "absent";
   }
   return "none";
@@ -216,6 +277,7 @@ Json triage_to_json(const Triage& t) {
           {"environment", environment_to_json()},
           {"sources", t.sources},
           {"skipped", skipped},
+          {"sample", sample_to_json(t.sample)},
           {"signatures", signatures},
           {"totals", totals(t)}};
 }
@@ -226,6 +288,11 @@ std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, cons
   std::vector<TriagedSignature> all;
   for (const FileValue& s : whole.at("signatures").items()) all.push_back(signature_from_json(s));
   return all;
+}
+
+Sample sample_in_triage(const nlohmann::json& j, const std::string& where) {
+  const std::optional<FileValue> sample = FileValue(j, where).find("sample");
+  return sample ? sample_from_json(*sample) : Sample();
 }
 
 Json triage_to_sarif(const Triage& t) {

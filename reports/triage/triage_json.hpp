@@ -13,6 +13,8 @@ namespace nearmiss {
 nlohmann::ordered_json triage_to_json(const Triage& t);
 /// The signatures of such JSON. Throws BadInput, with `where` in the message, where it is none.
 std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, const std::string& where);
+/// What its runs asked and found; empty in a file of an older version. Throws BadInput.
+Sample sample_in_triage(const nlohmann::json& j, const std::string& where);
 
 /// SARIF 2.1.0 (OASIS): one result per signature. What does not make the command exit with 1 is a note, and suppressed
 /// where a decision is the reason.

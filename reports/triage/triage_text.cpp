@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "reports/findings/text.hpp"
 
@@ -12,7 +13,10 @@ namespace {
 
 std::string findings_text(const TriagedSignature& s) {
   if (s.reports.empty()) return "";
-  return fmt::format("{}, {} in ordinary scenes", plural_text(s.findings, "finding"), share_text(s.ordinary_share));
+  const std::string without =
+      s.without_report() == 0 ? "" : fmt::format(" ({} without a report)", count_text(s.without_report()));
+  return fmt::format("{}{}, {} in ordinary scenes", plural_text(s.findings, "finding"), without,
+                     share_text(s.ordinary_share));
 }
 
 std::string decision_text(const SignatureDecision& d) {
@@ -23,7 +27,22 @@ std::string decision_text(const SignatureDecision& d) {
                      d.kind == SignatureDecision::Kind::fixed ? "here again" : "worse now", note);
 }
 
-/// "NEW", "worse", "re-opened: …".
+/// "in 4 queries"; empty for one.
+std::string queries_text(const TriagedSignature& s) {
+  std::set<std::string> queries;
+  for (const FindingPart& p : s.parts) queries.insert(p.kind.query);
+  return queries.size() < 2 ? "" : fmt::format("in {} queries: {}", queries.size(), fmt::join(queries, ", "));
+}
+
+/// The faults of the row but that of its worst finding.
+std::string other_faults_text(const TriagedSignature& s) {
+  std::set<std::string> faults;
+  for (const FindingPart& p : s.parts) faults.insert(p.kind.fault);
+  faults.erase(s.kind.fault);
+  return faults.empty() ? "" : fmt::format(", {}", fmt::join(faults, ", "));
+}
+
+/// "new", "worse", "re-opened: …".
 std::string state_text(const TriagedSignature& s) {
   const std::string change = s.change ? std::string(name_of(*s.change)) : "";
   if (!s.decision) return change;
@@ -46,10 +65,10 @@ std::string counts_text(const Triage& t) {
   std::string text = fmt::format("{} in {} ({})", plural_text(here, "signature"), plural_text(findings, "finding"),
                                  plural_text(reports, "report"));
   const bool compared = std::any_of(t.signatures.begin(), t.signatures.end(), [](const auto& s) { return s.change; });
-  for (const SignatureChange c :
-       {SignatureChange::fresh, SignatureChange::worse, SignatureChange::known, SignatureChange::fixed}) {
+  for (const SignatureChange c : all_signature_changes) {
     const auto n =
         std::count_if(t.signatures.begin(), t.signatures.end(), [&](const auto& s) { return s.change == c; });
+    if (c == SignatureChange::unproved && n == 0) continue;
     if (compared) text += fmt::format("{} {} {}", c == SignatureChange::fresh ? ":" : ",", n, name_of(c));
   }
   if (reopened > 0) text += fmt::format("; {} re-opened", plural_text(reopened, "decision"));
@@ -70,12 +89,15 @@ std::string signature_text(const TriagedSignature& s) {
   const std::string state = state_text(s), behind = state.empty() ? "" : fmt::format(", {}", state);
   const std::string member =
       s.kind.member.empty() || s.kind.member == "decision" ? "" : fmt::format(" ({})", s.kind.member);
-  std::string text = wrapped_text(
-      fmt::format("{}  {} {}: {}{}{}", s.id, s.kind.subject, s.kind.query, s.kind.fault, member, behind), "     ");
+  std::string text = wrapped_text(fmt::format("{}  {} {}: {}{}{}{}", s.id, s.kind.subject, s.kind.query, s.kind.fault,
+                                              member, other_faults_text(s), behind),
+                                  "     ");
   text.replace(0, 5, fmt::format("{:3.0f}  ", s.severity));
   const std::string findings = findings_text(s);
   text += wrapped_text(size_text(s.size) + (findings.empty() ? "" : "; " + findings), "     ");
-  text += wrapped_text(s.cause.text + needs_text(s), "     ");
+  if (!s.why.empty()) text += wrapped_text(s.why, "     ");
+  if (const std::string queries = queries_text(s); !queries.empty()) text += wrapped_text(queries, "     ");
+  text += wrapped_text(s.cause.text + (s.range ? "" : needs_text(s)), "     ");
   if (!s.simplest.empty()) text += fmt::format("     {}\n", path_text(s.simplest));
   return text;
 }
@@ -91,6 +113,7 @@ std::string triage_text(const Triage& t, std::size_t rows) {
   if (!t.right_now.empty()) {
     text += fmt::format("\n{}: the subject, asked again, is right now\n", plural_text(t.right_now.size(), "report"));
   }
+  if (t.left_out > 0) text += fmt::format("\n{} of extreme magnitudes left out\n", plural_text(t.left_out, "finding"));
   if (!t.all_examined)
     text += "\nNot every kind was examined; the same command goes on, --minutes gives it more time\n";
   return text;

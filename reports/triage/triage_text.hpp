@@ -10,7 +10,7 @@ namespace nearmiss {
 
 /// "misses a hit, 12 % of the scene, 88 % of 3,120 findings in ordinary scenes".
 std::string severity_text(const TriagedSignature& s);
-/// A signature in at most five lines of at most 100 columns; file names are not broken.
+/// A signature in a few lines of at most 100 columns; file names are not broken.
 std::string signature_text(const TriagedSignature& s);
 /// A line of counts, the first `rows` signatures, and what is left out.
 std::string triage_text(const Triage& t, std::size_t rows);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "corpus/files/file_value.hpp"
 #include "corpus/storage/codec.hpp"
@@ -14,6 +15,7 @@
 #include "oracles/requirements.hpp"
 #include "reports/engine/replay.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/triage/comparison/rates.hpp"
 #include "reports/triage/triage_json.hpp"
 
 namespace nearmiss {
@@ -22,35 +24,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool shares_a_report(const TriagedSignature& a, const TriagedSignature& b) {
-  return std::any_of(a.ids.begin(), a.ids.end(),
-                     [&](const std::string& id) { return std::find(b.ids.begin(), b.ids.end(), id) != b.ids.end(); });
-}
-
-bool is_explained(const TriagedSignature& s) { return s.examined && s.cause.kind != CauseKind::unexplained; }
-
-/// The same signature; or one of the same kind that has a report in common, or that differs in its cause alone where
-/// one of the two causes is not known.
-bool is_same(const TriagedSignature& a, const TriagedSignature& b) {
-  if (a.id == b.id) return true;
-  if (a.kind != b.kind) return false;
-  if (shares_a_report(a, b) || differs_in_key_alone(a, b)) return true;
-  const bool one_open = !is_explained(a) || !is_explained(b);
-  return one_open && ((a.regions == b.regions && a.branches == b.branches) || !a.examined || !b.examined);
-}
-
-/// Whether the subject's answer to the case has a finding of this kind now; empty where it cannot be asked.
-std::optional<bool> is_still_wrong(const Case& question, const FindingKind& kind, Workers& workers) {
+/// The finding of the subject's answer to a case now; empty where it cannot be asked.
+std::optional<Finding> finding_now(const Case& question, const FindingKind& kind, Workers& workers) {
   const Subject* subject = find_subject(kind.subject);
   const std::optional<Case> c = subject == nullptr ? std::nullopt : in_scalar(question, subject->scalar);
-  if (!c || subject->offering(kind.query).answer == nullptr) return std::nullopt;
-  const Finding f = confirmed(*c, workers.ask(*subject, *c), subject->standard_for(kind.query), Detail::full);
-  return is_bad(f);
+  if (!c || subject->offering(question.query->name).answer == nullptr) return std::nullopt;
+  return confirmed(*c, workers.ask(*subject, *c), subject->standard_for(question.query->name), Detail::full);
+}
+
+/// Whether it is a finding of this row.
+bool is_of(const Finding& f, const Case& question, const TriagedSignature& s) {
+  if (!is_bad(f)) return false;
+  const FindingClass now = class_of(kind_of_finding(*question.query, s.kind.subject, f), {});
+  return std::any_of(s.parts.begin(), s.parts.end(), [&](const FindingPart& p) { return class_of(p.kind, {}) == now; });
 }
 
 /// The case of the simplest report, and those of the others that can still be read.
 std::vector<Case> cases_of(const TriagedSignature& s) {
   std::vector<Case> all{s.case_of_simplest};
+  if (s.case_of_worst) all.push_back(*s.case_of_worst);
   for (const std::string& file : s.reports) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) continue;
@@ -62,14 +54,19 @@ std::vector<Case> cases_of(const TriagedSignature& s) {
   return all;
 }
 
-/// A row of the baseline that has no signature now.
-bool add_absent(const TriagedSignature& earlier, Triage& now, Workers& workers) {
+/// Whether the subject still errs in a case of a row of the baseline; empty where it cannot be asked.
+std::optional<bool> is_still_wrong(const TriagedSignature& earlier, Workers& workers) {
   bool wrong = false;
   for (const Case& c : cases_of(earlier)) {
-    const std::optional<bool> still = is_still_wrong(c, earlier.kind, workers);
-    if (!still) return false;
-    wrong = wrong || *still;
+    const std::optional<Finding> f = finding_now(c, earlier.kind, workers);
+    if (!f) return std::nullopt;
+    wrong = wrong || is_of(*f, c, earlier);
   }
+  return wrong;
+}
+
+/// A row of the baseline that has no signature now.
+void add_absent(const TriagedSignature& earlier, bool wrong, Triage& now) {
   TriagedSignature s = earlier;
   s.change = wrong ? SignatureChange::known : SignatureChange::fixed;
   s.decision.reset();
@@ -78,8 +75,213 @@ bool add_absent(const TriagedSignature& earlier, Triage& now, Workers& workers) 
   std::error_code error;
   if (!fs::is_regular_file(s.simplest, error)) s.simplest.clear();
   now.signatures.push_back(std::move(s));
-  return true;
 }
+
+/// A subject whose answers may be late at one time and not at another.
+bool depends_on_time(const FindingKind& kind) { return kind.clause.starts_with("no answer within"); }
+
+/// How the rate of a row's findings has changed: that of its part with the least chance.
+struct Rise {
+  FindingRate before, now;
+  double chance = 1;  ///< of so many findings without a rise; 0 where the cases are the same
+  bool is_proved = false, is_of_same_cases = false;
+
+  std::string text() const {
+    const std::string cases = plural_text(now.cases, "case");
+    if (before.cases == 0) return fmt::format("{} of {}", count_text(now.findings), cases);
+    if (is_of_same_cases)
+      return fmt::format("{} of the {} of the baseline, then {}", count_text(now.findings), cases,
+                         count_text(before.findings));
+    return fmt::format("{} of {}; {} of {} in the baseline", count_text(now.findings), cases,
+                       count_text(before.findings), count_text(before.cases));
+  }
+};
+
+/// One comparison. Rows of now are given by their index.
+class Comparison {
+ public:
+  Comparison(const Baseline& before, Triage& now, const TriageSettings& settings, Workers& workers)
+      : before_(before),
+        now_(now),
+        settings_(settings),
+        workers_(workers),
+        here_(now.signatures.size()),
+        match_(here_) {
+    for (const TriagedSignature& s : now.signatures) tests_ += s.parts.size();
+  }
+
+  std::vector<std::string> result() {
+    ask_again();
+    match();
+    for (std::size_t i = 0; i < here_; ++i) set_change(i);
+    for (std::size_t i = 0; i < here_; ++i) set_rise(i);
+    std::set<std::string> cannot_be_asked;
+    for (std::size_t k = 0; k < before_.rows.size(); ++k) {
+      const TriagedSignature& earlier = before_.rows[k];
+      const bool here = is_here(earlier);
+      if (!wrong_[k] && !here) cannot_be_asked.insert(earlier.kind.subject);
+      if (wrong_[k] && (!*wrong_[k] || !here)) {
+        add_absent(earlier, *wrong_[k], now_);
+      }
+    }
+    rank(now_.signatures);
+    return {cannot_be_asked.begin(), cannot_be_asked.end()};
+  }
+
+ private:
+  TriagedSignature& row(std::size_t i) { return now_.signatures[i]; }
+
+  /// The cases of the rows of the baseline, and of its run.
+  void ask_again() {
+    for (const TriagedSignature& earlier : before_.rows) {
+      settings_.tick("asking the baseline again", wrong_.size(), before_.rows.size());
+      wrong_.push_back(is_still_wrong(earlier, workers_));
+    }
+    if (!can_be_drawn_again(before_.sample)) return;
+    const auto until = std::chrono::steady_clock::now() +
+                       std::chrono::duration_cast<std::chrono::steady_clock::duration>(settings_.time);
+    std::size_t done = 0;
+    for (const auto& [of, asked] : before_.sample.asked) {
+      const Subject* subject = find_subject(of.second);
+      if (subject == nullptr || now_.sample.asked_of(of.first, of.second) == 0) continue;
+      const auto tick = [&] { settings_.tick("asking the baseline again", done, before_.sample.asked.size()); };
+      std::optional<Sample> again = nearmiss::asked_again(before_.sample, of.first, *subject, until, tick);
+      ++done;
+      if (!again) continue;
+      again_.asked.merge(again->asked);
+      again_.findings.merge(again->findings);
+    }
+  }
+
+  /// The better two rows fit, the larger; 0: they share no name.
+  static std::size_t fit(const TriagedSignature& a, const TriagedSignature& b) {
+    const auto shared =
+        std::count_if(a.names.begin(), a.names.end(), [&](const std::string& n) { return b.names.contains(n); });
+    return shared == 0 ? 0 : 2 * std::size_t(shared) + (a.id == b.id ? 1 : 0);
+  }
+  /// Each row of the baseline has at most one row of now, and the other way around; the best fit first.
+  void match() {
+    std::vector<std::tuple<std::size_t, std::size_t, std::size_t>> pairs;
+    for (std::size_t i = 0; i < here_; ++i) {
+      for (std::size_t k = 0; k < before_.rows.size(); ++k) {
+        const std::size_t f = wrong_[k].value_or(true) ? fit(row(i), before_.rows[k]) : 0;
+        if (f > 0) pairs.emplace_back(f, i, k);
+      }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const auto& a, const auto& b) { return std::get<0>(a) > std::get<0>(b); });
+    std::set<std::size_t> taken;
+    for (const auto& [f, i, k] : pairs) {
+      if (match_[i] != nullptr || taken.contains(k)) continue;
+      match_[i] = &before_.rows[k];
+      taken.insert(k);
+    }
+  }
+  bool is_here(const TriagedSignature& earlier) {
+    return std::any_of(now_.signatures.begin(), now_.signatures.begin() + std::ptrdiff_t(here_),
+                       [&](const TriagedSignature& s) { return share_a_name(s, earlier); });
+  }
+
+  /// Of the same cases, where they were asked again: one finding more is a proof. Otherwise of the cases of both runs.
+  Rise rise_of(const FindingPart& part) const {
+    Rise r{before_.sample.rate_of(part.kind, part.regions), now_.sample.rate_of(part.kind, part.regions)};
+    if (r.before.cases == 0 || r.now.cases == 0) return r;
+    const FindingRate again = again_.rate_of(part.kind, part.regions);
+    if (again.cases > 0 && again.findings > r.before.findings && !depends_on_time(part.kind))
+      return {r.before, again, 0, true, true};
+    r.chance = chance_without_rise(r.before, r.now);
+    r.is_proved = r.chance < error_of_a_comparison / double(tests_);
+    return r;
+  }
+  Rise rise_of(const TriagedSignature& s) const {
+    Rise most;
+    for (const FindingPart& part : s.parts) {
+      const Rise r = rise_of(part);
+      const bool is_first = &part == &s.parts.front();
+      if (is_first || r.chance < most.chance || (r.chance == most.chance && r.now.findings > most.now.findings))
+        most = r;
+    }
+    return most;
+  }
+  /// More answers to the query are wrong than before. An answer that is wrong in two ways has one fault, its worst: so
+  /// the mend of one mistake may show more findings of another.
+  bool has_more_findings(const FindingKind& kind, const Rise& rise) const {
+    const Sample& later = rise.is_of_same_cases ? again_ : now_.sample;
+    const FindingRate before = before_.sample.rate_of(kind.query, kind.subject),
+                      now = later.rate_of(kind.query, kind.subject);
+    return double(now.findings) * double(before.cases) > double(before.findings) * double(now.cases);
+  }
+
+  bool is_known_by_name(std::size_t i) {
+    return std::any_of(before_.rows.begin(), before_.rows.end(),
+                       [&](const TriagedSignature& earlier) { return share_a_name(row(i), earlier); });
+  }
+  bool was_asked(const TriagedSignature& s) const { return before_.sample.asked_of(s.kind.query, s.kind.subject) > 0; }
+
+  void set_change(std::size_t i) {
+    TriagedSignature& s = row(i);
+    if (match_[i] != nullptr) {
+      s.change = SignatureChange::known;
+      s.names.insert(match_[i]->id);  // a decision about it still holds
+      if (errs_more(*match_[i], s)) s.change = SignatureChange::worse;
+      return;
+    }
+    const Rise rise = rise_of(s);
+    s.why = rise.text();
+    if (rise.is_proved && (rise.before.findings == 0 || has_more_findings(s.kind, rise))) {
+      s.change = SignatureChange::fresh;
+    } else if (is_known_by_name(i) || rise.before.findings > 0) {
+      s.change = SignatureChange::known;
+    } else {
+      s.change = !was_asked(s) || is_promise_broken(s) ? SignatureChange::fresh : SignatureChange::unproved;
+    }
+  }
+  /// The subject promises exact answers, and kept its promise in the baseline.
+  bool is_promise_broken(const TriagedSignature& s) const {
+    const Subject* subject = find_subject(s.kind.subject);
+    if (before_.sample.rate_of(s.kind.query, s.kind.subject).findings > 0) return false;
+    return subject != nullptr && subject->standard_for(s.kind.query).promised;
+  }
+  /// A known row whose findings are more frequent, which no new row explains.
+  void set_rise(std::size_t i) {
+    TriagedSignature& s = row(i);
+    if (match_[i] == nullptr || s.range) return;
+    for (const FindingPart& part : s.parts) {
+      const Rise rise = rise_of(part);
+      if (!rise.is_proved || !has_more_findings(part.kind, rise) || is_explained_by_new_row(part)) continue;
+      s.change = SignatureChange::worse;
+      s.why = rise.text();
+    }
+  }
+  bool is_explained_by_new_row(const FindingPart& part) {
+    return std::any_of(now_.signatures.begin(), now_.signatures.end(), [&](const TriagedSignature& s) {
+      return s.change == SignatureChange::fresh && std::any_of(s.parts.begin(), s.parts.end(), [&](const auto& p) {
+               return class_of(p.kind, {}) == class_of(part.kind, {});
+             });
+    });
+  }
+  /// The subject, asked the worst case of the baseline again, errs by much more than then.
+  bool errs_more(const TriagedSignature& earlier, TriagedSignature& now) {
+    if (!earlier.case_of_worst || earlier.size.relative == 0 || earlier.range) return false;
+    const std::optional<Finding> f = finding_now(*earlier.case_of_worst, earlier.kind, workers_);
+    if (!f || !is_of(*f, *earlier.case_of_worst, earlier)) return false;
+    const double size = error_size(*earlier.case_of_worst, *f).relative;
+    if (size < much_worse * earlier.size.relative) return false;
+    now.why = fmt::format("the worst case of the baseline errs by {}, then by {}", share_text(size),
+                          share_text(earlier.size.relative));
+    return true;
+  }
+
+  const Baseline& before_;
+  Triage& now_;
+  const TriageSettings& settings_;
+  Workers& workers_;
+  Sample again_;                            ///< the subject's answers of now to the cases of the baseline
+  std::vector<std::optional<bool>> wrong_;  ///< is_still_wrong(), by the index of the baseline's row
+  std::size_t here_;
+  std::vector<const TriagedSignature*> match_;  ///< rows of the baseline, by the index of the row
+  std::size_t tests_ = 0;
+};
 
 /// Rows, by kind, of the reports whose subject is right now.
 void add_right_now(const Triage& t, std::vector<TriagedSignature>& rows) {
@@ -88,7 +290,9 @@ void add_right_now(const Triage& t, std::vector<TriagedSignature>& rows) {
     const FileValue report(j, r.file.string());
     TriagedSignature s;
     s.kind = kind_in_report(report);
-    s.id = id_of(s);
+    s.parts = {{s.kind, {}}};
+    s.names = names_of_finding(s.parts.front(), s.cause);
+    s.id = *s.names.begin();
     const auto same = std::find_if(rows.begin(), rows.end(), [&](const auto& o) { return o.id == s.id; });
     if (same != rows.end()) {
       same->reports.push_back(r.file.string());
@@ -176,40 +380,27 @@ SignatureDecision decision_in(const std::string& line, const std::string& where)
 
 }  // namespace
 
-std::vector<TriagedSignature> read_baseline(const std::string& name, const TriageSettings& settings, Workers& workers) {
+Baseline read_baseline(const std::string& name, const TriageSettings& settings, Workers& workers) {
   std::error_code error;
   fs::path file = name;
   if (fs::is_directory(name, error)) file = fs::path(name) / "triage" / "triage.json";
   if (fs::is_regular_file(file, error)) {
-    std::vector<TriagedSignature> all = signatures_from_json(parse_json(read_file(file), file.string()), file.string());
-    std::erase_if(all, [](const TriagedSignature& s) { return s.change == SignatureChange::fixed; });
-    return all;
+    const nlohmann::json j = parse_json(read_file(file), file.string());
+    Baseline before{signatures_from_json(j, file.string()), sample_in_triage(j, file.string())};
+    std::erase_if(before.rows, [](const TriagedSignature& s) { return s.change == SignatureChange::fixed; });
+    return before;
   }
   const Sources sources = read_sources({name});
   name_skipped(sources);
   Triage earlier = triage(sources, settings, workers);
-  std::vector<TriagedSignature> rows = std::move(earlier.signatures);
-  add_right_now(earlier, rows);
-  return rows;
+  Baseline before{std::move(earlier.signatures), std::move(earlier.sample)};
+  add_right_now(earlier, before.rows);
+  return before;
 }
 
-std::vector<std::string> compare_with(const std::vector<TriagedSignature>& baseline, Triage& now, Workers& workers) {
-  std::set<std::string> cannot_be_asked;
-  for (TriagedSignature& s : now.signatures) s.change = SignatureChange::fresh;
-  const std::size_t here = now.signatures.size();
-  for (const TriagedSignature& earlier : baseline) {
-    bool found = false;
-    for (std::size_t i = 0; i < here; ++i) {
-      TriagedSignature& s = now.signatures[i];
-      if (!is_same(s, earlier)) continue;
-      found = true;
-      const bool worse = earlier.size.relative > 0 && s.size.relative >= much_worse * earlier.size.relative;
-      if (s.change != SignatureChange::known) s.change = worse ? SignatureChange::worse : SignatureChange::known;
-    }
-    if (!found && !add_absent(earlier, now, workers)) cannot_be_asked.insert(earlier.kind.subject);
-  }
-  rank(now.signatures);
-  return {cannot_be_asked.begin(), cannot_be_asked.end()};
+std::vector<std::string> compare_with(const Baseline& baseline, Triage& now, const TriageSettings& settings,
+                                      Workers& workers) {
+  return Comparison(baseline, now, settings, workers).result();
 }
 
 std::vector<SignatureDecision> decisions_in(const std::string& text, const std::string& where) {
@@ -234,7 +425,7 @@ std::vector<std::string> apply(const std::vector<SignatureDecision>& decisions, 
   for (const SignatureDecision& d : decisions) {
     bool found = false;
     for (TriagedSignature& s : now.signatures) {
-      if (s.id != d.id) continue;
+      if (!s.names.contains(d.id)) continue;
       found = true;
       s.decision = d;
       s.decision->reopened = is_open_again(d, s);

@@ -54,10 +54,11 @@ std::optional<ExaminedCase> ExaminedCases::earlier(const FiledReport& of) try {
   return std::nullopt;
 }
 
-std::optional<ExaminedCase> ExaminedCases::examine(const FiledReport& of, std::chrono::duration<double> time,
+std::optional<ExaminedCase> ExaminedCases::examine(const FiledReport& of, const Case& plain,
+                                                   std::chrono::duration<double> time,
                                                    const std::function<void(std::uint64_t)>& tick) {
   const MinimiseLimits limits{MinimiseLimits().questions, share_of_minimising * time, true};
-  std::optional<Minimised> m = minimise(of.question, *of.subject, limits, workers_, tick);
+  std::optional<Minimised> m = minimise(plain, *of.subject, limits, workers_, tick);
   if (!m || interrupted()) return std::nullopt;
   Report& r = m->report;
   const CauseLimits cause_limits{CauseLimits().questions, (1 - 2 * share_of_minimising) * time};

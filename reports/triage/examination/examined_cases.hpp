@@ -30,9 +30,9 @@ class ExaminedCases {
   /// What was found before; empty where nothing was, and where the subject has another version or gives another answer
   /// to the simplest case.
   std::optional<ExaminedCase> earlier(const FiledReport& of);
-  /// Minimises the case and finds the cause, at most in about so much time. Empty where the subject is right now, or
-  /// after an interrupt.
-  std::optional<ExaminedCase> examine(const FiledReport& of, std::chrono::duration<double> time,
+  /// Minimises the report's case, or a plainer one with the same fault, and finds the cause, at most in about so much
+  /// time. Empty where the subject is right now, or after an interrupt.
+  std::optional<ExaminedCase> examine(const FiledReport& of, const Case& plain, std::chrono::duration<double> time,
                                       const std::function<void(std::uint64_t)>& tick);
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -96,7 +97,10 @@ class Reader {
     const json index = parse_json(read_file(file), file.string());
     const FileValue whole(index, file.string());
     whole.expect_schema(run_schema_version);
-    for (CountedVariant& v : variants_in(whole)) sources.counts.push_back(std::move(v));
+    std::vector<CountedVariant> variants = variants_in(whole);
+    sources.sample.add(whole);
+    if (!variants.empty()) note_counted(whole);
+    std::move(variants.begin(), variants.end(), std::back_inserter(sources.counts));
   } catch (const BadInput& e) {
     skip(file, without_name(file, e.what()));
   }
@@ -111,9 +115,17 @@ class Reader {
     if (!same || r.subject->offering(r.question.query->name).answer == nullptr)
       return skip(file, fmt::format("{} cannot be asked this case", r.subject->name));
     r.question = *same;
+    r.is_counted = counted_.contains(r.id);
     if (ids_.insert(r.id).second) sources.reports.push_back(std::move(r));
   } catch (const BadInput& e) {
     skip(file, without_name(file, e.what()));
+  }
+  /// The reports of the run itself, not those of earlier ones in its folder.
+  void note_counted(const FileValue& index) {
+    for (const FileValue& r : index.at("reports").items()) {
+      const std::optional<FileValue> earlier = r.find("earlier");
+      if (!earlier || !earlier->flag()) counted_.insert(r.at("id").text());
+    }
   }
   /// Errors of codecs begin with the file.
   static std::string without_name(const fs::path& file, const std::string& what) {
@@ -122,6 +134,7 @@ class Reader {
   }
 
   std::set<std::string> ids_;
+  std::set<std::string> counted_;  ///< ids of reports whose findings an index counts
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "impl/subject/subject.hpp"
 #include "reports/engine/variant_counts.hpp"
 #include "reports/findings/finding_kind.hpp"
+#include "reports/triage/examination/sample.hpp"
 
 namespace nearmiss {
 
@@ -19,12 +20,14 @@ struct FiledReport {
   Case question;
   const Subject* subject = nullptr;
   SceneMeasure measure;
+  bool is_counted = false;  ///< its finding is among the counts of its run's index
 };
 
 struct Sources {
   std::vector<std::string> names;      ///< as given
   std::vector<FiledReport> reports;    ///< each id once, in the order of files
   std::vector<CountedVariant> counts;  ///< of all indexes
+  Sample sample;                       ///< of all indexes
   /// Files that could not be used, each with the reason: truncated, of another program, of an older schema, about a
   /// subject that is not loaded.
   std::vector<std::pair<std::string, std::string>> skipped;
