@@ -103,12 +103,12 @@ std::string NightTriage::counts_text(bool ours) const {
 }
 
 std::string NightTriage::changed_text(bool ours) const {
-  constexpr std::size_t most = 6;
+  constexpr std::size_t most = 6, most_bytes = 150;
   std::string text;
   std::size_t seen = 0;
   for (const TriagedSignature& s : triage_.signatures) {
     if (is_ours(s.kind.subject) != ours || !s.stands() || ++seen > most) continue;
-    text += fmt::format("\n  {}: {}", name_of(*s.change), s.headline);
+    text += fmt::format("\n  {}: {}", name_of(*s.change), first_words(s.headline, most_bytes));
     if (ours) text += fmt::format("\n    {}", s.worst);
   }
   return seen > most ? fmt::format("{}\n  and {} more", text, seen - most) : text;

@@ -222,7 +222,8 @@ TEST_F(Triaged, TheSimplestCaseIsOrdinaryWhereTheFindingIs) {
       for (const json& x : value.is_object() ? value : json::array({value})) {
         const json& numbers = x.is_array() ? x : json::array({x});
         for (const json& n : numbers) {
-          if (n.is_number() && n != 0) EXPECT_LE(std::abs(std::log2(std::abs(n.get<double>()))), 10) << s["case"];
+          if (!n.is_number() || n == 0) continue;
+          EXPECT_LE(std::abs(std::log2(std::abs(n.get<double>()))), 10) << s["case"];
         }
       }
     }
