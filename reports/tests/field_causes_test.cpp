@@ -1,5 +1,6 @@
 /// The set of findings of real libraries with known causes, corpus/field-causes: its form, and that each stored answer
 /// is a finding.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -72,7 +73,7 @@ TEST(FieldCauses, EachStoredAnswerIsAFinding) {
         "replay",    "--json",
         "--measure", "1e-4",
         "--subject", "stored",
-        "--command", python + " " + source_folder() + "/corpus/field-causes/answers " + scalar + " " + subject};
+        "--command", fmt::format("{} {}/corpus/field-causes/answers {} {}", python, source_folder(), scalar, subject)};
     for (const StoredCase& c : cases) {
       const auto file = folder / (std::to_string(arguments.size()) + ".json");
       write_file(file, json{{"query", c.row.at("query")}, {"scalar", scalar}, {"inputs", c.inputs}}.dump());
