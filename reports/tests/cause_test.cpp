@@ -420,14 +420,15 @@ TEST(Cause, LogicOfACaseOnABorderIsNoRounding) {
   EXPECT_NE(c.kind, CauseKind::rounding) << text_of(c);
 }
 
-/// Samples the motion at six times until it must have passed.
+/// Samples the motion at equal times.
 Answer samples(Values q) {
   Answer a;
   a.yes = false;
   a.values[0] = INFINITY;
-  const double end = 2 * std::hypot(q[0] - q[7], q[1] - q[8], q[2] - q[9]) / std::hypot(q[4], q[5], q[6]);
-  for (int i = 0; i <= 5 && !a.yes; ++i) {
-    const double t = end * i / 5;
+  constexpr double step = 2;
+  constexpr int steps = 64;
+  for (int i = 0; i <= steps && !a.yes; ++i) {
+    const double t = step * i;
     const double at[] = {q[0] + q[4] * t, q[1] + q[5] * t, q[2] + q[6] * t, q[3], q[7], q[8], q[9], q[10]};
     a.yes = gap(at) <= 0;
   }
@@ -519,15 +520,13 @@ Answer with_sharp_corners(Values q) {
   return right("moving_sphere_passes_box", sharp);
 }
 
-/// Answers that are yes have no time that could be compared.
+/// The code has no steps along the motion, although the answer depends on where the motion begins.
 TEST(Cause, AFalseHitOfADecisionAboutAMotion) {
   const Subject s = planted("moving_sphere_passes_box", with_sharp_corners);
   const std::vector<double> case_values{6, -5, 0, 2, -6.25, -3, -3, -1, -12, -4, 3, 4, 1, 0, 0, 0, 1, 0.5, 0};
   const Cause c = cause(s, case_of("moving_sphere_passes_box", case_values));
-  const bool began_later = std::any_of(c.evidence.begin(), c.evidence.end(), [](const Evidence& e) {
-    return e.test.starts_with("The same motion began later");
-  });
-  EXPECT_TRUE(began_later) << text_of(c);
+  EXPECT_EQ(c.kind, CauseKind::logic) << text_of(c);
+  EXPECT_EQ(c.key, "sharp corners") << text_of(c);
 }
 
 /// Wrong where the first center lies in a plane of coordinates.

@@ -29,6 +29,7 @@ enum class CauseKind {
 /// What was tried, and what was seen: a line each.
 struct Evidence {
   std::string test, result;
+  std::vector<CauseKind> against{};  ///< causes of these kinds are not named beside it
 };
 
 struct Cause {

@@ -10,10 +10,21 @@
 
 namespace nearmiss {
 
+/// What must be true besides if a cause is the right one. hypotheses/predictions.cpp has the tests.
+enum class Prediction {
+  at_every_scale,     ///< the finding stays where lengths or velocities are multiplied by powers of two
+  in_every_rounding,  ///< the finding stays in the four rounding modes
+  extreme_numbers,    ///< a formula of the case leaves the range of a type
+  small_error,        ///< the error is one that rounding may have
+  two_borders,        ///< from scale to scale, the answers are wrong, then right, and then wrong again
+  one_border,         ///< from scale to scale, the answers are wrong up to one border and right beyond it
+};
+
 /// A cause whose test passed.
 struct Named {
   CauseKind kind = CauseKind::unexplained;
   std::string key, text;
+  std::vector<Prediction> predictions{};
 };
 
 struct Tested {

@@ -14,6 +14,12 @@
 
 namespace nearmiss {
 
+namespace {
+
+constexpr std::size_t sample_size = 256;
+
+}  // namespace
+
 const std::vector<Trial>& AskedCases::similar() {
   constexpr std::size_t most = 16;
   constexpr std::size_t most_at_touches = 6;
@@ -71,10 +77,14 @@ std::vector<Case> AskedCases::generated(std::size_t count, std::uint64_t& index)
 }
 
 const std::vector<Trial>& AskedCases::sample() {
-  constexpr std::size_t size = 256;
-  std::uint64_t first = 0;
-  if (!sample_) sample_ = trials_.ask(generated(size, first));
+  if (!sample_) sample_ = trials_.ask(generated(sample_size, generated_));
   return *sample_;
+}
+
+const std::vector<Trial>& AskedCases::fresh() {
+  sample();
+  if (!fresh_) fresh_ = trials_.ask(generated(sample_size, generated_));
+  return *fresh_;
 }
 
 const std::vector<Trial>& AskedCases::neighbours() {

@@ -33,6 +33,8 @@ class AskedCases {
   std::vector<Trial> generated_with_finding(std::size_t most);
   /// 256 generated cases, of ordinary numbers.
   const std::vector<Trial>& sample();
+  /// 256 other generated cases, of ordinary numbers, to test what the sample has suggested.
+  const std::vector<Trial>& fresh();
   /// 64 cases a few ulps away.
   const std::vector<Trial>& neighbours();
   /// The case in the four rounding modes; none for a subject behind pipes.
@@ -70,8 +72,9 @@ class AskedCases {
   Trials& trials_;
   std::uint64_t seed_;
   IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
-  std::optional<std::vector<Trial>> similar_, sample_, neighbours_, roundings_;
+  std::optional<std::vector<Trial>> similar_, sample_, fresh_, neighbours_, roundings_;
   std::optional<std::vector<ScaleScan>> scans_;
+  std::uint64_t generated_ = 0;  ///< the generator's next case after the sample
   RoundingSeen rounding_seen_;
   std::optional<Named> unknown_tolerance_;
   bool has_small_errors_ = false;
@@ -89,7 +92,9 @@ class TestOfCause {
   Tested finished(std::optional<Named> named) { return {std::move(named), std::move(evidence_)}; }
 
  protected:
-  void saw(std::string test, std::string result) { evidence_.push_back({std::move(test), std::move(result)}); }
+  void saw(std::string test, std::string result, std::vector<CauseKind> against = {}) {
+    evidence_.push_back({std::move(test), std::move(result), std::move(against)});
+  }
   Trials& trials() const { return asked_.trials(); }
   const Case& question() const { return asked_.question(); }
 

@@ -14,6 +14,7 @@
 #include "reports/triage/hypotheses/logic.hpp"
 #include "reports/triage/hypotheses/motion_steps.hpp"
 #include "reports/triage/hypotheses/number_range.hpp"
+#include "reports/triage/hypotheses/predictions.hpp"
 #include "reports/triage/hypotheses/relative_tolerance.hpp"
 #include "reports/triage/hypotheses/rounding.hpp"
 #include "reports/triage/hypotheses/tolerance.hpp"
@@ -54,6 +55,20 @@ constexpr Tested (*tests_of_causes[])(AskedCases&) = {number_range_of,
                                                       small_errors_of,
                                                       logic_of};
 
+bool speaks_against(const std::vector<Evidence>& evidence, CauseKind kind) {
+  return std::any_of(evidence.begin(), evidence.end(), [kind](const Evidence& e) {
+    return std::find(e.against.begin(), e.against.end(), kind) != e.against.end();
+  });
+}
+
+/// Nothing that was seen speaks against the cause, and all that it predicts holds.
+bool is_consistent(const Named& named, AskedCases& asked, std::vector<Evidence>& evidence) {
+  if (speaks_against(evidence, named.kind)) return false;
+  auto contradiction = contradiction_of(named, asked);
+  if (contradiction) evidence.push_back(std::move(*contradiction));
+  return !contradiction;
+}
+
 std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evidence) {
   if (!is_bad(asked.trials().base().finding)) {
     evidence.push_back({"The subject was asked again.", "The finding is gone."});
@@ -68,7 +83,7 @@ std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evide
     }
     Tested tested = test(asked);
     std::move(tested.evidence.begin(), tested.evidence.end(), std::back_inserter(evidence));
-    if (tested.named) return tested.named;
+    if (tested.named && is_consistent(*tested.named, asked, evidence)) return tested.named;
   }
   return std::nullopt;
 }

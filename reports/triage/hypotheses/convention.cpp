@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "reports/findings/text.hpp"
+#include "reports/triage/geometry/magnitudes.hpp"
 #include "reports/triage/hypotheses/readings.hpp"
 
 namespace nearmiss {
@@ -19,10 +23,11 @@ class Convention : public TestOfCause {
     for (const Reading& reading : readings()) {
       if (reading.decides && !asked_.is_wrong_decision()) continue;
       const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
-      if (!fits.value_or(is_undefined())) continue;
-      const Support s = support_of(reading);
+      if (!fits.value_or(is_undefined()) || (is_miss() && is_vacuous(reading))) continue;
+      if (reading.decides && is_wrong_without(reading)) continue;
+      Support s = support_of(reading);
       const bool holds = s.holds(!reading.decides) && (gives_numbers() || s.against_it == 0);
-      if (fits ? holds : s.holds_without_case()) return named_reading(reading, s);
+      if (fits ? holds && holds_for_fresh_cases(reading, s) : s.holds_without_case()) return named_reading(reading, s);
       if (!fits) continue;
       by_chance.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
                                       of_text(s.explained, s.with_finding), s.for_it, s.against_it));
@@ -65,6 +70,47 @@ class Convention : public TestOfCause {
       return for_it >= least && nearly_all(for_it, wrong) && against_it == 0;
     }
   };
+  /// Whether most answers have the finding where the reading makes no difference. Then it explains the others by
+  /// chance.
+  bool is_wrong_without(const Reading& reading) {
+    constexpr std::size_t least = 4;
+    std::size_t all = 0, wrong = 0;
+    for (const Trial& t : asked_.sample()) {
+      const bool is_alike = t.outcome != Outcome::none && t.finding.truth_yes == trials().base().finding.truth_yes;
+      if (!is_alike || is_of_another_branch(reading, t.question)) continue;
+      if (reading.right(t.question, t.answer, asked_.is_right())) continue;
+      ++all, wrong += t.outcome == Outcome::same;
+    }
+    return all >= least && most(wrong, all);
+  }
+  bool is_miss() const { return trials().base().finding.disagreement == Disagreement::false_miss; }
+  /// Whether the reading says of nearly every hit that it is a miss, and explains no hit that the subject gives. Then
+  /// it explains every false miss, whatever its cause.
+  bool is_vacuous(const Reading& reading) {
+    Answer miss;
+    if (trials().query().kind == Kind::impact) miss.values[0] = INFINITY;
+    std::size_t hits = 0, misses = 0, explained = 0;
+    for (const Trial& t : asked_.sample()) {
+      if (t.outcome == Outcome::none) continue;
+      if (t.finding.truth_yes) ++hits, misses += reading.right(t.question, miss, asked_.is_right()).value_or(false);
+      const bool is_wrong_hit = t.outcome != Outcome::right && t.answer.yes;
+      explained += is_wrong_hit && reading.right(t.question, t.answer, asked_.is_right()).value_or(false);
+    }
+    return nearly_all(misses, hits) && explained == 0;
+  }
+  /// As the sample was used to choose among the readings, other generated cases must not contradict the chosen one.
+  bool holds_for_fresh_cases(const Reading& reading, Support& s) {
+    Support fresh;
+    count_generated(reading, asked_.fresh(), fresh);
+    saw(fmt::format("Other cases were generated and judged as if {}.", reading.what),
+        fmt::format("{} with the finding are right then; {} wrong answers become right, and {} right ones wrong.",
+                    of_text(fresh.explained, fresh.with_finding), fresh.for_it, fresh.against_it));
+    const bool contradicts = !gives_numbers() && asked_.is_wrong_decision() && fresh.against_it > 0;
+    return !contradicts &&
+           (fresh.for_it + fresh.against_it == 0 ||
+            nearly_all(s.for_it + fresh.for_it, s.for_it + fresh.for_it + s.against_it + fresh.against_it)) &&
+           (fresh.with_finding == 0 || nearly_all(s.explained + fresh.explained, s.with_finding + fresh.with_finding));
+  }
   /// The answer would be wrong under the reading if the reading made a difference.
   static bool contradicts(const Reading& reading, const Trial& t) {
     if (t.outcome == Outcome::right) return true;
@@ -89,7 +135,11 @@ class Convention : public TestOfCause {
     Support s;
     for (const Trial& t : asked_.similar())
       count_finding(reading, reading.right(t.question, t.answer, asked_.is_right()), s);
-    for (const Trial& t : asked_.sample()) {
+    count_generated(reading, asked_.sample(), s);
+    return s;
+  }
+  void count_generated(const Reading& reading, const std::vector<Trial>& generated, Support& s) {
+    for (const Trial& t : generated) {
       if (t.outcome == Outcome::none) continue;
       if (t.outcome == Outcome::right && is_of_another_branch(reading, t.question)) continue;
       const std::optional<bool> fits = reading.right(t.question, t.answer, asked_.is_right());
@@ -98,7 +148,6 @@ class Convention : public TestOfCause {
       s.wrong += t.outcome != Outcome::right && fits.has_value();
       if (t.outcome == Outcome::same) count_finding(reading, fits, s);
     }
-    return s;
   }
 
   Named named_reading(const Reading& reading, const Support& s) {
@@ -106,7 +155,47 @@ class Convention : public TestOfCause {
         fmt::format("The answer to the case is right then, and so are those to {} other cases with the finding. Of the "
                     "generated cases, {} wrong answers become right, and {} right ones become wrong.",
                     of_text(s.explained, s.with_finding), s.for_it, s.against_it));
-    return {reading.kind, std::string(reading.name), fmt::format("The answer is right if {}.", reading.what)};
+    const std::string divisor = reading.name == "normal not of unit length" ? told_length_of_normals() : "";
+    return {reading.kind, std::string(reading.name),
+            fmt::format("The answer is right if {}.{}", reading.what, divisor)};
+  }
+  /// The length of the given normal; 0 where there is none.
+  static double length_of_normal(const Trial& t) {
+    const Layout::Part* p = given_part(t.question, t.answer, Role::normal);
+    if (p == nullptr || p->end - p->begin != 3) return 0;
+    return std::hypot(t.answer.values[p->begin], t.answer.values[p->begin + 1], t.answer.values[p->begin + 2]);
+  }
+  /// " The length of the normal is A over B.", where the lengths A and B of each case have this quotient; or that of A
+  /// or of 1 over A alone.
+  std::string told_length_of_normals() {
+    constexpr std::size_t least = 4, most_cases = 12;
+    std::vector<std::pair<double, std::vector<Magnitude>>> cases;
+    const auto add = [&](const Trial& t) {
+      const double size = length_of_normal(t);
+      if (t.outcome != Outcome::same || !(size > 0) || cases.size() == most_cases) return;
+      cases.emplace_back(size, magnitudes_of(t.question).lengths);
+      cases.back().second.push_back({"1", 1});
+    };
+    add(trials().base());
+    for (const auto* list : {&asked_.sample(), &asked_.similar()}) std::for_each(list->begin(), list->end(), add);
+    if (cases.size() < least) return "";
+    const std::size_t count = cases[0].second.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < count; ++k) {
+        if (i != k && are_quotients(cases, i, k))
+          return fmt::format(" The length of the normal is {} over {}.", cases[0].second[i].name,
+                             cases[0].second[k].name);
+      }
+    }
+    return "";
+  }
+  static bool are_quotients(const std::vector<std::pair<double, std::vector<Magnitude>>>& cases, std::size_t i,
+                            std::size_t k) {
+    constexpr double known = 1e-6;  // less than the measure, more than the rounding of what is computed here
+    return std::all_of(cases.begin(), cases.end(), [&](const auto& c) {
+      const double above = double(c.second[i].value), below = double(c.second[k].value);
+      return below > 0 && std::abs(c.first * below - above) <= known * above;
+    });
   }
 };
 

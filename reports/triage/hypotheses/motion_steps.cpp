@@ -62,25 +62,25 @@ class MotionSteps : public TestOfCause {
     const std::vector<Case> cases = later_starts();
     if (cases.empty() || (!asked_.roundings().empty() && !asked_.same_in_all_roundings())) return std::nullopt;
     const std::vector<Trial> later = trials().ask(cases);
-    std::size_t right = 0, changes = 0, last_wrong = 0;
+    std::size_t right = 0, changes = 0;
     bool before = false;
-    for (std::size_t i = 0; i < later.size(); ++i) {
-      const bool ended = has_ended(later[i]);
+    for (const Trial& t : later) {
+      const bool ended = has_ended(t);
       right += ended, changes += ended != before;
-      if (!ended) last_wrong = i;
       before = ended;
     }
     saw("The same motion began later, at points that come nearer and nearer to the contact.",
         fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
                     of_text(right, later.size()), changes));
-    constexpr std::size_t least_changes = 3, least_in_all = 4, least_right = 4;
+    constexpr std::size_t least_changes = 3, least_in_all = 4, least_right = 8;
     if (has_one_wrong_contact(later)) return std::nullopt;
-    const bool ends = changes == 1 && last_wrong + least_right < later.size();
-    const bool comes_and_goes = changes >= least_changes && right >= 2 * least_right;
-    if (!ends && !comes_and_goes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
-    return Named{CauseKind::iteration_limit, "steps along the motion",
+    const bool comes_and_goes = changes >= least_changes && right >= least_right;
+    if (!comes_and_goes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
+    return Named{CauseKind::iteration_limit,
+                 "steps along the motion",
                  "The answer depends on where the same motion begins, in every rounding mode and at every scale: the "
-                 "steps along the motion are too few."};
+                 "steps along the motion are too few.",
+                 {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
   /// Steps as long as the gap converge slowly where the motion grazes. A search that then gives up misses contacts
@@ -107,9 +107,11 @@ class MotionSteps : public TestOfCause {
     if (steepest < least_sine || steepest > most_sine || !nearly_all(found.size() - below, found.size()))
       return std::nullopt;
     return Named{
-        CauseKind::iteration_limit, "steps along the motion",
+        CauseKind::iteration_limit,
+        "steps along the motion",
         "Contacts are missed where the motion grazes, in every rounding mode and at every scale: a search that "
-        "converges slowly there ends too early."};
+        "converges slowly there ends too early.",
+        {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
  private:

@@ -35,8 +35,10 @@ class NumberRange : public TestOfCause {
         fmt::format("With 2^{} the answer is right and no {} is raised. From 1 to 2^{} the finding stays, and every "
                     "answer raises the exception.",
                     s.flip->right, name_of(kind), s.flip->wrong));
-    return Named{kind, std::string(s.group->name),
-                 fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind))};
+    return Named{kind,
+                 std::string(s.group->name),
+                 fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind)),
+                 {Prediction::extreme_numbers}};
   }
 
   std::optional<Named> ends_together(const ScaleScan& s, const Flip& ends, CauseKind kind) {
@@ -45,8 +47,10 @@ class NumberRange : public TestOfCause {
             "From 1 to 2^{} the finding stays, and every answer raises {}. From 2^{} on the finding is another, "
             "or gone, and no answer raises it.",
             ends.wrong, name_of(kind), ends.right));
-    return Named{kind, std::string(s.group->name),
-                 fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind))};
+    return Named{kind,
+                 std::string(s.group->name),
+                 fmt::format("A number that the subject computes leaves the range of the scalar: {}.", name_of(kind)),
+                 {Prediction::extreme_numbers}};
   }
 
   /// A tolerance is exceeded on one side. The range of a smaller type is left on both, and so is the range of numbers
@@ -67,16 +71,21 @@ class NumberRange : public TestOfCause {
     if (smallest < -furthest || largest > furthest) return std::nullopt;
     saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
         fmt::format("The finding is there with 2^{} and again with 2^{}, and the answer is right between the two.",
-                    s.flip->wrong, *again));
+                    s.flip->wrong, *again),
+        {CauseKind::absolute_tolerance, CauseKind::relative_tolerance});
     constexpr int sixth_power = 128 / 6;  // of the largest float; its square, fourth and sixth power leave the range
     if (largest < sixth_power - 2 || smallest > -sixth_power)
-      return Named{CauseKind::iteration_limit, "steps from a fixed start",
+      return Named{CauseKind::iteration_limit,
+                   "steps from a fixed start",
                    "The finding is there for large numbers and for small ones, and not between, in the range of every "
-                   "type: a search from a fixed start ends too early."};
+                   "type: a search from a fixed start ends too early.",
+                   {Prediction::two_borders}};
     return Named{
-        direction < 0 ? CauseKind::overflow : CauseKind::underflow, std::string(s.group->name),
+        direction < 0 ? CauseKind::overflow : CauseKind::underflow,
+        std::string(s.group->name),
         "The finding is there for large numbers and for small ones, and not between: a number that the subject "
-        "computes leaves the range of a smaller type."};
+        "computes leaves the range of a smaller type.",
+        {Prediction::extreme_numbers, Prediction::two_borders}};
   }
 
   /// A subject that broke, or that answers behind pipes, leaves no flags. The range is exceeded if the fourth power of

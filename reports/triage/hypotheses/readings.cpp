@@ -185,12 +185,6 @@ Fits start_inside_is_a_miss(const Case& c, const Answer& a, const IsRight&) {
   return !a.yes;
 }
 
-Fits start_inside_is_a_hit(const Case& c, const Answer& a, const IsRight&) {
-  if (a.status != Answer::Status::answered || !starts_in_contact(c)) return std::nullopt;
-  const Layout::Part* time = given_part(c, a, Role::time);
-  return a.yes && (time == nullptr || a.values[time->begin] == 0);
-}
-
 /// The least time of contact of a right answer, in durations of the motion or lengths of the ray's direction; empty
 /// where it is a miss.
 std::optional<double> least_time_of(const Case& c, const Alternative& right) {
@@ -210,6 +204,20 @@ std::optional<double> least_time_of(const Case& c, const Alternative& right) {
     along += (right.values[place + k].low - c.values[parts.start->place + k]) * d, square += d * d;
   }
   return along / square;
+}
+
+/// A right answer is a hit at time 0, or the query has no time.
+bool is_hit_at_the_start(const Case& c) {
+  const std::vector<Alternative> all = truth_of(c).alternatives;
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Alternative& right) { return right.yes && least_time_of(c, right).value_or(0) <= 0; });
+}
+
+/// Makes no difference where a hit at the start is right already, whatever else is wrong with the answer.
+Fits start_inside_is_a_hit(const Case& c, const Answer& a, const IsRight&) {
+  if (a.status != Answer::Status::answered || !starts_in_contact(c) || is_hit_at_the_start(c)) return std::nullopt;
+  const Layout::Part* time = given_part(c, a, Role::time);
+  return a.yes && (time == nullptr || a.values[time->begin] == 0);
 }
 
 Fits ends_at_time_one(const Case& c, const Answer& a, const IsRight&) {
@@ -281,9 +289,19 @@ const Layout::Part* given_part(const Case& c, const Answer& a, Role role) {
 std::span<const Reading> readings() {
   static const std::vector<Reading> table = [] {
     std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));
-    for (const auto more : {readings_of_frames(), readings_of_inputs(), readings_of_values()})
+    for (const auto more : {readings_of_frames(), readings_of_inputs(), readings_of_values(), readings_of_contacts()})
       all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), std::begin(of_starts), std::end(of_starts));
+    return all;
+  }();
+  return table;
+}
+
+std::span<const Reading> readings_of_answers() {
+  static const std::vector<Reading> table = [] {
+    std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));
+    const auto contacts = readings_of_contacts();
+    all.insert(all.end(), contacts.begin(), contacts.end());
     return all;
   }();
   return table;

@@ -23,12 +23,17 @@ struct Reading {
 };
 
 std::span<const Reading> readings();
+/// Those about the numbers of the answer, with those about contacts, which may be of another thing.
+std::span<const Reading> readings_of_answers();
 /// Those about the front of a plane or triangle, or the frame of a box; they are among readings().
 std::span<const Reading> readings_of_frames();
 /// Those that change the inputs; they are among readings().
 std::span<const Reading> readings_of_inputs();
 /// Those that take a value of the answer for another one, or for that of another contact; they are among readings().
 std::span<const Reading> readings_of_values();
+/// Those about the place, the normal and the time of a contact, which may be of another thing; they are among
+/// readings().
+std::span<const Reading> readings_of_contacts();
 /// The first member with this role that the answer gives; nullptr if there is none, or the answer is no.
 const Layout::Part* given_part(const Case& c, const Answer& a, Role role);
 /// Whether something moves and touches, or overlaps, at the start.

@@ -235,6 +235,20 @@ Fits limit_of_one(const Case& c, const Answer& a, const IsRight& is_right) {
   return opinion_on(c, other, a, is_right);
 }
 
+/// A box that is grown by the radius of the sphere has sharp corners, where that of the sphere and the box is round.
+Fits sharp_corners(const Case& c, const Answer& a, const IsRight& is_right) {
+  const Operand *sphere = c.operands().find(Shape::sphere), *box = c.operands().find(Shape::box);
+  if (sphere == nullptr || box == nullptr) return std::nullopt;
+  Case other = c;
+  double& radius = other.values[*sphere->radius];
+  for (std::size_t k = 0; k < 3; ++k) {
+    double& half = other.values[*box->half + k];
+    half = rounded_to(c.scalar, half + radius);
+  }
+  radius = 0;
+  return opinion_on(c, other, a, is_right);
+}
+
 constexpr Reading table_of_inputs[] = {
     {"half extents halved", "the given half extents are full extents", CauseKind::convention, false,
      scaled_sizes<1, 2, true>},
@@ -312,6 +326,8 @@ constexpr Reading table_of_inputs[] = {
     {"sine in place of the bound", "the bound is the sine of an angle", CauseKind::convention, false,
      angle_for_bound<true>},
     {"given index from 1", "the given index counts from 1", CauseKind::convention, false, index_from_one},
+    {"sharp corners", "the box is grown by the radius, so that its corners are not round", CauseKind::logic, false,
+     sharp_corners},
 };
 
 }  // namespace

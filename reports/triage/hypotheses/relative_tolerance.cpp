@@ -226,8 +226,10 @@ class RelativeTolerance {
                       "root: the subject compares floats.",
                       name, value)};
     return Named{
-        CauseKind::relative_tolerance, value,
-        fmt::format("The subject has a relative tolerance of {} (unit 1) that {} is compared with.", value, name)};
+        CauseKind::relative_tolerance,
+        value,
+        fmt::format("The subject has a relative tolerance of {} (unit 1) that {} is compared with.", value, name),
+        {Prediction::at_every_scale}};
   }
   /// Half a unit in the last place of a float above or below 1, or the sine of an angle whose cosine is so close to 1.
   bool is_of_floats(double value) const {

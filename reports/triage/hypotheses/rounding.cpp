@@ -67,8 +67,10 @@ class RoundingErrors : public TestOfCause {
     }
     if (is_mixed(right, all) && others_depend && may_round) {
       if (!are_on_two_sides(question(), near))
-        return Named{CauseKind::rounding, "",
-                     "The answer is unstable: it is right or wrong by the last bits of the inputs."};
+        return Named{CauseKind::rounding,
+                     "",
+                     "The answer is unstable: it is right or wrong by the last bits of the inputs.",
+                     {Prediction::small_error}};
       saw("A plane was sought that separates these cases with the finding from those without.",
           "There is one: the case lies on a border, and the answer is not right or wrong by chance.");
     }
@@ -132,11 +134,14 @@ class RoundingErrors : public TestOfCause {
     const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
     if (!others_depend_ || !may_be_named) return std::nullopt;
     if (moved >= least_moved)
-      return Named{CauseKind::rounding, "",
-                   "The error changes with the rounding mode: it consists of rounding errors."};
+      return Named{CauseKind::rounding,
+                   "",
+                   "The error changes with the rounding mode: it consists of rounding errors.",
+                   {Prediction::small_error}};
     return Named{CauseKind::rounding, "",
                  depends ? "The answer is right in another rounding mode."
-                         : "Other answers with the finding are right in another rounding mode."};
+                         : "Other answers with the finding are right in another rounding mode.",
+                 nearly_all_depend_ ? std::vector<Prediction>{} : std::vector{Prediction::small_error}};
   }
   /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
   /// by chance.
@@ -148,6 +153,7 @@ class RoundingErrors : public TestOfCause {
     }
     saw("The other cases with the finding were asked in the four rounding modes.",
         fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
+    nearly_all_depend_ = all >= least_others && nearly_all(depend, all);
     return all < least_others ? case_depends : 2 * depend >= all;
   }
   bool depends_on_rounding(const Trial& base) const {
@@ -172,10 +178,13 @@ class RoundingErrors : public TestOfCause {
     constexpr std::size_t least = 3, least_with_finding = 2;  // a case on a border loses the finding by any change
     if (first < least_with_finding || right < least || right != moved.size() - first) return std::nullopt;
     return Named{
-        CauseKind::rounding, "far from the origin",
-        "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances."};
+        CauseKind::rounding,
+        "far from the origin",
+        "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances.",
+        {Prediction::small_error}};
   }
-  bool others_depend_ = true;  ///< on the rounding mode, where the subject can be asked in another
+  bool nearly_all_depend_ = false;  ///< of the other cases, on the rounding mode: a subject may round as it likes
+  bool others_depend_ = true;       ///< on the rounding mode, where the subject can be asked in another
 
   std::vector<Case> moved_to_the_origin() const {
     std::vector<std::size_t> positions;

@@ -132,7 +132,7 @@ class ToleranceSearch {
           "The answer is right at no scale.");
     return std::nullopt;
   }
-  /// For lengths: right at far smaller scales alone.
+  /// Right at far smaller scales alone.
   static bool is_guard(const Flip& f) {
     constexpr int far = -32;
     return f.right < f.wrong && f.right <= far;
@@ -158,17 +158,19 @@ class ToleranceSearch {
                     "Of {} other cases with the finding, {} have such a flip.",
                     s.flip->wrong, s.flip->right, trials_.sets_rounding() ? ", without overflow or underflow" : "",
                     similar_.size(), flips.size() - 1));
-    if (&s == scans_.data() && is_guard(*s.flip)) {
+    if (is_guard(*s.flip)) {
       saw("The scale of the change was compared with that of the case.",
           "The answer is wrong for all larger numbers, and right for much smaller ones alone: the constant keeps tiny "
-          "numbers out, and is not the cause.");
+          "numbers out, and is not the cause.",
+          {CauseKind::absolute_tolerance});
       return std::nullopt;
     }
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
     if (best) return named_tolerance(*best, flips.size());
     if (errs_to_both_sides_) {
-      saw("Generated cases were asked.", "There are false hits and false misses: a tolerance errs to one side.");
+      saw("Generated cases were asked.", "There are false hits and false misses: a tolerance errs to one side.",
+          {CauseKind::absolute_tolerance, CauseKind::relative_tolerance});
       return std::nullopt;
     }
     double low = INFINITY, high = 0;
@@ -181,10 +183,12 @@ class ToleranceSearch {
             "No such quantity has the same value at every flip. The largest of the multiplied numbers is between "
             "{:.2g} and {:.2g} there.",
             low, high));
-    return Named{CauseKind::absolute_tolerance, "",
+    return Named{CauseKind::absolute_tolerance,
+                 "",
                  fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
                              "{:.2g} and {:.2g}. The subject compares something with a constant.",
-                             s.group->name, low, high)};
+                             s.group->name, low, high),
+                 {Prediction::one_border}};
   }
 
   /// A quantity that has about the same value at every flip, and different values in the cases.
@@ -250,15 +254,20 @@ class ToleranceSearch {
                     "cases.",
                     q.name, q.low, q.high, q.spread));
     if (!is_written)
-      return Named{CauseKind::absolute_tolerance, "",
-                   "The subject compares something with a constant: no quantity is a round number at every flip."};
+      return Named{CauseKind::absolute_tolerance,
+                   "",
+                   "The subject compares something with a constant: no quantity is a round number at every flip.",
+                   {Prediction::one_border}};
     return Named{CauseKind::absolute_tolerance,
                  fmt::format("{} {}", is_round ? fmt::format("1e{}", decade) : stable_value(q.low, q.high), q.unit),
                  fmt::format("The subject has an absolute tolerance of about {:.2g} ({}) that {} is compared with.",
-                             value, q.unit, q.name)};
+                             value, q.unit, q.name),
+                 {Prediction::one_border}};
   }
   const Case& question() const { return trials_.base().question; }
-  void saw(std::string test, std::string result) { evidence_.push_back({std::move(test), std::move(result)}); }
+  void saw(std::string test, std::string result, std::vector<CauseKind> against = {}) {
+    evidence_.push_back({std::move(test), std::move(result), std::move(against)});
+  }
 
   Trials& trials_;
   std::span<const ScaleScan> scans_;

@@ -7,6 +7,7 @@
 #include "corpus/generator/fit.hpp"
 #include "corpus/generator/generator.hpp"
 #include "oracles/judge.hpp"
+#include "reports/triage/hypotheses/readings.hpp"
 #include "reports/triage/hypotheses/regions.hpp"
 
 namespace nearmiss {
@@ -53,6 +54,26 @@ class Unsupported : public TestOfCause {
     return {CauseKind::unsupported, region.name,
             fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
   }
+  /// Another meaning of the answer that explains nearly all wrong answers of the region says more than the region. One
+  /// that explains most of them says that the region is not the cause. Meanings of the inputs and of the decision are
+  /// not tried: a region where all answers are misses has many.
+  std::optional<Named> told_by_meaning(const Region& region, std::span<const Trial> in) {
+    for (const Reading& reading : readings_of_answers()) {
+      if (reading.decides || asked_.is_wrong_decision()) continue;
+      std::size_t wrong = 0, explained = 0;
+      for (const Trial& t : in) {
+        if (t.outcome != Outcome::same && t.outcome != Outcome::other) continue;
+        ++wrong, explained += reading.right(t.question, t.answer, asked_.is_right()).value_or(false);
+      }
+      if (!most(explained, wrong)) continue;
+      saw(fmt::format("The wrong answers with {} were judged as if {}.", region.name, reading.what),
+          fmt::format("{} are right then.", of_text(explained, wrong)));
+      if (!nearly_all(explained, wrong)) return std::nullopt;
+      return Named{reading.kind, std::string(reading.name),
+                   fmt::format("With {}, the answer is right if {}.", region.name, reading.what)};
+    }
+    return always_wrong(region);
+  }
   std::optional<Named> tested(const Region& region) {
     const std::vector<Trial> in = cases_of(region, true), out = cases_of(region, false);
     const std::size_t in_right = count(in, Outcome::right), out_right = count(out, Outcome::right);
@@ -61,14 +82,14 @@ class Unsupported : public TestOfCause {
         fmt::format("Wrong are {} with it, and {} without it.", of_text(in_all - in_right, in_all),
                     of_text(out_all - out_right, out_all)));
     if (in_all < least || out_all < least) return std::nullopt;
-    if (divides(in, out)) return always_wrong(region);
+    if (divides(in, out)) return told_by_meaning(region, in);
     if (asked_.is_wrong_decision() && in_all > in_right && count(out, Outcome::same) <= most_outside) {
       const std::vector<Trial> in_one = cases_of(region, true, true), out_one = cases_of(region, false, true);
       saw(fmt::format("Only cases with the exact decision {} were asked.",
                       trials().base().finding.truth_yes ? "yes" : "no"),
           fmt::format("Right are {} with {}, and {} without it.", of_text(count(in_one, Outcome::right), in_one.size()),
                       region.name, of_text(count(out_one, Outcome::right), out_one.size())));
-      if (divides(in_one, out_one)) return always_wrong(region);
+      if (divides(in_one, out_one)) return told_by_meaning(region, in_one);
     }
     constexpr std::size_t least_outside = of_each_side / 2;
     const bool only_here = out_all >= least_outside && region.is_special && out_right == out_all &&

@@ -1,0 +1,135 @@
+#include "reports/triage/hypotheses/predictions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/triage/examination/severity.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Contradiction = std::optional<Evidence>;
+
+/// A change at a far smaller scale is that of a constant that keeps tiny numbers out.
+Contradiction depends_on_scale(AskedCases& asked) {
+  constexpr int furthest = 32;
+  for (const ScaleScan& s : std::span(asked.scans()).first(2)) {
+    if (!s.has_clean_flip() || std::abs(s.flip->right) > furthest) continue;
+    return Evidence{fmt::format("All {} were multiplied by powers of two.", s.group->name),
+                    fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}.", s.flip->wrong,
+                                s.flip->right)};
+  }
+  return std::nullopt;
+}
+
+Contradiction depends_on_rounding(AskedCases& asked) {
+  const std::vector<Trial>& all = asked.roundings();
+  const std::size_t right = count(all, Outcome::right);
+  if (right == 0) return std::nullopt;
+  return Evidence{"The case was asked in the four rounding modes.", fmt::format("It is right in {}.", right)};
+}
+
+/// No formula of the queries has a higher degree than 8: that of the discriminant of a point that meets a cylinder,
+/// which is a product of two products of two squared lengths. So numbers between 2^-16 and 2^16 leave no range, not
+/// even that of a float.
+Contradiction stays_in_range(AskedCases& asked) {
+  constexpr int degree = 8, range_of_floats = 128;
+  const auto& values = asked.question().values;
+  const bool is_extreme = std::any_of(values.begin(), values.end(), [](double x) {
+    return x != 0 && degree * std::abs(std::ilogb(x)) >= range_of_floats;
+  });
+  if (is_extreme) return std::nullopt;
+  return Evidence{
+      "The magnitudes of the numbers were compared with the ranges of types.",
+      fmt::format("Each lies between 2^-{0} and 2^{0}: no product of {1} of them leaves the range of a float.",
+                  range_of_floats / degree, degree)};
+}
+
+/// Rounding moves what is computed by shares of epsilon of its largest term, and a root halves the digits. A few roots
+/// of a few terms of the digits of a float lose no more.
+Contradiction is_no_error_of_rounding(AskedCases& asked) {
+  constexpr double terms = 16;
+  const double most = terms * std::sqrt(unit_roundoff(Scalar::float32));
+  const Trials& trials = asked.trials();
+  const ErrorSize size = error_size(asked.question(), trials.in_full(trials.base()));
+  if (size.relative <= most) return std::nullopt;
+  return Evidence{"The error was compared with the errors that rounding may have.",
+                  fmt::format("It is {}, and the root of the epsilon of a float, {} times, is {}.", size_text(size),
+                              terms, share_text(most))};
+}
+
+/// Whether the answers at the `count` nearest scales on one side of the flip are wrong, or right.
+bool are_alike(const ScaleScan& s, bool on_wrong_side, std::size_t count) {
+  const int direction = (s.flip->right > s.flip->wrong) == on_wrong_side ? -1 : 1;
+  const int begin = on_wrong_side ? s.flip->wrong : s.flip->right;
+  std::vector<const ScaleScan::At*> side;
+  for (const ScaleScan::At& a : s.trials) {
+    if ((a.k - begin) * direction >= 0 && a.trial.outcome != Outcome::none) side.push_back(&a);
+  }
+  std::sort(side.begin(), side.end(),
+            [&](const auto* a, const auto* b) { return std::abs(a->k - begin) < std::abs(b->k - begin); });
+  side.resize(std::min(side.size(), count));
+  return std::none_of(side.begin(), side.end(),
+                      [&](const auto* a) { return (a->trial.outcome == Outcome::right) == on_wrong_side; });
+}
+/// A comparison with a constant has one border. Of answers that are right or wrong by chance, so many are alike on each
+/// side in less than one of 1,000 cases.
+Contradiction has_several_borders(AskedCases& asked) {
+  constexpr std::size_t on_a_side = 5;
+  for (const ScaleScan& s : asked.scans()) {
+    if (!s.has_clean_flip() || (are_alike(s, true, on_a_side) && are_alike(s, false, on_a_side))) continue;
+    return Evidence{fmt::format("All {} were multiplied by powers of two.", s.group->name),
+                    fmt::format("Right and wrong ones alternate near 2^{}: no constant divides them.", s.flip->wrong)};
+  }
+  return std::nullopt;
+}
+
+/// Two borders of the subject and two at the ends of the scalar's range. Answers that are right or wrong by chance
+/// alternate more often.
+Contradiction has_many_borders(AskedCases& asked) {
+  constexpr std::size_t borders = 4;
+  for (const ScaleScan& s : asked.scans()) {
+    if (!s.has_clean_flip()) continue;
+    std::size_t changes = 0;
+    std::optional<bool> before;
+    for (const ScaleScan::At& a : s.trials) {
+      if (a.trial.outcome == Outcome::none) continue;
+      const bool is_right = a.trial.outcome == Outcome::right;
+      changes += before && *before != is_right;
+      before = is_right;
+    }
+    if (changes <= borders) continue;
+    return Evidence{fmt::format("All {} were multiplied by powers of two.", s.group->name),
+                    fmt::format("Right and wrong answers alternate {} times.", changes)};
+  }
+  return std::nullopt;
+}
+
+struct Test {
+  Prediction prediction;
+  Contradiction (*contradiction)(AskedCases&);
+};
+constexpr std::array tests{
+    Test{Prediction::at_every_scale, depends_on_scale}, Test{Prediction::in_every_rounding, depends_on_rounding},
+    Test{Prediction::extreme_numbers, stays_in_range},  Test{Prediction::small_error, is_no_error_of_rounding},
+    Test{Prediction::two_borders, has_many_borders},    Test{Prediction::one_border, has_several_borders}};
+
+}  // namespace
+
+std::optional<Evidence> contradiction_of(const Named& cause, AskedCases& asked) {
+  for (const Test& test : tests) {
+    const auto& made = cause.predictions;
+    if (std::find(made.begin(), made.end(), test.prediction) == made.end()) continue;
+    auto found = test.contradiction(asked);
+    if (!found) continue;
+    found->result += fmt::format(" This speaks against the cause '{}'.", name_of(cause.kind));
+    return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace nearmiss
