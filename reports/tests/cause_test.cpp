@@ -420,13 +420,13 @@ TEST(Cause, LogicOfACaseOnABorderIsNoRounding) {
   EXPECT_NE(c.kind, CauseKind::rounding) << text_of(c);
 }
 
-/// Samples the motion at equal times.
+/// Samples the motion in equal steps, which are longer than the spheres.
 Answer samples(Values q) {
   Answer a;
   a.yes = false;
   a.values[0] = INFINITY;
-  constexpr double step = 2;
   constexpr int steps = 64;
+  const double step = 3.78 * (q[3] + q[10]) / std::hypot(q[4], q[5], q[6]);
   for (int i = 0; i <= steps && !a.yes; ++i) {
     const double t = step * i;
     const double at[] = {q[0] + q[4] * t, q[1] + q[5] * t, q[2] + q[6] * t, q[3], q[7], q[8], q[9], q[10]};

@@ -73,6 +73,11 @@ class MotionSteps : public TestOfCause {
         fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
                     of_text(right, later.size()), changes));
     constexpr std::size_t least_changes = 3, least_in_all = 4, least_right = 8;
+    // A search in steps has one such change, and so has a formula that is wrong for all far starts.
+    const bool is_either = changes == 1 && trials().base().finding.disagreement == Disagreement::false_miss;
+    if (is_either && right >= least_right / 2)
+      saw("The places at which the finding ends were counted.",
+          "There is one: steps that are too few cannot be told from a mistake in the logic.", {CauseKind::logic});
     if (has_one_wrong_contact(later)) return std::nullopt;
     const bool comes_and_goes = changes >= least_changes && right >= least_right;
     if (!comes_and_goes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
