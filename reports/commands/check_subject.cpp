@@ -85,6 +85,7 @@ class CheckSubjectCommand : public Command {
       progress_.set_activity(fmt::format("checking {}", subject.name));
       progress_.show(asked, std::nullopt, std::nullopt, std::nullopt);
       const CheckedQuery c = check_query(*q, subject, workers_);
+      if (interrupted()) return;
       ++asked, fine += c.is_fine();
       all.push_back(checked_json(c));
       if (!c.is_fine()) text += checked_text(c, subject.scalar);

@@ -70,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
     Of, EveryCommand,
     testing::Values(
         Command{"run", {"run", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
+        Command{"check_subject", {"check-subject", "-q", "sphere_sphere_overlap"}},
         Command{"relations", {"relations", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
         Command{"extremes", {"extremes", "-q", "sphere_sphere_overlap", "--out", "OUT"}},
         Command{"import", {"import", "nyu-ccd", source_folder() + "/corpus/nyu-ccd/sample.csv"}},
