@@ -24,8 +24,8 @@ class NightTriage {
 
   /// True where a subject whose night it is has a new or a worse signature.
   bool is_regression() const;
-  /// For the subjects whose night it is and for the others: how many signatures are new, worse, known and fixed, then the
-  /// most severe of the new and worse ones, a few lines. The last line names the page.
+  /// For the subjects whose night it is and for the others: how many signatures are new, worse, known and fixed, then
+  /// the most severe of the new and worse ones, a few lines. The last line names the page.
   std::string text() const;
   /// The counts and the files, relative to the folder: "triage" in reports/run.schema.json.
   nlohmann::ordered_json to_json() const;
