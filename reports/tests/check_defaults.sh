@@ -42,6 +42,7 @@ report=$(find reports/runs -path '*/findings/*.json' | sort | head -n 1)
 folder=${report%%/findings/*}
 [[ -n $report ]] || fail "the run has no finding"
 foreign=(--plugin "$plugin")
+run check-subject "${foreign[@]}" -s skim -q "$query"
 run replay "$report" "${foreign[@]}"
 run show "$report" "${foreign[@]}"
 run minimise "$report" "${foreign[@]}" --questions 20

@@ -45,13 +45,13 @@ TEST(FieldCauses, FollowTheSchema) {
   }
 }
 
-struct StoredCase {
+struct CaseOfRow {
   json row, inputs;
 };
 
 /// The cases of each subject, without those in which it broke.
-std::map<std::string, std::vector<StoredCase>> cases_by_subject() {
-  std::map<std::string, std::vector<StoredCase>> cases;
+std::map<std::string, std::vector<CaseOfRow>> cases_by_subject() {
+  std::map<std::string, std::vector<CaseOfRow>> cases;
   for (const std::string set : {"train", "test"}) {
     for (const json& row : lines_of(set + "/rows.jsonl")) {
       if (row.at("disagreement") == "broke") continue;
@@ -74,7 +74,7 @@ TEST(FieldCauses, EachStoredAnswerIsAFinding) {
         "--measure", "1e-4",
         "--subject", "stored",
         "--command", fmt::format("{} {}/corpus/field-causes/answers {} {}", python, source_folder(), scalar, subject)};
-    for (const StoredCase& c : cases) {
+    for (const CaseOfRow& c : cases) {
       const auto file = folder / (std::to_string(arguments.size()) + ".json");
       write_file(file, json{{"query", c.row.at("query")}, {"scalar", scalar}, {"inputs", c.inputs}}.dump());
       arguments.push_back(file.string());

@@ -9,10 +9,10 @@
 
 #include "corpus/generator/feature_regions.hpp"
 #include "corpus/storage/codec.hpp"
+#include "reports/findings/severity.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 #include "reports/triage/comparison/baseline.hpp"
-#include "reports/triage/examination/severity.hpp"
 
 namespace nearmiss {
 namespace {

@@ -7,10 +7,10 @@
 #include <tuple>
 #include <vector>
 
+#include "reports/findings/severity.hpp"
 #include "reports/findings/workers.hpp"
 #include "reports/triage/examination/examined_cases.hpp"
 #include "reports/triage/examination/ordinary_scene.hpp"
-#include "reports/triage/examination/severity.hpp"
 #include "reports/triage/examination/sources.hpp"
 
 namespace nearmiss {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "reports/findings/severity.hpp"
 #include "reports/triage/causes/cause.hpp"
 #include "reports/triage/examination/ordinary_scene.hpp"
-#include "reports/triage/examination/severity.hpp"
 #include "reports/triage/examination/sources.hpp"
 
 namespace nearmiss {

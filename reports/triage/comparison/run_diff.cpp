@@ -13,8 +13,8 @@
 #include "reports/engine/run_folder.hpp"
 #include "reports/engine/variant_counts.hpp"
 #include "reports/findings/report.hpp"
+#include "reports/findings/severity.hpp"
 #include "reports/findings/text.hpp"
-#include "reports/triage/examination/severity.hpp"
 #include "reports/triage/examination/sources.hpp"
 
 namespace nearmiss {

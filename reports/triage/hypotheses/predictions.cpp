@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "reports/triage/examination/severity.hpp"
+#include "reports/findings/severity.hpp"
 
 namespace nearmiss {
 

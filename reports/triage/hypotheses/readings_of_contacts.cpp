@@ -43,6 +43,7 @@ Fits normal_among(const Case& c, const Answer& a, std::span<const LongVector> di
     const long double size = length(d);
     return size > 0 && (are_near(normal, d * (1 / size), 1) || are_near(normal, d * (-1 / size), 1));
   });
+  if (is_one && is_right(c, a)) return std::nullopt;  // the normal of a right answer may be one of them
   return is_one && is_right(c, without(a, *p));
 }
 

@@ -1,4 +1,4 @@
-#include "reports/triage/examination/severity.hpp"
+#include "reports/findings/severity.hpp"
 
 #include <fmt/format.h>
 
