@@ -55,9 +55,10 @@ Fits no_normal(const Case& c, const Answer& a, const IsRight& is_right) {
   return is_right(c, without(a, *p));
 }
 
-/// Of the triangle, the rectangle or the boxes.
+/// Of the triangle, the rectangle or the boxes. Every normal of the contact of a point is that of a face.
 Fits normal_of_a_face(const Case& c, const Answer& a, const IsRight& is_right) {
-  if (given_vector(c, a, Role::normal) == nullptr) return std::nullopt;
+  const bool is_of_point = c.operands().start && !c.operands().start->radius;
+  if (is_of_point || given_vector(c, a, Role::normal) == nullptr) return std::nullopt;
   const CaseGeometry g = geometry_of(c, &a);
   std::vector<LongVector> faces;
   for (const auto& t : g.triangles) faces.push_back(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
