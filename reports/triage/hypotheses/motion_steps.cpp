@@ -109,8 +109,14 @@ class MotionSteps : public TestOfCause {
     saw("The angles between the motion and the surface at the contact were compared.",
         fmt::format("The {} missed contacts have sines of at most {:.2g}; {} found ones have a smaller one.",
                     missed.size(), steepest, of_text(below, found.size())));
-    if (steepest < least_sine || steepest > most_sine || !nearly_all(found.size() - below, found.size()))
+    if (steepest < least_sine || !nearly_all(found.size() - below, found.size())) return std::nullopt;
+    if (steepest > most_sine) {
+      saw("The largest of these angles was compared with those at which a search converges slowly.",
+          "It is larger: what depends on the angle need not be a search, and cannot be told from a mistake in the "
+          "logic.",
+          {CauseKind::logic});
       return std::nullopt;
+    }
     return Named{
         CauseKind::iteration_limit,
         "steps along the motion",

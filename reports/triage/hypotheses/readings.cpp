@@ -300,8 +300,8 @@ std::span<const Reading> readings() {
 std::span<const Reading> readings_of_answers() {
   static const std::vector<Reading> table = [] {
     std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));
-    const auto contacts = readings_of_contacts();
-    all.insert(all.end(), contacts.begin(), contacts.end());
+    for (const auto more : {readings_of_values(), readings_of_contacts()})
+      all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
   return table;

@@ -23,7 +23,7 @@ struct Reading {
 };
 
 std::span<const Reading> readings();
-/// Those about the numbers of the answer, with those about contacts, which may be of another thing.
+/// Those about the numbers of the answer: also those of values and of contacts.
 std::span<const Reading> readings_of_answers();
 /// Those about the front of a plane or triangle, or the frame of a box; they are among readings().
 std::span<const Reading> readings_of_frames();
