@@ -54,10 +54,14 @@ class Unsupported : public TestOfCause {
     return {CauseKind::unsupported, region.name,
             fmt::format("The subject does not support {}: nearly every such answer is wrong.", region.name)};
   }
+  static Named only_wrong(const Region& region) {
+    return {CauseKind::unsupported, region.name,
+            fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
+  }
   /// Another meaning of the answer that explains nearly all wrong answers of the region says more than the region. One
   /// that explains most of them says that the region is not the cause. Meanings of the inputs and of the decision are
   /// not tried: a region where all answers are misses has many.
-  std::optional<Named> told_by_meaning(const Region& region, std::span<const Trial> in) {
+  std::optional<Named> told_by_meaning(const Region& region, std::span<const Trial> in, Named otherwise) {
     for (const Reading& reading : readings_of_answers()) {
       if (reading.decides || asked_.is_wrong_decision()) continue;
       std::size_t wrong = 0, explained = 0;
@@ -72,7 +76,7 @@ class Unsupported : public TestOfCause {
       return Named{reading.kind, std::string(reading.name),
                    fmt::format("With {}, the answer is right if {}.", region.name, reading.what)};
     }
-    return always_wrong(region);
+    return otherwise;
   }
   std::optional<Named> tested(const Region& region) {
     const std::vector<Trial> in = cases_of(region, true), out = cases_of(region, false);
@@ -82,21 +86,19 @@ class Unsupported : public TestOfCause {
         fmt::format("Wrong are {} with it, and {} without it.", of_text(in_all - in_right, in_all),
                     of_text(out_all - out_right, out_all)));
     if (in_all < least || out_all < least) return std::nullopt;
-    if (divides(in, out)) return told_by_meaning(region, in);
+    if (divides(in, out)) return told_by_meaning(region, in, always_wrong(region));
     if (asked_.is_wrong_decision() && in_all > in_right && count(out, Outcome::same) <= most_outside) {
       const std::vector<Trial> in_one = cases_of(region, true, true), out_one = cases_of(region, false, true);
       saw(fmt::format("Only cases with the exact decision {} were asked.",
                       trials().base().finding.truth_yes ? "yes" : "no"),
           fmt::format("Right are {} with {}, and {} without it.", of_text(count(in_one, Outcome::right), in_one.size()),
                       region.name, of_text(count(out_one, Outcome::right), out_one.size())));
-      if (divides(in_one, out_one)) return told_by_meaning(region, in_one);
+      if (divides(in_one, out_one)) return told_by_meaning(region, in_one, always_wrong(region));
     }
     constexpr std::size_t least_outside = of_each_side / 2;
     const bool only_here = out_all >= least_outside && region.is_special && out_right == out_all &&
                            in_all - in_right >= least && !nearly_all(in_right, in_all);
-    if (!only_here) return std::nullopt;
-    return Named{CauseKind::unsupported, region.name,
-                 fmt::format("The subject does not support {}: only such answers are wrong.", region.name)};
+    return only_here ? told_by_meaning(region, in, only_wrong(region)) : std::nullopt;
   }
 };
 
