@@ -68,12 +68,14 @@ class Shrinker {
     return cost_ < before;
   }
   bool accept(const std::vector<double>& values) {
-    if (questions_ <= 0) return false;
+    // A shift may lead beyond the largest number.
+    const bool exact = std::all_of(values.begin(), values.end(),
+                                   [&](double x) { return std::isfinite(x) && representable(x, best_.scalar); });
+    if (questions_ <= 0 || !exact) return false;
     Case c = best_;
     c.values = values;
     const long own = cost(c);
-    const bool exact = std::all_of(values.begin(), values.end(), [&](double x) { return representable(x, c.scalar); });
-    if (own >= cost_ || !exact || c.query->broken(c.values)) return false;
+    if (own >= cost_ || c.query->broken(c.values)) return false;
     --questions_;
     if (!keeps_(c)) return false;
     best_ = std::move(c);

@@ -234,7 +234,8 @@ TEST_F(Triaged, TotalsAreThoseOfTheRunAndOfThePage) {
 TEST_F(Triaged, TheSimplestCaseIsOrdinaryWhereTheFindingIs) {
   const std::string of = run("r", "bR");
   triage("bR", {of});
-  for (const json& s : result(of)["signatures"]) {
+  const json rows = result(of)["signatures"];
+  for (const json& s : rows) {
     for (const auto& [name, value] : s["case"]["inputs"].items()) {
       for (const json& x : value.is_object() ? value : json::array({value})) {
         const json& numbers = x.is_array() ? x : json::array({x});
