@@ -108,7 +108,7 @@ const Subject& balls() {
 class Findings {
  public:
   void add(const std::string& of, Disagreement fault, CauseKind cause, const std::string& key,
-           FeatureRegions regions = {}, std::vector<Disagreement> also = {}) {
+           FeatureRegions regions = {}, const std::vector<Disagreement>& also = {}) {
     filed_.push_back(std::make_unique<FiledReport>());
     filed_.back()->subject = &balls();
     filed_.back()->question = in_double(query, {0, 0, 0, 1, 1, 0, 0, 1});
