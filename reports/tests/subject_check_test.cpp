@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "impl/catalogue/roles.hpp"
-#include "impl/subject/provenance.hpp"
+#include "reports/tests/mistaken_subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/triage/examination/subject_check.hpp"
 
@@ -16,19 +16,10 @@ using Values = std::span<const double>;
 
 const Query& sphere_box() { return *find_query("moving_sphere_box"); }
 
-Answer right(Values values) {
-  static const Subject certified = [] {
-    for (const Subject& own : own_subjects_in_process()) {
-      if (own.name == "collide-certified-double") return own;
-    }
-    throw std::logic_error("no certified tier");
-  }();
-  return certified.offering(sphere_box().name).answer(values);
-}
+Answer right(Values values) { return exact_answer("moving_sphere_box", values); }
 
 CheckedQuery check(Answer (*answer)(Values)) {
-  Subject s{.name = "planted", .version = "1", .scalar = Scalar::float64, .offerings = {}};
-  s.offerings.push_back({std::string(sphere_box().name), Offer::answers, "", {.backward = 0x1p20}, answer, {}});
+  const Subject s = subject_with("moving_sphere_box", answer);
   Workers workers;
   return check_query(sphere_box(), s, workers);
 }
