@@ -15,6 +15,7 @@ try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     print("skipped: python3-selenium is not installed")
     sys.exit(SKIPPED)
@@ -73,6 +74,12 @@ class Browser:
 
     def find(self, selector):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def named(self, selector, text):
+        """The element with that text, as soon as it is drawn."""
+        limit = 60
+        drawn = lambda _: next((e for e in self.all(selector) if e.text == text), None)
+        return WebDriverWait(self.driver, limit).until(drawn, f"no {selector} with the text {text}")
 
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)

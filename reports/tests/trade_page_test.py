@@ -148,7 +148,7 @@ class ViewOfATrade(unittest.TestCase):
         self.assertEqual(self.browser.errors(), [])
 
     def view(self, name):
-        return next(b for b in self.browser.all("#views button") if b.text == name)
+        return self.browser.named("#views button", name)
 
     def test_is_beside_the_findings(self):
         self.assertEqual([b.text for b in self.browser.all("#views button")], ["Findings", "Price: recorded"])
