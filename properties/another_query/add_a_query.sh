@@ -21,6 +21,7 @@ here=$source_folder/properties/another_query
 # The recipe.
 cp -R "$here/overlay/." "$copy"
 echo "NEARMISS_QUERY($query)" >>"$copy/impl/catalogue/catalogue.def"
+echo "Certified Decision $query(Sphere, Vec3)" >>"$copy/impl/collide/source/queries.txt"
 sed -i "/^| catalogue | what it answers |$/{n;a| \`$query\` | whether a ball holds a point |
 }" "$copy/docs/reference/reference-api.md"
 grep -q "$query" "$copy/docs/reference/reference-api.md" || fail "docs/reference/reference-api.md has no table for a query of one's own"

@@ -20,12 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> aabox_triangle_overlap(const AABox<T>& box,
                                                         const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::aabox_triangle_overlap<Answering>(box, triangle);
-  } else {
-    return kernels::aabox_triangle_overlap<Answering>(box, triangle);
-  }
+  COLLIDE_ANSWER(aabox_triangle_overlap, TierOfDecisions<Tier>, box, triangle);
 }
 
 namespace contracts {

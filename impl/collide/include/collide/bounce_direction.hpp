@@ -22,12 +22,7 @@ template <class Tier = Fast, class T>
 [[nodiscard]] inline Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
                                                    const Vec3<T>& location,
                                                    const Vec3<T>& normal) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::bounce_direction<Answering>(sphere, velocity, time, location, normal);
-  } else {
-    return kernels::bounce_direction<Answering>(sphere, velocity, time, location, normal);
-  }
+  COLLIDE_ANSWER(bounce_direction, TierOfNumbers<Tier>, sphere, velocity, time, location, normal);
 }
 
 namespace contracts {

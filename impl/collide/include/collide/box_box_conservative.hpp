@@ -19,23 +19,13 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> box_box_conservative(const Box<T>& box1,
                                                       const Box<T>& box2) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_conservative<Answering>(box1, box2);
-  } else {
-    return kernels::box_box_conservative<Answering>(box1, box2);
-  }
+  COLLIDE_ANSWER(box_box_conservative, TierOfDecisions<Tier>, box1, box2);
 }
 
 /// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_conservative<Answering>(info);
-  } else {
-    return kernels::box_box_conservative<Answering>(info);
-  }
+  COLLIDE_ANSWER(box_box_conservative, TierOfDecisions<Tier>, info);
 }
 
 namespace contracts {

@@ -21,12 +21,7 @@ namespace collide {
 /// the relative rotation.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_info<Answering>(box1, box2);
-  } else {
-    return kernels::box_box_info<Answering>(box1, box2);
-  }
+  COLLIDE_ANSWER(box_box_info, TierOfNumbers<Tier>, box1, box2);
 }
 
 namespace contracts {

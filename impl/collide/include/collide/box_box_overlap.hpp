@@ -25,12 +25,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2,
                                                    int hint = -1) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_overlap<Answering>(box1, box2, hint);
-  } else {
-    return kernels::box_box_overlap<Answering>(box1, box2, hint);
-  }
+  COLLIDE_ANSWER(box_box_overlap, TierOfDecisions<Tier>, box1, box2, hint);
 }
 
 namespace contracts {

@@ -21,24 +21,14 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2,
                                                            T epsilon) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_parallel_axis<Answering>(box1, box2, epsilon);
-  } else {
-    return kernels::box_box_parallel_axis<Answering>(box1, box2, epsilon);
-  }
+  COLLIDE_ANSWER(box_box_parallel_axis, TierOfDecisions<Tier>, box1, box2, epsilon);
 }
 
 /// The same, from the values that box_box_info computed. It is only as accurate as the cosines are.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info,
                                                            T epsilon) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_parallel_axis<Answering>(info, epsilon);
-  } else {
-    return kernels::box_box_parallel_axis<Answering>(info, epsilon);
-  }
+  COLLIDE_ANSWER(box_box_parallel_axis, TierOfDecisions<Tier>, info, epsilon);
 }
 
 namespace contracts {

@@ -30,11 +30,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2,
                                                            int hint = -1) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::box_box_penetration<Tier>(box1, box2, hint);
-  } else {
-    return kernels::box_box_penetration<Tier>(box1, box2, hint);
-  }
+  COLLIDE_ANSWER(box_box_penetration, Tier, box1, box2, hint);
 }
 
 namespace contracts {

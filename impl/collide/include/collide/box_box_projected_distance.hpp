@@ -20,24 +20,14 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2,
                                                            int axis) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_projected_distance<Answering>(box1, box2, axis);
-  } else {
-    return kernels::box_box_projected_distance<Answering>(box1, box2, axis);
-  }
+  COLLIDE_ANSWER(box_box_projected_distance, TierOfNumbers<Tier>, box1, box2, axis);
 }
 
 /// The same, from the values that box_box_info computed.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info,
                                                            int axis) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_projected_distance<Answering>(info, axis);
-  } else {
-    return kernels::box_box_projected_distance<Answering>(info, axis);
-  }
+  COLLIDE_ANSWER(box_box_projected_distance, TierOfNumbers<Tier>, info, axis);
 }
 
 namespace contracts {

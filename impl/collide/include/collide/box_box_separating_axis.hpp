@@ -20,12 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2,
                                                           int axis) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::box_box_separating_axis<Answering>(box1, box2, axis);
-  } else {
-    return kernels::box_box_separating_axis<Answering>(box1, box2, axis);
-  }
+  COLLIDE_ANSWER(box_box_separating_axis, TierOfNumbers<Tier>, box1, box2, axis);
 }
 
 namespace contracts {

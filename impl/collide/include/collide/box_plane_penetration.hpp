@@ -23,11 +23,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline CornerContacts<T> box_plane_penetration(const Box<T>& box,
                                                              const Plane<T>& plane) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::box_plane_penetration<Tier>(box, plane);
-  } else {
-    return kernels::box_plane_penetration<Tier>(box, plane);
-  }
+  COLLIDE_ANSWER(box_plane_penetration, Tier, box, plane);
 }
 
 namespace contracts {

@@ -20,12 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle,
                                                              const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::closest_point_rectangle<Answering>(rectangle, point);
-  } else {
-    return kernels::closest_point_rectangle<Answering>(rectangle, point);
-  }
+  COLLIDE_ANSWER(closest_point_rectangle, TierOfNumbers<Tier>, rectangle, point);
 }
 
 namespace contracts {

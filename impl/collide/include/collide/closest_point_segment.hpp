@@ -19,12 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_segment(const Segment<T>& segment,
                                                            const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::closest_point_segment<Answering>(segment, point);
-  } else {
-    return kernels::closest_point_segment<Answering>(segment, point);
-  }
+  COLLIDE_ANSWER(closest_point_segment, TierOfNumbers<Tier>, segment, point);
 }
 
 namespace contracts {

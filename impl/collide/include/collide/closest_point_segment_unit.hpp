@@ -19,12 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared,
                                                                 const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::closest_point_segment_unit<Answering>(prepared, point);
-  } else {
-    return kernels::closest_point_segment_unit<Answering>(prepared, point);
-  }
+  COLLIDE_ANSWER(closest_point_segment_unit, TierOfNumbers<Tier>, prepared, point);
 }
 
 namespace contracts {

@@ -19,12 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoint<T> closest_point_triangle_perimeter(
     const Triangle<T>& triangle, const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::closest_point_triangle_perimeter<Answering>(triangle, point);
-  } else {
-    return kernels::closest_point_triangle_perimeter<Answering>(triangle, point);
-  }
+  COLLIDE_ANSWER(closest_point_triangle_perimeter, TierOfNumbers<Tier>, triangle, point);
 }
 
 namespace contracts {

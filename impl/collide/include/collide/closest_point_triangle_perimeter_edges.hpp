@@ -22,12 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline EdgePoint<T> closest_point_triangle_perimeter_edges(
     const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::closest_point_triangle_perimeter_edges<Answering>(prepared, point);
-  } else {
-    return kernels::closest_point_triangle_perimeter_edges<Answering>(prepared, point);
-  }
+  COLLIDE_ANSWER(closest_point_triangle_perimeter_edges, TierOfNumbers<Tier>, prepared, point);
 }
 
 namespace contracts {

@@ -21,12 +21,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline ClosestPoints<T> closest_points_lines(const Line<T>& line1,
                                                            const Line<T>& line2) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::closest_points_lines<Answering>(line1, line2);
-  } else {
-    return kernels::closest_points_lines<Answering>(line1, line2);
-  }
+  COLLIDE_ANSWER(closest_points_lines, TierOfNumbers<Tier>, line1, line2);
 }
 
 namespace contracts {

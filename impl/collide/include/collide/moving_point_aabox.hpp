@@ -23,11 +23,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity,
                                                  const AABox<T>& aabox) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::moving_point_aabox<Tier>(point, velocity, aabox);
-  } else {
-    return kernels::moving_point_aabox<Tier>(point, velocity, aabox);
-  }
+  COLLIDE_ANSWER(moving_point_aabox, Tier, point, velocity, aabox);
 }
 
 namespace contracts {

@@ -24,12 +24,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity,
                                                 const Box<T>& box) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_point_box<Answering>(point, velocity, box);
-  } else {
-    return kernels::moving_point_box<Answering>(point, velocity, box);
-  }
+  COLLIDE_ANSWER(moving_point_box, TierOfDecisions<Tier>, point, velocity, box);
 }
 
 namespace contracts {

@@ -25,12 +25,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity,
                                                     const Capsule<T>& capsule) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_point_capsule<Answering>(point, velocity, capsule);
-  } else {
-    return kernels::moving_point_capsule<Answering>(point, velocity, capsule);
-  }
+  COLLIDE_ANSWER(moving_point_capsule, TierOfDecisions<Tier>, point, velocity, capsule);
 }
 
 namespace contracts {

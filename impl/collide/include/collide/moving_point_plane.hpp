@@ -22,11 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity,
                                                   const Plane<T>& plane) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::moving_point_plane<Tier>(point, velocity, plane);
-  } else {
-    return kernels::moving_point_plane<Tier>(point, velocity, plane);
-  }
+  COLLIDE_ANSWER(moving_point_plane, Tier, point, velocity, plane);
 }
 
 namespace contracts {

@@ -25,12 +25,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                                       const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_point_rectangle<Answering>(point, velocity, rectangle);
-  } else {
-    return kernels::moving_point_rectangle<Answering>(point, velocity, rectangle);
-  }
+  COLLIDE_ANSWER(moving_point_rectangle, TierOfDecisions<Tier>, point, velocity, rectangle);
 }
 
 namespace contracts {

@@ -26,12 +26,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity,
                                                    const Sphere<T>& sphere, bool solid) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_point_sphere<Answering>(point, velocity, sphere, solid);
-  } else {
-    return kernels::moving_point_sphere<Answering>(point, velocity, sphere, solid);
-  }
+  COLLIDE_ANSWER(moving_point_sphere, TierOfDecisions<Tier>, point, velocity, sphere, solid);
 }
 
 namespace contracts {

@@ -25,11 +25,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
                                                      const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::moving_point_triangle<Tier>(point, velocity, triangle);
-  } else {
-    return kernels::moving_point_triangle<Tier>(point, velocity, triangle);
-  }
+  COLLIDE_ANSWER(moving_point_triangle, Tier, point, velocity, triangle);
 }
 
 namespace contracts {

@@ -22,11 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_point_triangle_prepared(
     const Vec3<T>& point, const Vec3<T>& velocity, const PreparedTriangle<T>& prepared) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
-  } else {
-    return kernels::moving_point_triangle_prepared<Tier>(point, velocity, prepared);
-  }
+  COLLIDE_ANSWER(moving_point_triangle_prepared, Tier, point, velocity, prepared);
 }
 
 namespace contracts {

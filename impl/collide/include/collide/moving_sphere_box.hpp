@@ -26,12 +26,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                  const Box<T>& box) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_box<Answering>(sphere, velocity, box);
-  } else {
-    return kernels::moving_sphere_box<Answering>(sphere, velocity, box);
-  }
+  COLLIDE_ANSWER(moving_sphere_box, TierOfDecisions<Tier>, sphere, velocity, box);
 }
 
 namespace contracts {

@@ -26,12 +26,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                      const Capsule<T>& capsule) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_capsule<Answering>(sphere, velocity, capsule);
-  } else {
-    return kernels::moving_sphere_capsule<Answering>(sphere, velocity, capsule);
-  }
+  COLLIDE_ANSWER(moving_sphere_capsule, TierOfDecisions<Tier>, sphere, velocity, capsule);
 }
 
 namespace contracts {

@@ -22,12 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                           const Box<T>& box, T limit) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_passes_box<Answering>(sphere, velocity, box, limit);
-  } else {
-    return kernels::moving_sphere_passes_box<Answering>(sphere, velocity, box, limit);
-  }
+  COLLIDE_ANSWER(moving_sphere_passes_box, TierOfDecisions<Tier>, sphere, velocity, box, limit);
 }
 
 namespace contracts {

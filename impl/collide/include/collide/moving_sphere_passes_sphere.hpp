@@ -19,12 +19,7 @@ template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                              const Sphere<T>& fixed,
                                                              const T& limit) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_passes_sphere<Answering>(sphere, velocity, fixed, limit);
-  } else {
-    return kernels::moving_sphere_passes_sphere<Answering>(sphere, velocity, fixed, limit);
-  }
+  COLLIDE_ANSWER(moving_sphere_passes_sphere, TierOfDecisions<Tier>, sphere, velocity, fixed, limit);
 }
 
 namespace contracts {

@@ -23,11 +23,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                    const Plane<T>& plane) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::moving_sphere_plane<Tier>(sphere, velocity, plane);
-  } else {
-    return kernels::moving_sphere_plane<Tier>(sphere, velocity, plane);
-  }
+  COLLIDE_ANSWER(moving_sphere_plane, Tier, sphere, velocity, plane);
 }
 
 namespace contracts {

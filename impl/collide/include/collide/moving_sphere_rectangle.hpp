@@ -22,12 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                        const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_rectangle<Answering>(sphere, velocity, rectangle);
-  } else {
-    return kernels::moving_sphere_rectangle<Answering>(sphere, velocity, rectangle);
-  }
+  COLLIDE_ANSWER(moving_sphere_rectangle, TierOfDecisions<Tier>, sphere, velocity, rectangle);
 }
 
 namespace contracts {

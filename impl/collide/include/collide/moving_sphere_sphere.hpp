@@ -24,12 +24,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                     const Sphere<T>& fixed) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_sphere<Answering>(sphere, velocity, fixed);
-  } else {
-    return kernels::moving_sphere_sphere<Answering>(sphere, velocity, fixed);
-  }
+  COLLIDE_ANSWER(moving_sphere_sphere, TierOfDecisions<Tier>, sphere, velocity, fixed);
 }
 
 namespace contracts {

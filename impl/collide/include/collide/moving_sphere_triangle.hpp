@@ -30,12 +30,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline TriangleImpact<T> moving_sphere_triangle(
     const Sphere<T>& sphere, const Vec3<T>& velocity, const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::moving_sphere_triangle<Answering>(sphere, velocity, triangle);
-  } else {
-    return kernels::moving_sphere_triangle<Answering>(sphere, velocity, triangle);
-  }
+  COLLIDE_ANSWER(moving_sphere_triangle, TierOfDecisions<Tier>, sphere, velocity, triangle);
 }
 
 namespace contracts {

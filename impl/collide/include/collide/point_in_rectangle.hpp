@@ -20,12 +20,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal,
                                                     const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::point_in_rectangle<Answering>(rectangle, normal, point);
-  } else {
-    return kernels::point_in_rectangle<Answering>(rectangle, normal, point);
-  }
+  COLLIDE_ANSWER(point_in_rectangle, TierOfDecisions<Tier>, rectangle, normal, point);
 }
 
 namespace contracts {

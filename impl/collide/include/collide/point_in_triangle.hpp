@@ -22,12 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis,
                                                       const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::point_in_triangle<Answering>(triangle, normal, axis, point);
-  } else {
-    return kernels::point_in_triangle<Answering>(triangle, normal, axis, point);
-  }
+  COLLIDE_ANSWER(point_in_triangle, TierOfDecisions<Tier>, triangle, normal, axis, point);
 }
 
 namespace contracts {

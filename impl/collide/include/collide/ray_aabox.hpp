@@ -22,11 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline RayHit<T> ray_aabox(const PreparedRay<T>& ray,
                                          const PreparedAABox<T>& box) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::ray_aabox<Tier>(ray, box);
-  } else {
-    return kernels::ray_aabox<Tier>(ray, box);
-  }
+  COLLIDE_ANSWER(ray_aabox, Tier, ray, box);
 }
 
 namespace contracts {

@@ -22,12 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time,
                                                   const Vec3<T>& location) noexcept(Tier::never_throws) {
-  using Answering = TierOfNumbers<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::slide_direction<Answering>(sphere, velocity, time, location);
-  } else {
-    return kernels::slide_direction<Answering>(sphere, velocity, time, location);
-  }
+  COLLIDE_ANSWER(slide_direction, TierOfNumbers<Tier>, sphere, velocity, time, location);
 }
 
 namespace contracts {

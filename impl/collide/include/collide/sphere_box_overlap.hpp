@@ -19,12 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> sphere_box_overlap(const Sphere<T>& sphere,
                                                     const Box<T>& box) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::sphere_box_overlap<Answering>(sphere, box);
-  } else {
-    return kernels::sphere_box_overlap<Answering>(sphere, box);
-  }
+  COLLIDE_ANSWER(sphere_box_overlap, TierOfDecisions<Tier>, sphere, box);
 }
 
 namespace contracts {

@@ -24,11 +24,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Penetration<T> sphere_box_penetration(const Sphere<T>& sphere,
                                                            const Box<T>& box) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::sphere_box_penetration<Tier>(sphere, box);
-  } else {
-    return kernels::sphere_box_penetration<Tier>(sphere, box);
-  }
+  COLLIDE_ANSWER(sphere_box_penetration, Tier, sphere, box);
 }
 
 namespace contracts {

@@ -22,11 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere,
                                                              const Plane<T>& plane) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::sphere_plane_penetration<Tier>(sphere, plane);
-  } else {
-    return kernels::sphere_plane_penetration<Tier>(sphere, plane);
-  }
+  COLLIDE_ANSWER(sphere_plane_penetration, Tier, sphere, plane);
 }
 
 namespace contracts {

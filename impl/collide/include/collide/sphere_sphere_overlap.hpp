@@ -19,12 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1,
                                                        const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::sphere_sphere_overlap<Answering>(sphere1, sphere2);
-  } else {
-    return kernels::sphere_sphere_overlap<Answering>(sphere1, sphere2);
-  }
+  COLLIDE_ANSWER(sphere_sphere_overlap, TierOfDecisions<Tier>, sphere1, sphere2);
 }
 
 namespace contracts {

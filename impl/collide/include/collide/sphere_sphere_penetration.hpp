@@ -22,11 +22,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1,
                                                               const Sphere<T>& sphere2) noexcept(Tier::never_throws) {
-  if constexpr (is_compiled<Tier, T>) {
-    return compiled::sphere_sphere_penetration<Tier>(sphere1, sphere2);
-  } else {
-    return kernels::sphere_sphere_penetration<Tier>(sphere1, sphere2);
-  }
+  COLLIDE_ANSWER(sphere_sphere_penetration, Tier, sphere1, sphere2);
 }
 
 namespace contracts {

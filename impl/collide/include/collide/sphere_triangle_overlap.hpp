@@ -19,12 +19,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere,
                                                          const Triangle<T>& triangle) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::sphere_triangle_overlap<Answering>(sphere, triangle);
-  } else {
-    return kernels::sphere_triangle_overlap<Answering>(sphere, triangle);
-  }
+  COLLIDE_ANSWER(sphere_triangle_overlap, TierOfDecisions<Tier>, sphere, triangle);
 }
 
 namespace contracts {

@@ -117,10 +117,28 @@ struct Fast : Plain {
   }
 };
 
-/// True if the library collide::certified answers queries in the tier. Beside each kernel, namespace compiled declares
-/// the function that the library has for float and for double (source/QUERY.cpp).
+/// True if the library collide::certified answers queries in the tier.
 template <class Tier, class T>
 inline constexpr bool is_compiled = MachineNumber<T> && requires { requires Tier::in_library; };
+
+/// Declares, beside the kernel of a query, the function that the library has for float and for double
+/// (source/queries.txt).
+#define COLLIDE_COMPILED(query)                           \
+  namespace compiled {                                    \
+  template <class Answer, class Tier, class... Arguments> \
+  Answer query(const Arguments&... arguments);            \
+  }
+
+/// The body of a query's function, whose scalar is T: the answer of the library or of the kernel in the tier.
+#define COLLIDE_ANSWER(query, tier, ...)                                                    \
+  if constexpr (is_compiled<tier, T>) {                                                     \
+    return compiled::query<decltype(kernels::query<Fast>(__VA_ARGS__)), tier>(__VA_ARGS__); \
+  } else                                                                                    \
+    return kernels::query<tier>(__VA_ARGS__)
+
+/// The answer of a kernel that `Tier` lifts.
+#define COLLIDE_LIFTED(query, ...) \
+  Tier::lift([](auto arithmetic, const auto&... a) { return kernels::query<decltype(arithmetic)>(a...); }, __VA_ARGS__)
 
 /// True if the tier uses the kernel in SIMD lanes of queries that have one.
 template <class Tier, class T>

@@ -58,12 +58,7 @@ std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& tri
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>& triangle);
-
-}  // namespace compiled
+COLLIDE_COMPILED(aabox_triangle_overlap)
 
 namespace kernels {
 
@@ -78,9 +73,7 @@ inline Decision<T> aabox_triangle_overlap(const AABox<T>& box, const Triangle<T>
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::aabox_triangle_overlap<decltype(arithmetic)>(a...); },
-        box, triangle);
+    return COLLIDE_LIFTED(aabox_triangle_overlap, box, triangle);
   } else {
     if constexpr (MachineNumber<T>) {
       if (!detail::is_finite(box.min + box.max + triangle.v0 + triangle.v1 + triangle.v2)) return {false};

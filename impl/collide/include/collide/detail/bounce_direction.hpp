@@ -10,13 +10,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location,
-                              const Vec3<T>& normal);
-
-}  // namespace compiled
+COLLIDE_COMPILED(bounce_direction)
 
 namespace kernels {
 
@@ -28,9 +22,7 @@ inline Direction<T> bounce_direction(const Sphere<T>& sphere, const Vec3<T>& vel
       if (const auto answer = detail::filtered_bounce(sphere.center, velocity, time, location))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::bounce_direction<decltype(arithmetic)>(a...); }, sphere,
-        velocity, time, location, normal);
+    return COLLIDE_LIFTED(bounce_direction, sphere, velocity, time, location, normal);
   } else {
     const Vec3<T> to_center = (sphere.center - location) + velocity * time;
     const bool apart = !(to_center == Vec3<T>{});

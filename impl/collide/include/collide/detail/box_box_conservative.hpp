@@ -64,14 +64,7 @@ std::optional<Decision<T>> certain_reach(const Vec3<double>& half1, const Vec3<d
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2);
-template <class Tier, class T>
-Decision<T> box_box_conservative(const BoxBoxInfo<T>& info);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_conservative)
 
 namespace kernels {
 
@@ -84,9 +77,7 @@ inline Decision<T> box_box_conservative(const Box<T>& box1, const Box<T>& box2) 
                                                        in_double(box2.center) - in_double(box1.center), box1, box2))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_conservative<decltype(arithmetic)>(a...); },
-        box1, box2);
+    return COLLIDE_LIFTED(box_box_conservative, box1, box2);
   } else {
     return {detail::may_reach(box1.half, box2.half, box2.center - box1.center)};
   }
@@ -101,9 +92,7 @@ inline Decision<T> box_box_conservative(const BoxBoxInfo<T>& info) {
               detail::certain_reach<T>(in_double(info.half1), in_double(info.half2), in_double(info.between), info))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_conservative<decltype(arithmetic)>(a...); },
-        info);
+    return COLLIDE_LIFTED(box_box_conservative, info);
   } else {
     return {detail::may_reach(info.half1, info.half2, info.between)};
   }

@@ -39,12 +39,7 @@ inline BoxBoxInfo<T> info_of_boxes(const Box<T>& box1, const Box<T>& box2) {
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_info)
 
 namespace kernels {
 
@@ -54,9 +49,7 @@ inline BoxBoxInfo<T> box_box_info(const Box<T>& box1, const Box<T>& box2) {
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_info(box1, box2)) return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_info<decltype(arithmetic)>(a...); }, box1,
-        box2);
+    return COLLIDE_LIFTED(box_box_info, box1, box2);
   } else {
     return detail::info_of_boxes<Tier>(box1, box2);
   }

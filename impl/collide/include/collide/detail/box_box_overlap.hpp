@@ -50,12 +50,7 @@ std::optional<BoxOverlap<T>> filtered_overlap(const Box<T>& box1, const Box<T>& 
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int hint);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_overlap)
 
 namespace kernels {
 
@@ -78,9 +73,7 @@ inline BoxOverlap<T> box_box_overlap(const Box<T>& box1, const Box<T>& box2, int
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_overlap<decltype(arithmetic)>(a...); }, box1,
-        box2, hint);
+    return COLLIDE_LIFTED(box_box_overlap, box1, box2, hint);
   } else {
     const detail::BoxPair<T> pair(box1, box2);
     if constexpr (MachineNumber<T>) {

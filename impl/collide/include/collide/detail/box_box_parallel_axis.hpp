@@ -10,23 +10,14 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon);
-template <class Tier, class T>
-ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_parallel_axis)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& box2, T epsilon) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_parallel_axis<decltype(arithmetic)>(a...); },
-        box1, box2, epsilon);
+    return COLLIDE_LIFTED(box_box_parallel_axis, box1, box2, epsilon);
   } else {
     if (epsilon < T(0)) return {};  // accepts no pair
     const std::array<T, 4> r =
@@ -59,9 +50,7 @@ inline ParallelAxes<T> box_box_parallel_axis(const Box<T>& box1, const Box<T>& b
 template <class Tier, class T>
 inline ParallelAxes<T> box_box_parallel_axis(const BoxBoxInfo<T>& info, T epsilon) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_parallel_axis<decltype(arithmetic)>(a...); },
-        info, epsilon);
+    return COLLIDE_LIFTED(box_box_parallel_axis, info, epsilon);
   } else {
     for (int i = 0; i < 3; ++i) {
       const std::array<T, 3> row = components(info.abs_cosine[i]);

@@ -177,12 +177,7 @@ bool is_certain(const BoxPenetration<T>& answer, const Box<T>& box1, const Box<T
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& box2, int hint);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_penetration)
 
 namespace kernels {
 
@@ -240,9 +235,7 @@ inline BoxPenetration<T> box_box_penetration(const Box<T>& box1, const Box<T>& b
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_penetration<decltype(arithmetic)>(a...); },
-        box1, box2, hint);
+    return COLLIDE_LIFTED(box_box_penetration, box1, box2, hint);
   } else {
     using detail::abs;
     const detail::BoxPair<T> pair(box1, box2);

@@ -12,14 +12,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& box2, int axis);
-template <class Tier, class T>
-Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_projected_distance)
 
 namespace kernels {
 
@@ -30,9 +23,7 @@ inline Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& b
       if (const auto answer = detail::filtered_projected_distance(box1, box2, axis))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift([](auto arithmetic,
-                         const auto&... a) { return kernels::box_box_projected_distance<decltype(arithmetic)>(a...); },
-                      box1, box2, axis);
+    return COLLIDE_LIFTED(box_box_projected_distance, box1, box2, axis);
   } else {
     if (axis < 0 || axis >= box_box_axes) return {std::numeric_limits<T>::quiet_NaN()};
     const detail::BoxPair<T> pair(box1, box2);
@@ -45,9 +36,7 @@ inline Measure<T> box_box_projected_distance(const Box<T>& box1, const Box<T>& b
 template <class Tier, class T>
 inline Measure<T> box_box_projected_distance(const BoxBoxInfo<T>& info, int axis) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto arithmetic,
-                         const auto&... a) { return kernels::box_box_projected_distance<decltype(arithmetic)>(a...); },
-                      info, axis);
+    return COLLIDE_LIFTED(box_box_projected_distance, info, axis);
   } else {
     using detail::abs;
     if (axis < 0 || axis >= box_box_axes) return {std::numeric_limits<T>::quiet_NaN()};

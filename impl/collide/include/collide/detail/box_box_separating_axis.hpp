@@ -12,12 +12,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& box2, int axis);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_box_separating_axis)
 
 namespace kernels {
 
@@ -28,9 +23,7 @@ inline Direction<T> box_box_separating_axis(const Box<T>& box1, const Box<T>& bo
       if (const auto answer = detail::filtered_separating_axis(box1, box2, axis))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_box_separating_axis<decltype(arithmetic)>(a...); },
-        box1, box2, axis);
+    return COLLIDE_LIFTED(box_box_separating_axis, box1, box2, axis);
   } else {
     if (axis < 0 || axis >= box_box_axes) {
       const T none = std::numeric_limits<T>::quiet_NaN();

@@ -75,12 +75,7 @@ bool is_certain(const CornerContacts<T>& answer, const Box<T>& box, const Plane<
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>& plane);
-
-}  // namespace compiled
+COLLIDE_COMPILED(box_plane_penetration)
 
 namespace kernels {
 
@@ -104,9 +99,7 @@ inline CornerContacts<T> box_plane_penetration(const Box<T>& box, const Plane<T>
       if (const auto answer = detail::filtered_contacts(box, plane)) return Tier::decided_by_filter(*answer);
     }
 #endif
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::box_plane_penetration<decltype(arithmetic)>(a...); },
-        box, plane);
+    return COLLIDE_LIFTED(box_plane_penetration, box, plane);
   } else {
     const Axes<T> axes = axes_of(box.orientation);
     const std::array<Vec3<T>, 3> side{axes[0] * box.half.x, axes[1] * box.half.y, axes[2] * box.half.z};

@@ -11,12 +11,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_point_rectangle)
 
 namespace kernels {
 
@@ -28,9 +23,7 @@ inline ClosestPoint<T> closest_point_rectangle(const Rectangle<T>& rectangle, co
       if (const auto answer = detail::filtered_closest_point(rectangle, point)) return Tier::decided_by_filter(*answer);
     }
 #endif
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::closest_point_rectangle<decltype(arithmetic)>(a...); },
-        rectangle, point);
+    return COLLIDE_LIFTED(closest_point_rectangle, rectangle, point);
   } else {
     const auto& [v0, v1, v2, v3] = rectangle;
     if constexpr (MachineNumber<T>) {

@@ -11,12 +11,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rectangle, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_point_rectangle_perimeter)
 
 namespace kernels {
 
@@ -29,11 +24,7 @@ inline ClosestPoint<T> closest_point_rectangle_perimeter(const Rectangle<T>& rec
         return Tier::decided_by_filter(*answer);
     }
 #endif
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) {
-          return kernels::closest_point_rectangle_perimeter<decltype(arithmetic)>(a...);
-        },
-        rectangle, point);
+    return COLLIDE_LIFTED(closest_point_rectangle_perimeter, rectangle, point);
   } else {
     const std::array<Vec3<T>, 4> v{rectangle.v0, rectangle.v1, rectangle.v2, rectangle.v3};
     if constexpr (MachineNumber<T>) {

@@ -10,12 +10,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_point_segment)
 
 namespace kernels {
 
@@ -26,9 +21,7 @@ inline ClosestPoint<T> closest_point_segment(const Segment<T>& segment, const Ve
       if (const auto answer = detail::filtered_foot(segment.v0, segment.v1, point))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::closest_point_segment<decltype(arithmetic)>(a...); },
-        segment, point);
+    return COLLIDE_LIFTED(closest_point_segment, segment, point);
   } else {
     const Vec3<T> along = segment.v1 - segment.v0;
     const T projection = Tier::dot(point - segment.v0, along);

@@ -12,12 +12,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-ClosestPoint<T> closest_point_segment_unit(const PreparedSegment<T>& prepared, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_point_segment_unit)
 
 namespace kernels {
 

@@ -98,12 +98,7 @@ CertainEdge<T> filtered_edge(const Triangle<T>& triangle, const Vec3<T>& point) 
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_point_triangle_perimeter)
 
 namespace kernels {
 
@@ -111,11 +106,7 @@ template <class Tier, class T>
 inline ClosestPoint<T> closest_point_triangle_perimeter(const Triangle<T>& triangle, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
     const auto fallback = [](const auto&... inputs) {
-      return Tier::lift(
-          [](auto arithmetic, const auto&... a) {
-            return kernels::closest_point_triangle_perimeter<decltype(arithmetic)>(a...);
-          },
-          inputs...);
+      return COLLIDE_LIFTED(closest_point_triangle_perimeter, inputs...);
     };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {

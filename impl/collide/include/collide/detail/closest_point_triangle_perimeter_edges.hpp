@@ -13,12 +13,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-EdgePoint<T> closest_point_triangle_perimeter_edges(const PreparedTriangleEdges<T>& prepared, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_point_triangle_perimeter_edges)
 
 namespace kernels {
 

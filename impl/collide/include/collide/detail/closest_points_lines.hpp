@@ -12,12 +12,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>& line2);
-
-}  // namespace compiled
+COLLIDE_COMPILED(closest_points_lines)
 
 namespace kernels {
 
@@ -27,9 +22,7 @@ inline ClosestPoints<T> closest_points_lines(const Line<T>& line1, const Line<T>
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_closest_points(line1, line2)) return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::closest_points_lines<decltype(arithmetic)>(a...); },
-        line1, line2);
+    return COLLIDE_LIFTED(closest_points_lines, line1, line2);
   } else {
     const Vec3<T> normal = Tier::cross(line1.direction, line2.direction);
     const T normal2 = Tier::dot(normal, normal);

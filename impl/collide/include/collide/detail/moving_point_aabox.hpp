@@ -72,12 +72,7 @@ inline std::optional<Entry<T>> decided_entry(const Vec3<T>& point, const Vec3<T>
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity, const AABox<T>& aabox);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_aabox)
 
 namespace kernels {
 
@@ -104,9 +99,7 @@ inline Entry<T> moving_point_aabox(const Vec3<T>& point, const Vec3<T>& velocity
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_point_aabox<decltype(arithmetic)>(a...); },
-        point, velocity, aabox);
+    return COLLIDE_LIFTED(moving_point_aabox, point, velocity, aabox);
   } else {
     const std::array<T, 3> at = components(point), step = components(velocity);
     const std::array<T, 3> low = components(aabox.min), high = components(aabox.max);

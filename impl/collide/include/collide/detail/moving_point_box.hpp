@@ -10,21 +10,14 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_box)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_point_box(const Vec3<T>& point, const Vec3<T>& velocity, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_point_box<decltype(arithmetic)>(a...); }, point,
-        velocity, box);
+    return COLLIDE_LIFTED(moving_point_box, point, velocity, box);
   } else {
     return detail::point_enters_box<Tier>(point, velocity, box);
   }

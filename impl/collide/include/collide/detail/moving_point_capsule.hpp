@@ -42,12 +42,7 @@ inline bool certainly_misses_capsule(const Vec3<double>& point, const Vec3<doubl
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& velocity, const Capsule<T>& capsule);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_capsule)
 
 namespace kernels {
 
@@ -61,9 +56,7 @@ inline Impact<T> moving_point_capsule(const Vec3<T>& point, const Vec3<T>& veloc
     }
   }
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_point_capsule<decltype(arithmetic)>(a...); },
-        point, velocity, capsule);
+    return COLLIDE_LIFTED(moving_point_capsule, point, velocity, capsule);
   } else {
     return detail::moving_ball_capsule<Tier>(point, T(0), velocity, capsule);
   }

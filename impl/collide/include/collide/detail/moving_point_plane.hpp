@@ -49,23 +49,14 @@ CertainDecision certain_decision(const Vec3<T>& point, const Vec3<T>& velocity, 
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_plane)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_point_plane(const Vec3<T>& point, const Vec3<T>& velocity, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
-    const auto fallback = [](const auto&... inputs) {
-      return Tier::lift(
-          [](auto arithmetic, const auto&... a) { return kernels::moving_point_plane<decltype(arithmetic)>(a...); },
-          inputs...);
-    };
+    const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(moving_point_plane, inputs...); };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
       return detail::moving_point_plane_in_lanes(point, velocity, plane, detail::out_of_line(fallback));

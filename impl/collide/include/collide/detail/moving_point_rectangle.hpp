@@ -37,12 +37,7 @@ std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& ve
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& velocity, const Rectangle<T>& rectangle);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_rectangle)
 
 namespace kernels {
 
@@ -55,9 +50,7 @@ inline Impact<T> moving_point_rectangle(const Vec3<T>& point, const Vec3<T>& vel
         return Tier::decided_by_filter(*answer);
     }
 #endif
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_point_rectangle<decltype(arithmetic)>(a...); },
-        point, velocity, rectangle);
+    return COLLIDE_LIFTED(moving_point_rectangle, point, velocity, rectangle);
   } else {
     const Vec3<T> a = rectangle.v0 - point, b = rectangle.v1 - point;
     const Vec3<T> c = rectangle.v2 - point, d = rectangle.v3 - point;

@@ -11,12 +11,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere, bool solid);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_sphere)
 
 namespace kernels {
 
@@ -28,9 +23,7 @@ inline Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& veloci
       return Tier::decided_by_filter(*answer);
   }
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_point_sphere<decltype(arithmetic)>(a...); },
-        point, velocity, sphere, solid);
+    return COLLIDE_LIFTED(moving_point_sphere, point, velocity, sphere, solid);
   } else {
     using detail::sqrt;
     const Vec3<T> m = point - sphere.center;

@@ -219,23 +219,14 @@ std::optional<Impact<T>> filtered_impact(const Vec3<T>& point, const Vec3<T>& ve
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_triangle)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_point_triangle(const Vec3<T>& point, const Vec3<T>& velocity, const Triangle<T>& triangle) {
   if constexpr (Tier::template lifts<T>) {
-    const auto fallback = [](const auto&... inputs) {
-      return Tier::lift(
-          [](auto arithmetic, const auto&... a) { return kernels::moving_point_triangle<decltype(arithmetic)>(a...); },
-          inputs...);
-    };
+    const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(moving_point_triangle, inputs...); };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
       return detail::moving_point_triangle_in_lanes<false>(point, velocity, triangle, detail::out_of_line(fallback));

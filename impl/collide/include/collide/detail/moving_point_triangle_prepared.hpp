@@ -28,13 +28,7 @@ bool weights_are_certain(const Vec3<T>& from_v0, const Vec3<T>& velocity, const 
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_point_triangle_prepared(const Vec3<T>& point, const Vec3<T>& velocity,
-                                         const PreparedTriangle<T>& prepared);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_point_triangle_prepared)
 
 namespace kernels {
 

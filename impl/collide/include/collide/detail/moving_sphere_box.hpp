@@ -141,21 +141,14 @@ struct PointPastBox {
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_box)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_sphere_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_box<decltype(arithmetic)>(a...); },
-        sphere, velocity, box);
+    return COLLIDE_LIFTED(moving_sphere_box, sphere, velocity, box);
   } else {
     if (sphere.radius == T(0)) return detail::point_enters_box<Tier>(sphere.center, velocity, box);
     const Axes<T> axes = axes_of(box.orientation);

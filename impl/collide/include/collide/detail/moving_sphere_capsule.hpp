@@ -10,21 +10,14 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_capsule)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_sphere_capsule(const Sphere<T>& sphere, const Vec3<T>& velocity, const Capsule<T>& capsule) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_capsule<decltype(arithmetic)>(a...); },
-        sphere, velocity, capsule);
+    return COLLIDE_LIFTED(moving_sphere_capsule, sphere, velocity, capsule);
   } else {
     return detail::moving_ball_capsule<Tier>(sphere.center, sphere.radius, velocity, capsule);
   }

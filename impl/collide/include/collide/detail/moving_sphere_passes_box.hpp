@@ -10,12 +10,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box, T limit);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_passes_box)
 
 namespace kernels {
 
@@ -23,9 +18,7 @@ template <class Tier, class T>
 inline Decision<T> moving_sphere_passes_box(const Sphere<T>& sphere, const Vec3<T>& velocity, const Box<T>& box,
                                             T limit) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_passes_box<decltype(arithmetic)>(a...); },
-        sphere, velocity, box, limit);
+    return COLLIDE_LIFTED(moving_sphere_passes_box, sphere, velocity, box, limit);
   } else {
     const Axes<T> axes = axes_of(box.orientation);
     const std::array<T, 3> half = components(box.half);

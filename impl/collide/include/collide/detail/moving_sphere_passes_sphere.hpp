@@ -11,13 +11,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
-                                        const T& limit);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_passes_sphere)
 
 namespace kernels {
 
@@ -25,9 +19,7 @@ template <class Tier, class T>
 inline Decision<T> moving_sphere_passes_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed,
                                                const T& limit) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift([](auto arithmetic,
-                         const auto&... a) { return kernels::moving_sphere_passes_sphere<decltype(arithmetic)>(a...); },
-                      sphere, velocity, fixed, limit);
+    return COLLIDE_LIFTED(moving_sphere_passes_sphere, sphere, velocity, fixed, limit);
   } else {
     const T reach = sphere.radius + fixed.radius;
     if (!(limit >= T(0))) return {false};

@@ -52,23 +52,14 @@ CertainDecision certain_decision(const Sphere<T>& sphere, const Vec3<T>& velocit
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_plane)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Impact<T> moving_sphere_plane(const Sphere<T>& sphere, const Vec3<T>& velocity, const Plane<T>& plane) {
   if constexpr (Tier::template lifts<T>) {
-    const auto fallback = [](const auto&... inputs) {
-      return Tier::lift(
-          [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_plane<decltype(arithmetic)>(a...); },
-          inputs...);
-    };
+    const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(moving_sphere_plane, inputs...); };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
       return detail::moving_sphere_plane_in_lanes(sphere, velocity, plane, detail::out_of_line(fallback));

@@ -10,12 +10,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity, const Rectangle<T>& rectangle);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_rectangle)
 
 namespace kernels {
 
@@ -23,9 +18,7 @@ template <class Tier, class T>
 inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                          const Rectangle<T>& rectangle) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_rectangle<decltype(arithmetic)>(a...); },
-        sphere, velocity, rectangle);
+    return COLLIDE_LIFTED(moving_sphere_rectangle, sphere, velocity, rectangle);
   } else {
     const TriangleImpact<T> one =
         kernels::moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});

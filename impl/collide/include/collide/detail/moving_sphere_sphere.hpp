@@ -11,12 +11,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& velocity, const Sphere<T>& fixed);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_sphere)
 
 namespace kernels {
 
@@ -26,9 +21,7 @@ inline Impact<T> moving_sphere_sphere(const Sphere<T>& sphere, const Vec3<T>& ve
     if (const auto answer = detail::filtered_impact(sphere, velocity, fixed)) return Tier::decided_by_filter(*answer);
   }
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_sphere<decltype(arithmetic)>(a...); },
-        sphere, velocity, fixed);
+    return COLLIDE_LIFTED(moving_sphere_sphere, sphere, velocity, fixed);
   } else {
     const T reach = sphere.radius + fixed.radius;
     const Vec3<T> from = sphere.center - fixed.center;

@@ -504,12 +504,7 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity, const Triangle<T>& triangle);
-
-}  // namespace compiled
+COLLIDE_COMPILED(moving_sphere_triangle)
 
 namespace kernels {
 
@@ -517,11 +512,7 @@ template <class Tier, class T>
 inline TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                 const Triangle<T>& triangle) {
   if constexpr (Tier::template lifts<T>) {
-    const auto fallback = [](const auto&... inputs) {
-      return Tier::lift(
-          [](auto arithmetic, const auto&... a) { return kernels::moving_sphere_triangle<decltype(arithmetic)>(a...); },
-          inputs...);
-    };
+    const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(moving_sphere_triangle, inputs...); };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
       return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(fallback));

@@ -51,12 +51,7 @@ std::optional<bool> certainly_inside(const Rectangle<T>& rectangle, int axis, co
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<T>& normal, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(point_in_rectangle)
 
 namespace kernels {
 
@@ -70,9 +65,7 @@ inline Decision<T> point_in_rectangle(const Rectangle<T>& rectangle, const Vec3<
           return Tier::decided_by_filter(Decision<T>{*inside});
       }
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::point_in_rectangle<decltype(arithmetic)>(a...); },
-        rectangle, normal, point);
+    return COLLIDE_LIFTED(point_in_rectangle, rectangle, normal, point);
   } else {
     if constexpr (MachineNumber<T>) {
       if (!detail::is_finite(normal)) return {};

@@ -99,12 +99,7 @@ std::optional<Containment<T>> filtered_containment(const Triangle<T>& triangle, 
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<T>& normal, int axis, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(point_in_triangle)
 
 namespace kernels {
 
@@ -119,9 +114,7 @@ inline Containment<T> point_in_triangle(const Triangle<T>& triangle, const Vec3<
           return Tier::decided_by_filter(*answer);
       }
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::point_in_triangle<decltype(arithmetic)>(a...); },
-        triangle, normal, axis, point);
+    return COLLIDE_LIFTED(point_in_triangle, triangle, normal, axis, point);
   } else {
     if constexpr (MachineNumber<T>) {
       if (!detail::is_finite(normal)) return {};

@@ -111,12 +111,7 @@ bool is_certain_order(const Lanes<T>& inverse, const Pair<T>& entry, const Pair<
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-RayHit<T> ray_aabox(const PreparedRay<T>& ray, const PreparedAABox<T>& box);
-
-}  // namespace compiled
+COLLIDE_COMPILED(ray_aabox)
 
 namespace kernels {
 

@@ -10,12 +10,7 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velocity, T time, const Vec3<T>& location);
-
-}  // namespace compiled
+COLLIDE_COMPILED(slide_direction)
 
 namespace kernels {
 
@@ -26,9 +21,7 @@ inline Direction<T> slide_direction(const Sphere<T>& sphere, const Vec3<T>& velo
       if (const auto answer = detail::filtered_slide(sphere.center, velocity, time, location))
         return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::slide_direction<decltype(arithmetic)>(a...); }, sphere,
-        velocity, time, location);
+    return COLLIDE_LIFTED(slide_direction, sphere, velocity, time, location);
   } else {
     const Vec3<T> to_center = (sphere.center - location) + velocity * time;
     const Vec3<T> d = unit<Tier>(velocity);

@@ -49,12 +49,7 @@ std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Box<T>& box)
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_box_overlap)
 
 namespace kernels {
 
@@ -75,9 +70,7 @@ inline Decision<T> sphere_box_overlap(const Sphere<T>& sphere, const Box<T>& box
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::sphere_box_overlap<decltype(arithmetic)>(a...); },
-        sphere, box);
+    return COLLIDE_LIFTED(sphere_box_overlap, sphere, box);
   } else {
     const Axes<T> axes = axes_of(box.orientation);
     const std::array<T, 3> half = components(box.half);

@@ -80,23 +80,14 @@ bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere, const Box
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_box_penetration)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Penetration<T> sphere_box_penetration(const Sphere<T>& sphere, const Box<T>& box) {
   if constexpr (Tier::template lifts<T>) {
-    const auto fallback = [](const auto&... inputs) {
-      return Tier::lift(
-          [](auto arithmetic, const auto&... a) { return kernels::sphere_box_penetration<decltype(arithmetic)>(a...); },
-          inputs...);
-    };
+    const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(sphere_box_penetration, inputs...); };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
       return detail::sphere_box_penetration_in_lanes(sphere, box, detail::out_of_line(fallback));

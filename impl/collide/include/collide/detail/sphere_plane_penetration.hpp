@@ -28,12 +28,7 @@ bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere, const Pla
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Plane<T>& plane);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_plane_penetration)
 
 namespace kernels {
 
@@ -43,9 +38,7 @@ inline Penetration<T> sphere_plane_penetration(const Sphere<T>& sphere, const Pl
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_penetration(sphere, plane)) return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::sphere_plane_penetration<decltype(arithmetic)>(a...); },
-        sphere, plane);
+    return COLLIDE_LIFTED(sphere_plane_penetration, sphere, plane);
   } else {
     const T norm = length(components(plane.normal));
     const T depth = sphere.radius - (Tier::dot(plane.normal, sphere.center) + plane.offset) / norm;

@@ -9,21 +9,14 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_sphere_overlap)
 
 namespace kernels {
 
 template <class Tier, class T>
 inline Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::sphere_sphere_overlap<decltype(arithmetic)>(a...); },
-        sphere1, sphere2);
+    return COLLIDE_LIFTED(sphere_sphere_overlap, sphere1, sphere2);
   } else {
     const Vec3<T> between = sphere2.center - sphere1.center;
     const T reach = sphere1.radius + sphere2.radius;

@@ -24,12 +24,7 @@ bool is_certain(const Penetration<T>& answer, const Sphere<T>& sphere1, const Sp
 
 }  // namespace detail
 
-namespace compiled {
-
-template <class Tier, class T>
-Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const Sphere<T>& sphere2);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_sphere_penetration)
 
 namespace kernels {
 
@@ -39,9 +34,7 @@ inline Penetration<T> sphere_sphere_penetration(const Sphere<T>& sphere1, const 
     if constexpr (uses_filter<Tier, T>) {
       if (const auto answer = detail::filtered_penetration(sphere1, sphere2)) return Tier::decided_by_filter(*answer);
     }
-    return Tier::lift([](auto arithmetic,
-                         const auto&... a) { return kernels::sphere_sphere_penetration<decltype(arithmetic)>(a...); },
-                      sphere1, sphere2);
+    return COLLIDE_LIFTED(sphere_sphere_penetration, sphere1, sphere2);
   } else {
     const Vec3<T> between = sphere2.center - sphere1.center;
     const T distance = length(components(between));

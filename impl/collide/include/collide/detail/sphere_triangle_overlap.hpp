@@ -85,12 +85,7 @@ std::optional<bool> filtered_overlap(const Sphere<T>& sphere, const Triangle<T>&
 
 #endif
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triangle<T>& triangle);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_triangle_overlap)
 
 namespace kernels {
 
@@ -112,9 +107,7 @@ inline Decision<T> sphere_triangle_overlap(const Sphere<T>& sphere, const Triang
   }
 #endif
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::sphere_triangle_overlap<decltype(arithmetic)>(a...); },
-        sphere, triangle);
+    return COLLIDE_LIFTED(sphere_triangle_overlap, sphere, triangle);
   } else {
     if constexpr (MachineNumber<T>) {
       const Vec3<T> all = triangle.v0 + triangle.v1 + triangle.v2;

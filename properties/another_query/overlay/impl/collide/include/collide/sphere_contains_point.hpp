@@ -13,12 +13,7 @@ namespace collide {
 template <class Tier = Fast, class T>
 [[nodiscard]] Decision<T> sphere_contains_point(const Sphere<T>& sphere,
                                                 const Vec3<T>& point) noexcept(Tier::never_throws) {
-  using Answering = TierOfDecisions<Tier>;
-  if constexpr (is_compiled<Answering, T>) {
-    return compiled::sphere_contains_point<Answering>(sphere, point);
-  } else {
-    return kernels::sphere_contains_point<Answering>(sphere, point);
-  }
+  COLLIDE_ANSWER(sphere_contains_point, TierOfDecisions<Tier>, sphere, point);
 }
 
 namespace contracts {

@@ -9,21 +9,14 @@
 
 namespace collide {
 
-namespace compiled {
-
-template <class Tier, class T>
-Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point);
-
-}  // namespace compiled
+COLLIDE_COMPILED(sphere_contains_point)
 
 namespace kernels {
 
 template <class Tier, class T>
 Decision<T> sphere_contains_point(const Sphere<T>& sphere, const Vec3<T>& point) {
   if constexpr (Tier::template lifts<T>) {
-    return Tier::lift(
-        [](auto arithmetic, const auto&... a) { return kernels::sphere_contains_point<decltype(arithmetic)>(a...); },
-        sphere, point);
+    return COLLIDE_LIFTED(sphere_contains_point, sphere, point);
   } else {
     const Vec3<T> m = point - sphere.center;
     return {Tier::dot(m, m) <= sphere.radius * sphere.radius};
