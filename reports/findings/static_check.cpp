@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "corpus/relations/recast.hpp"
+#include "impl/catalogue/roles.hpp"
 
 namespace nearmiss {
 
@@ -45,20 +46,17 @@ double step_of(const Case& c) {
 
 /// The time in a hit that gives a finite one; empty otherwise.
 std::optional<double> time_in(const Query& query, const Answer& a) {
-  for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-    if (query.outputs[i].name != "time") continue;
-    const bool given = a.status == Answer::Status::answered && a.yes && a.gives(i);
-    if (given && std::isfinite(a.values[i]) && a.values[i] >= 0) return a.values[i];
-  }
-  return std::nullopt;
+  const auto time = index_of_role(query.outputs, Role::time);
+  if (!time || a.status != Answer::Status::answered || !a.yes || !a.gives(*time)) return std::nullopt;
+  const double t = a.values[*time];
+  return std::isfinite(t) && t >= 0 ? std::optional(t) : std::nullopt;
 }
 
 std::optional<double> time_in(const Query& query, const Truth& truth) {
   if (!truth.yes || truth.alternatives.empty()) return std::nullopt;
-  for (std::size_t i = 0; i < truth.alternatives.front().count && i < query.outputs.size(); ++i) {
-    if (query.outputs[i].name == "time") return truth.alternatives.front().values[i].low;
-  }
-  return std::nullopt;
+  const auto time = index_of_role(query.outputs, Role::time);
+  return time && *time < truth.alternatives.front().count ? std::optional(truth.alternatives.front().values[*time].low)
+                                                          : std::nullopt;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "impl/catalogue/roles.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/geometry/magnitudes.hpp"
 #include "reports/triage/hypotheses/readings.hpp"
@@ -88,7 +89,7 @@ class Convention : public TestOfCause {
   /// it explains every false miss, whatever its cause.
   bool is_vacuous(const Reading& reading) {
     Answer miss;
-    if (trials().query().kind == Kind::impact) miss.values[0] = INFINITY;
+    if (const auto time = index_of_role(trials().query().outputs, Role::time)) miss.values[*time] = INFINITY;
     std::size_t hits = 0, misses = 0, explained = 0;
     for (const Trial& t : asked_.sample()) {
       if (t.outcome == Outcome::none) continue;
