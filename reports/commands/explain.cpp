@@ -19,8 +19,9 @@ namespace nearmiss {
 
 namespace {
 
-class ExplainCommand : public Command {
+class ExplainCommand : public FindingsCommand {
  public:
+  ExplainCommand() : FindingsCommand("explained") {}
   Manual manual() const override {
     return {
         "explain",
@@ -40,65 +41,27 @@ class ExplainCommand : public Command {
          {"nearmiss explain --subject fcl case.json", "The finding of one subject on a case."}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
-    selection_.declare_subjects(app);
-    add_measure(app, measure_);
-    add_exact(app);
-    add_whole_number(app, "--questions", questions_,
-                     "How often a subject is asked at most for a finding. Default: 24,000", 1, 1'000'000'000);
-    add_positive_number(app, "--seconds", seconds_, "The most time for a finding. Default: 20", "S", 1e6);
-    add_output_folder(app, out_, "The folder. Default: reports/runs/explained of the source tree");
-    app.add_flag("--json", json_, "Print a JSON array with the reports")->disable_flag_override();
-  }
-  int run(const CLI::App&) override {
-    std::vector<Task> tasks;
-    for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "explained"));
-    catch_interrupts();
-    folder_ = folder_or_usual(out_, "explained");
-    check_can_write_in(folder_);
-    InternalErrors errors(folder_);
-    for_each_subject(tasks, errors, [this](const Task& t, const Subject& s) { explain_for(t, s); });
-    if (json_) say("{}", pretty_json(reports_));
-    if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
-    if (errors.count() > 0) return InternalError::exit_code;
-    return found_ > 0 ? 1 : interrupted() ? 2 : 0;
+    declare_work(app, "How often a subject is asked at most for a finding. Default: 24,000",
+                 "The most time for a finding. Default: 20", "Print a JSON array with the reports");
   }
 
  private:
-  void explain_for(const Task& t, const Subject& subject) {
-    const std::optional<Case> question = case_for(t, subject);
-    if (!question) return;
+  void work_on(const Task& t, const Case& question, const Subject& subject) override {
     progress_.set_activity(fmt::format("explaining {}", subject.name));
     progress_.show(0, std::nullopt, std::nullopt, std::nullopt);
-    Report r = examine(*question, subject, workers_);
+    Report r = examine(question, subject, workers_);
     if (interrupted()) return;
-    if (!is_bad(r.finding)) {
-      if (!json_) say("{}: {} has no finding against it\n", path_text(t.file), subject.name);
-      return;
-    }
+    if (!is_bad(r.finding)) return say_no_finding(t, subject);
     const CauseLimits usual;
-    const Cause cause = cause_of(
-        r, subject,
-        {questions_.value_or(usual.questions), seconds_ ? std::chrono::duration<double>(*seconds_) : usual.time},
-        workers_);
+    const Cause cause = cause_of(r, subject, {questions_.value_or(usual.questions), time_or(usual.time)}, workers_);
     if (interrupted()) return;
-    ++found_;
-    keep(t, subject, r, cause);
-  }
-  void keep(const Task& t, const Subject& subject, Report& r, const Cause& cause) {
-    const std::filesystem::path file = file_for(r, folder_);
-    r.replay = replay_command(subject, file.string());
+    const std::filesystem::path file = file_for(r, subject);
     nlohmann::ordered_json j = report_to_json(r);
     keep_ranges(t, r, j);
     j["cause"] = cause_to_json(cause);
-    make_folder(file.parent_path());
-    write_file(file, pretty_json(j));
-    if (json_) {
-      reports_.push_back(std::move(j));
-      return;
-    }
-    const Replay page{r.question, t.file, r.truth, {r}, {}};
-    say("{}{}\n{}", std::exchange(first_, false) ? "" : "\n", replay_text(page), cause_text(cause));
+    keep(file, std::move(j), [&] {
+      return replay_text({r.question, t.file, r.truth, {r}, {}}) + "\n" + cause_text(cause);
+    });
   }
 
   /// A minimised report of the same subject stays one.
@@ -108,18 +71,6 @@ class ExplainCommand : public Command {
     const FileValue report(given, t.file);
     if (report.at("subject").at("name").text() == r.subject) j["minimised"] = given["minimised"];
   }
-
-  std::vector<std::string> files_;
-  Selection selection_;
-  std::optional<double> measure_, seconds_;
-  std::optional<std::uint64_t> questions_;
-  std::string out_;
-  std::filesystem::path folder_;
-  bool json_ = false, first_ = true;
-  nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
-  Workers workers_{[] { return !interrupted(); }};
-  Progress progress_;
-  std::uint64_t found_ = 0;
 };
 
 }  // namespace

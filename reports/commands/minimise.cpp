@@ -18,8 +18,9 @@ namespace nearmiss {
 
 namespace {
 
-class MinimiseCommand : public Command {
+class MinimiseCommand : public FindingsCommand {
  public:
+  MinimiseCommand() : FindingsCommand("minimised") {}
   Manual manual() const override {
     std::vector<Manual::Line> status = judging_exit_status();
     return {
@@ -41,81 +42,31 @@ class MinimiseCommand : public Command {
          {"nearmiss minimise --subject fcl --out small case.json", "The finding of one subject on a case."}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("FILE", files_, "A case file or a report")->required()->type_name("");
-    selection_.declare_subjects(app);
-    add_measure(app, measure_);
-    add_exact(app);
-    add_whole_number(app, "--questions", questions_,
-                     "How often a subject is asked at most to simplify a case. Default: 20,000", 1, 1'000'000'000);
-    add_positive_number(app, "--seconds", seconds_,
-                        "The most time to simplify a case, and again for its ranges. Default: 60", "S", 1e6);
-    add_output_folder(app, out_, "The folder. Default: reports/runs/minimised of the source tree");
-    app.add_flag("--json", json_, "Print a JSON array with the reports of the simplest cases")->disable_flag_override();
-  }
-  int run(const CLI::App&) override {
-    std::vector<Task> tasks;
-    for (const std::string& f : files_) tasks.push_back(read_task(f, selection_, measure_, "minimised"));
-    catch_interrupts();
-    folder_ = folder_or_usual(out_, "minimised");
-    check_can_write_in(folder_);
-    InternalErrors errors(folder_);
-    for_each_subject(tasks, errors, [this](const Task& t, const Subject& s) { minimise_for(t, s); });
-    if (json_) say("{}", pretty_json(reports_));
-    if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
-    if (errors.count() > 0) return InternalError::exit_code;
-    return found_ > 0 ? 1 : interrupted() ? 2 : 0;
+    declare_work(app, "How often a subject is asked at most to simplify a case. Default: 20,000",
+                 "The most time to simplify a case, and again for its ranges. Default: 60",
+                 "Print a JSON array with the reports of the simplest cases");
   }
 
  private:
-  void minimise_for(const Task& t, const Subject& subject) {
-    const std::optional<Case> question = case_for(t, subject);
-    if (!question) return;
+  void work_on(const Task& t, const Case& question, const Subject& subject) override {
     progress_.set_activity(fmt::format("minimising for {}", subject.name));
-    const MinimiseLimits limits{questions_.value_or(MinimiseLimits().questions),
-                                seconds_ ? std::chrono::duration<double>(*seconds_) : MinimiseLimits().time};
-    std::optional<Minimised> m = minimise(*question, subject, limits, workers_, [this](std::uint64_t questions) {
-      progress_.show(questions, std::nullopt, std::nullopt, std::nullopt);
-    });
-    if (interrupted() && !m) return;
-    if (!m) {
-      if (!json_) say("{}: {} has no finding against it\n", path_text(t.file), subject.name);
-      return;
-    }
-    ++found_;
-    keep(t, subject, *m);
-  }
-  void keep(const Task& t, const Subject& subject, Minimised& m) {
-    Report& r = m.report;
+    const MinimiseLimits usual;
+    std::optional<Minimised> m =
+        minimise(question, subject, {questions_.value_or(usual.questions), time_or(usual.time)}, workers_,
+                 [this](std::uint64_t asked) { progress_.show(asked, std::nullopt, std::nullopt, std::nullopt); });
+    if (!m) return interrupted() ? void() : say_no_finding(t, subject);
+    Report& r = m->report;
     r.question.origin = "minimise";
     r.question.moves.clear();  // they made the case of the file
-    const std::filesystem::path file = file_for(r, folder_);
-    r.replay = replay_command(subject, file.string());
-    make_folder(file.parent_path());
-    write_file(file, pretty_json(minimised_to_json(m)));
-    if (json_) {
-      reports_.push_back(minimised_to_json(m));
-      return;
-    }
-    const Replay page{r.question, file.string(), r.truth, {r}, {}};
-    const std::string end =
-        fmt::format("This is the case of {}, minimised in {} questions. The search was ended by {}.", path_text(t.file),
-                    count_text(m.questions), name_of(m.end));
-    say("{}{}\n{}\n{}", separator(), replay_text(page), ranges_text(m), wrapped_text(end, ""));
+    const std::filesystem::path file = file_for(r, subject);
+    keep(file, minimised_to_json(*m), [&] {
+      const std::string end =
+          fmt::format("This is the case of {}, minimised in {} questions. The search was ended by {}.",
+                      path_text(t.file), count_text(m->questions), name_of(m->end));
+      return fmt::format("{}\n{}\n{}", replay_text({r.question, file.string(), r.truth, {r}, {}}), ranges_text(*m),
+                         wrapped_text(end, ""));
+    });
   }
-  /// An empty line between pages.
-  std::string separator() { return std::exchange(first_, false) ? "" : "\n"; }
-
-  std::vector<std::string> files_;
-  Selection selection_;
-  std::optional<double> measure_, seconds_;
-  std::optional<std::uint64_t> questions_;
-  std::string out_;
-  std::filesystem::path folder_;
-  bool json_ = false, first_ = true;
-  nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
-  Workers workers_{[] { return !interrupted(); }};
-  Progress progress_;
-  std::uint64_t found_ = 0;
 };
 
 }  // namespace

@@ -1,15 +1,21 @@
-/// The files of commands that work on findings one by one.
+/// The files of commands that work on findings one by one, and what these commands share.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "impl/catalogue/case.hpp"
+#include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
-#include "reports/engine/internal_errors.hpp"
+#include "reports/engine/interrupt.hpp"
+#include "reports/engine/progress.hpp"
 #include "reports/findings/report.hpp"
 
 namespace nearmiss {
@@ -28,19 +34,44 @@ struct Task {
 Task read_task(const std::string& file, const Selection& selection, std::optional<double> measure,
                const std::string& verb);
 
-/// The task's case in the subject's scalar; empty where the subject cannot be asked it. Throws BadInput where that
-/// subject is the only one of the task.
-std::optional<Case> case_for(const Task& t, const Subject& subject);
+/// A command that works on the finding of each file and subject, and keeps a report of each.
+class FindingsCommand : public Command {
+ public:
+  int run(const CLI::App&) override;
 
-/// Calls `work` with each task and each of its subjects, judged by the measure of the task, until an interrupt. An
-/// internal error ends the work for its subject alone, and is added to `errors`.
-void for_each_subject(const std::vector<Task>& tasks, InternalErrors& errors,
-                      const std::function<void(const Task&, const Subject&)>& work);
+ protected:
+  /// `verb`: as of read_task(), and the name of the usual folder.
+  explicit FindingsCommand(const char* verb) : verb_(verb) {}
 
-/// The given folder or, without one, that of this name below the folder of runs.
-std::filesystem::path folder_or_usual(const std::string& given_folder, const char* usual_folder);
+  /// Declares FILE, the options of subjects and measures, and --questions, --seconds, --out and --json with these
+  /// texts.
+  void declare_work(CLI::App& app, const char* questions, const char* seconds, const char* json);
+  std::chrono::duration<double> time_or(std::chrono::duration<double> usual) const {
+    return seconds_ ? std::chrono::duration<double>(*seconds_) : usual;
+  }
 
-/// Where such a command keeps a report: FOLDER/QUERY/SUBJECT-FAULT-ID.json.
-std::filesystem::path file_for(const Report& r, const std::filesystem::path& folder);
+  /// Works on one question; says nothing where it is interrupted.
+  virtual void work_on(const Task& t, const Case& question, const Subject& subject) = 0;
+  void say_no_finding(const Task& t, const Subject& subject) const;
+  /// Names FOLDER/QUERY/SUBJECT-FAULT-ID.json, where the report is to be kept, in its command to replay it.
+  std::filesystem::path file_for(Report& r, const Subject& subject) const;
+  /// Writes a report to its file, and says it: as JSON, or `text`, after an empty line between pages.
+  void keep(const std::filesystem::path& file, nlohmann::ordered_json report, const std::function<std::string()>& text);
+
+  std::optional<std::uint64_t> questions_;
+  Workers workers_{[] { return !interrupted(); }};
+  Progress progress_;
+
+ private:
+  const char* verb_;
+  std::vector<std::string> files_;
+  Selection selection_;
+  std::optional<double> measure_, seconds_;
+  std::string out_;
+  std::filesystem::path folder_;
+  bool json_ = false;
+  nlohmann::ordered_json reports_ = nlohmann::ordered_json::array();
+  std::uint64_t found_ = 0;
+};
 
 }  // namespace nearmiss
