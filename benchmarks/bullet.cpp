@@ -1,5 +1,6 @@
-/// Bullet 3.24 as a contender, in float or double. Shapes, poses and algorithms are made before the timing; the timed
-/// part is one call. Each query uses the most direct functions of Bullet:
+/// Bullet 3.24 as a contender, in float or double: the calls of its adapter, and those that the adapter has no use for.
+/// Bodies and algorithms are made before the timing; the timed part is one call. Each query uses the most direct
+/// functions of Bullet:
 ///
 ///   algorithm    processCollision of the algorithm that its dispatcher finds for the two shapes
 ///   distance     btSphereBoxCollisionAlgorithm::getSphereDistance
@@ -10,139 +11,51 @@
 ///   triangle-ray btTriangleRaycastCallback; slabs: btRayAabb2; outcodes: btRayAabb. They return the fraction along
 ///                the ray; the contact that the queries ask for is computed from it as in Bullet's
 ///                ClosestRayResultCallback
-#include <btBulletCollisionCommon.h>
+#include "impl/adapters/bullet.hpp"
 
-#include <BulletCollision/CollisionDispatch/SphereTriangleDetector.h>
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 #include <BulletCollision/CollisionDispatch/btSphereBoxCollisionAlgorithm.h>
-#include <BulletCollision/CollisionShapes/btTriangleShape.h>
-#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
-#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
-#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
-#include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
-#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
-#include <LinearMath/btAabbUtil2.h>
 
 #include "benchmarks/contender.hpp"
-#include "benchmarks/shapes_of.hpp"
-#include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
+#include "benchmarks/end_of_motion.hpp"
 
 namespace nearmiss::benchmarks {
 
 namespace {
 
 static_assert(std::is_same_v<btScalar, NEARMISS_SCALAR>);
-using Vec3 = collide::Vec3<btScalar>;
-using Sphere = collide::Sphere<btScalar>;
-using Box = collide::Box<btScalar>;
-using AABox = collide::AABox<btScalar>;
-using Capsule = collide::Capsule<btScalar>;
-using Plane = collide::Plane<btScalar>;
-using Triangle = collide::Triangle<btScalar>;
-using Ray = collide::Ray<btScalar>;
+using namespace adapters;
+using Sphere = collide::Sphere<double>;
+using Box = collide::Box<double>;
+using AABox = collide::AABox<double>;
+using Triangle = collide::Triangle<double>;
 
-/// A moving point, as a shape.
-struct Point {};
+btVector3 vector(const Vec3d& v) { return BulletShapes::vector(v); }
 
-btVector3 vector(const Vec3& v) { return {v.x, v.y, v.z}; }
-btTransform at(const Vec3& p) { return btTransform(btQuaternion::getIdentity(), vector(p)); }
-
-btSphereShape shape(const Sphere& s) { return btSphereShape(s.radius); }
-btTransform pose(const Sphere& s) { return at(s.center); }
-btBoxShape shape(const Box& b) { return btBoxShape(vector(b.half)); }
-btTransform pose(const Box& b) {
-  const auto& q = b.orientation;
-  return btTransform(btQuaternion(q.x, q.y, q.z, q.w).normalized(), vector(b.center));
-}
-btBoxShape shape(const AABox& b) { return btBoxShape(vector((b.max - b.min) * btScalar(0.5))); }
-btTransform pose(const AABox& b) { return at((b.min + b.max) * btScalar(0.5)); }
-btCapsuleShapeZ shape(const Capsule& c) { return btCapsuleShapeZ(c.radius, norm(c.p1 - c.p0)); }
-btTransform pose(const Capsule& c) {
-  const btVector3 z(0, 0, 1), along = vector(c.p1 - c.p0);
-  const btQuaternion turn = along.fuzzyZero() ? btQuaternion::getIdentity() : shortestArcQuat(z, along.normalized());
-  return btTransform(turn, vector((c.p0 + c.p1) * btScalar(0.5)));
-}
-btStaticPlaneShape shape(const Plane& p) {
-  const btScalar length = norm(p.normal);
-  return btStaticPlaneShape(vector(p.normal / length), -p.offset / length);
-}
-btTransform pose(const Plane&) { return btTransform::getIdentity(); }
-btTriangleShape shape(const Triangle& t) { return btTriangleShape(vector(t.v0), vector(t.v1), vector(t.v2)); }
-btTransform pose(const Triangle&) { return btTransform::getIdentity(); }
-btSphereShape shape(const Point&) { return btSphereShape(0); }
-
-/// A body of Bullet's collision world: shape, object and pose.
-template <class S>
-struct Body {
-  explicit Body(const S& s) : geometry(shape(s)) {
-    if constexpr (std::is_same_v<S, Triangle>) geometry.setMargin(0);
-    object.setCollisionShape(&geometry);
-    object.setWorldTransform(pose(s));
-  }
-  decltype(shape(S{})) geometry;
-  btCollisionObject object;
-  btCollisionObjectWrapper wrapper{nullptr, &geometry, &object, object.getWorldTransform(), -1, -1};
-};
-
-template <class A, class B>
-struct Bodies {
-  template <class Q>
-  explicit Bodies(const Q& q) : a(the<A>(q)), b(the_other<A, B>(q)) {}
-  Body<A> a;
-  Body<B> b;
-};
-
-btCollisionDispatcher& dispatcher() {
-  static btDefaultCollisionConfiguration configuration;
-  static btCollisionDispatcher one(&configuration);
-  return one;
-}
-
-/// Bullet's own settings.
-const btDispatcherInfo settings;
-
-/// Keeps the deepest contact instead of Bullet's manifold, which would grow from call to call.
-struct DeepestContact final : btManifoldResult {
-  using btManifoldResult::btManifoldResult;
-  void addContactPoint(const btVector3& normal, const btVector3& point, btScalar distance) override {
-    if (distance > depth_below) return;
-    depth_below = distance, normal_on_b = normal, point_on_b = point;
-  }
-  btScalar depth_below = BT_LARGE_FLOAT;
-  btVector3 normal_on_b, point_on_b;
-};
-
-template <class A, class B>
-struct Algorithm : Bodies<A, B> {
-  template <class Q>
-  explicit Algorithm(const Q& q)
-      : Bodies<A, B>(q),
-        algorithm(
-            dispatcher().findAlgorithm(&this->a.wrapper, &this->b.wrapper, nullptr, BT_CONTACT_POINT_ALGORITHMS)) {}
-  ~Algorithm() {
-    algorithm->~btCollisionAlgorithm();
-    dispatcher().freeCollisionAlgorithm(algorithm);
-  }
+template <class Q>
+struct Algorithm {
+  explicit Algorithm(const Q& q) : Algorithm(std::get<0>(shapes_of(q)), std::get<1>(shapes_of(q))) {}
+  Algorithm(const First<Q>& a, const Second<Q>& b) : algorithm(a, b) {}
   LibraryAnswer ask() const {
-    DeepestContact deepest(&this->a.wrapper, &this->b.wrapper);
-    algorithm->processCollision(&this->a.wrapper, &this->b.wrapper, settings, &deepest);
-    return {deepest.depth_below <= 0, -deepest.depth_below};
+    const BulletContact deepest = algorithm.deepest();
+    return {deepest.yes(), -deepest.distance};
   }
-  btCollisionAlgorithm* algorithm;
+  BulletAlgorithm<First<Q>, Second<Q>> algorithm;
 };
 
-struct SphereBoxDistance : Bodies<Sphere, Box> {
+struct SphereBoxDistance {
   template <class Q>
   explicit SphereBoxDistance(const Q& q)
-      : Bodies(q),
-        center(vector(the<Sphere>(q).center)),
-        radius(the<Sphere>(q).radius),
+      : a(q.sphere),
+        b(q.box),
+        center(vector(q.sphere.center)),
+        radius(btScalar(q.sphere.radius)),
         algorithm(nullptr, information(), &a.wrapper, &b.wrapper, false) {}
   static btCollisionAlgorithmConstructionInfo information() {
     btCollisionAlgorithmConstructionInfo i;
-    i.m_dispatcher1 = &dispatcher();
+    i.m_dispatcher1 = &bullet_dispatcher();
     return i;
   }
   LibraryAnswer ask() const {
@@ -152,126 +65,86 @@ struct SphereBoxDistance : Bodies<Sphere, Box> {
     keep(on_box), keep(normal);
     return {hit, depth};
   }
+  BulletBody<Sphere> a;
+  BulletBody<Box> b;
   btVector3 center;
   btScalar radius;
   mutable btSphereBoxCollisionAlgorithm algorithm;
 };
 
-struct BoxBoxDetector : Bodies<Box, Box> {
+LibraryAnswer closest(btDiscreteCollisionDetectorInterface& detector,
+                      const btDiscreteCollisionDetectorInterface::ClosestPointInput& input) {
+  btPointCollector deepest;
+  detector.getClosestPoints(input, deepest, nullptr);
+  return {deepest.m_hasResult && deepest.m_distance <= 0, -deepest.m_distance};
+}
+template <class A, class B>
+btDiscreteCollisionDetectorInterface::ClosestPointInput poses(const BulletBody<A>& a, const BulletBody<B>& b) {
+  btDiscreteCollisionDetectorInterface::ClosestPointInput input;
+  input.m_transformA = a.pose();
+  input.m_transformB = b.pose();
+  return input;
+}
+
+struct BoxBoxDetector {
   template <class Q>
-  explicit BoxBoxDetector(const Q& q) : Bodies(q), detector(&a.geometry, &b.geometry) {
-    input.m_transformA = a.object.getWorldTransform();
-    input.m_transformB = b.object.getWorldTransform();
-  }
-  LibraryAnswer ask() const {
-    btPointCollector deepest;
-    detector.getClosestPoints(input, deepest, nullptr);
-    return {deepest.m_hasResult && deepest.m_distance <= 0, -deepest.m_distance};
-  }
+  explicit BoxBoxDetector(const Q& q) : a(q.box1), b(q.box2), detector(&a.geometry, &b.geometry), input(poses(a, b)) {}
+  LibraryAnswer ask() const { return closest(detector, input); }
+
+  BulletBody<Box> a, b;
   mutable btBoxBoxDetector detector;
   btDiscreteCollisionDetectorInterface::ClosestPointInput input;
 };
 
-struct SphereTriangle : Bodies<Sphere, Triangle> {
+struct SphereTriangle {
   template <class Q>
-  explicit SphereTriangle(const Q& q)
-      : Bodies(q), center(vector(the<Sphere>(q).center)), detector(&a.geometry, &b.geometry, 0) {}
-  LibraryAnswer ask() const {
-    btVector3 point, normal;
-    btScalar depth = 0, time = 1;
-    const bool hit = detector.collide(center, point, normal, depth, time, 0);
-    keep(point), keep(normal);
-    return {hit, depth};
-  }
-  btVector3 center;
-  mutable SphereTriangleDetector detector;
+  explicit SphereTriangle(const Q& q) : pair(q.sphere, q.triangle) {}
+  LibraryAnswer ask() const { return {pair.meet()}; }
+  mutable BulletSphereTriangle pair;
 };
 
-template <class A, class B>
-struct Gjk : Bodies<A, B> {
+struct Gjk {
   template <class Q>
-  explicit Gjk(const Q& q) : Bodies<A, B>(q) {
-    input.m_transformA = this->a.object.getWorldTransform();
-    input.m_transformB = this->b.object.getWorldTransform();
-  }
+  explicit Gjk(const Q& q) : a(boxed(q.box)), b(q.triangle), input(poses(a, b)) {}
   LibraryAnswer ask() const {
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver epa;
-    btGjkPairDetector detector(&this->a.geometry, &this->b.geometry, &simplex, &epa);
-    btPointCollector deepest;
-    detector.getClosestPoints(input, deepest, nullptr);
-    return {deepest.m_hasResult && deepest.m_distance <= 0, -deepest.m_distance};
+    btGjkPairDetector detector(&a.geometry, &b.geometry, &simplex, &epa);
+    return closest(detector, input);
   }
+  BulletBody<Box> a;
+  BulletBody<Triangle> b;
   btDiscreteCollisionDetectorInterface::ClosestPointInput input;
 };
 
-/// A sphere that moves from its start to past the shape.
-template <class B>
-struct ConvexCast : Bodies<Sphere, B> {
+LibraryAnswer told(const std::optional<BulletHit>& hit) {
+  keep(hit);
+  return {hit.has_value(), hit ? hit->fraction : 1};
+}
+
+/// A sphere that moves from its start to past the shape, or a point, as Bullet's ray tests cast it.
+template <class B, std::optional<BulletHit> (BulletMotion<B>::*cast)() const>
+struct Motion {
   template <class Q>
-  explicit ConvexCast(const Q& q)
-      : Bodies<Sphere, B>(q),
-        from(pose(the<Sphere>(q))),
-        to(at(end_of_motion(the<Sphere>(q).center, q.velocity, the<Sphere>(q).radius, the_other<Sphere, B>(q)))),
-        still(this->b.object.getWorldTransform()) {}
-  template <class Cast>
-  LibraryAnswer by(Cast&& cast) const {
-    btConvexCast::CastResult result;
-    result.m_fraction = 1;
-    const bool hit = cast.calcTimeOfImpact(from, to, still, still, result);
-    keep(result.m_normal), keep(result.m_hitPoint);
-    return {hit, result.m_fraction};
-  }
-  btTransform from, to, still;
-};
+  explicit Motion(const Q& q) : Motion(mover(q), q.velocity, target(q)) {}
+  Motion(const Sphere& sphere, const Vec3d& velocity, const B& fixed)
+      : motion(sphere, end_of_motion(sphere.center, velocity, sphere.radius, fixed), fixed) {}
+  LibraryAnswer ask() const { return told((motion.*cast)()); }
 
-template <class B>
-struct Subsimplex : ConvexCast<B> {
-  using ConvexCast<B>::ConvexCast;
-  LibraryAnswer ask() const {
-    btVoronoiSimplexSolver simplex;
-    return this->by(btSubsimplexConvexCast(&this->a.geometry, &this->b.geometry, &simplex));
-  }
-};
-
-template <class B>
-struct Continuous : ConvexCast<B> {
-  using ConvexCast<B>::ConvexCast;
-  LibraryAnswer ask() const {
-    if constexpr (std::is_same_v<B, Plane>) {
-      return this->by(btContinuousConvexCollision(&this->a.geometry, &this->b.geometry));
+ private:
+  template <class Q>
+  static Sphere mover(const Q& q) {
+    if constexpr (requires { q.point; }) {
+      return {q.point, 0};
     } else {
-      btVoronoiSimplexSolver simplex;
-      btGjkEpaPenetrationDepthSolver epa;
-      return this->by(btContinuousConvexCollision(&this->a.geometry, &this->b.geometry, &simplex, &epa));
+      return q.sphere;
     }
   }
-};
-
-/// A point that moves from its start to past the shape, as Bullet's ray tests cast it.
-template <class B>
-struct RaySubsimplex {
   template <class Q>
-  explicit RaySubsimplex(const Q& q)
-      : b(the<B>(q)),
-        point(shape(Point{})),
-        from(at(q.point)),
-        to(at(end_of_motion(q.point, q.velocity, btScalar(0), the<B>(q)))),
-        still(b.object.getWorldTransform()) {
-    point.setMargin(0);
+  static const B& target(const Q& q) {
+    return std::get<std::tuple_size_v<ShapesOf<Q>> - 1>(shapes_of(q));
   }
-  LibraryAnswer ask() const {
-    btVoronoiSimplexSolver simplex;
-    btSubsimplexConvexCast cast(&point, &b.geometry, &simplex);
-    btConvexCast::CastResult result;
-    result.m_fraction = 1;
-    const bool hit = cast.calcTimeOfImpact(from, to, still, still, result);
-    keep(result.m_normal), keep(result.m_hitPoint);
-    return {hit, result.m_fraction};
-  }
-  Body<B> b;
-  btSphereShape point;
-  btTransform from, to, still;
+  BulletMotion<B> motion;
 };
 
 void keep_contact(const btVector3& from, const btVector3& to, btScalar fraction) {
@@ -280,56 +153,28 @@ void keep_contact(const btVector3& from, const btVector3& to, btScalar fraction)
   keep(contact);
 }
 
-struct TriangleRay {
-  struct Nearest final : btTriangleRaycastCallback {
-    using btTriangleRaycastCallback::btTriangleRaycastCallback;
-    btScalar reportHit(const btVector3& hit_normal, btScalar fraction, int, int) override {
-      normal = hit_normal, hit = true;
-      return fraction;
-    }
-    btVector3 normal;
-    bool hit = false;
-  };
+/// A ray test that tells the fraction of its way.
+template <class Ray>
+struct RayTest {
   template <class Q>
-  explicit TriangleRay(const Q& q)
-      : corners{vector(the<Triangle>(q).v0), vector(the<Triangle>(q).v1), vector(the<Triangle>(q).v2)},
-        from(vector(q.point)),
-        to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<Triangle>(q)))) {}
+  explicit RayTest(const Q& q) : RayTest(q.point, q.velocity, std::get<0>(shapes_of(q))) {}
+  template <class S>
+  RayTest(const Vec3d& point, const Vec3d& velocity, const S& shape)
+      : ray(point, end_of_motion(point, velocity, 0, shape), shape) {}
   LibraryAnswer ask() const {
-    Nearest nearest(from, to, btTriangleRaycastCallback::kF_FilterBackfaces);
-    nearest.processTriangle(corners, 0, 0);
-    keep(nearest.normal);
-    if (nearest.hit) keep_contact(from, to, nearest.m_hitFraction);
-    return {nearest.hit, nearest.m_hitFraction};
+    const std::optional<BulletHit> hit = ray.cast();
+    if (hit) keep_contact(ray.from, ray.to, hit->fraction);
+    return told(hit);
   }
-  mutable btVector3 corners[3];
-  btVector3 from, to;
-};
-
-struct AABoxOutcodes {
-  template <class Q>
-  explicit AABoxOutcodes(const Q& q)
-      : from(vector(q.point)),
-        to(vector(end_of_motion(q.point, q.velocity, btScalar(0), the<AABox>(q)))),
-        min(vector(the<AABox>(q).min)),
-        max(vector(the<AABox>(q).max)) {}
-  LibraryAnswer ask() const {
-    btScalar fraction = 1;
-    btVector3 normal(0, 0, 0);
-    const bool hit = btRayAabb(from, to, min, max, fraction, normal);
-    keep(normal);
-    if (hit) keep_contact(from, to, fraction);
-    return {hit, fraction};
-  }
-  btVector3 from, to, min, max;
+  mutable Ray ray;
 };
 
 struct AABoxSlabs {
   template <class Q>
   explicit AABoxSlabs(const Q& q)
-      : from(vector(the<Ray>(q).origin)),
-        direction(vector(the<Ray>(q).direction)),
-        bounds{vector(the<AABox>(q).min), vector(the<AABox>(q).max)} {
+      : from(vector(q.ray.origin)),
+        direction(vector(q.ray.direction)),
+        bounds{vector(q.aabox.min), vector(q.aabox.max)} {
     for (int i = 0; i < 3; ++i) {
       inverse[i] = direction[i] == 0 ? BT_LARGE_FLOAT : 1 / direction[i];
       sign[i] = inverse[i] < 0;
@@ -346,57 +191,35 @@ struct AABoxSlabs {
   btVector3 bounds[2];
 };
 
-template <class Q, class Asked>
-void enter_as(const char* query, const char* way) {
-  register_contender(query, "bullet", way, std::make_unique<ContenderOf<Asked, Q>>());
-}
-template <class Q, class B>
-void enter_casts(const char* query) {
-  enter_as<Q, Subsimplex<B>>(query, "subsimplex");
-  enter_as<Q, Continuous<B>>(query, "continuous");
-}
-
 /// Registers Bullet's contenders for a query.
-template <QueryName query, class Q>
+template <class Q>
 void enter_query(const char* name) {
-  constexpr std::string_view is = query.text;
-  if constexpr (is == "sphere_sphere_overlap" || is == "sphere_sphere_penetration") {
-    enter_as<Q, Algorithm<Sphere, Sphere>>(name, "algorithm");
-  } else if constexpr (is == "sphere_box_overlap" || is == "sphere_box_penetration") {
-    enter_as<Q, SphereBoxDistance>(name, "distance");
-    enter_as<Q, Algorithm<Sphere, Box>>(name, "algorithm");
-  } else if constexpr (is == "box_box_overlap" || is == "box_box_penetration") {
-    enter_as<Q, BoxBoxDetector>(name, "detector");
-  } else if constexpr (is == "sphere_triangle_overlap") {
-    enter_as<Q, SphereTriangle>(name, "detector");
-  } else if constexpr (is == "aabox_triangle_overlap") {
-    enter_as<Q, Gjk<AABox, Triangle>>(name, "gjk");
-  } else if constexpr (is == "sphere_plane_penetration") {
-    enter_as<Q, Algorithm<Sphere, Plane>>(name, "algorithm");
-  } else if constexpr (is == "box_plane_penetration") {
-    enter_as<Q, Algorithm<Box, Plane>>(name, "algorithm");
-  } else if constexpr (is == "moving_sphere_plane") {
-    enter_as<Q, Continuous<Plane>>(name, "continuous");
-  } else if constexpr (is == "moving_sphere_sphere") {
-    enter_casts<Q, Sphere>(name);
-  } else if constexpr (is == "moving_sphere_box") {
-    enter_casts<Q, Box>(name);
-  } else if constexpr (is == "moving_sphere_capsule") {
-    enter_casts<Q, Capsule>(name);
-  } else if constexpr (is == "moving_sphere_triangle") {
-    enter_casts<Q, Triangle>(name);
-  } else if constexpr (is == "moving_point_sphere") {
-    enter_as<Q, RaySubsimplex<Sphere>>(name, "subsimplex");
-  } else if constexpr (is == "moving_point_box") {
-    enter_as<Q, RaySubsimplex<Box>>(name, "subsimplex");
-  } else if constexpr (is == "moving_point_capsule") {
-    enter_as<Q, RaySubsimplex<Capsule>>(name, "subsimplex");
-  } else if constexpr (is == "moving_point_triangle") {
-    enter_as<Q, TriangleRay>(name, "triangle-ray");
-  } else if constexpr (is == "moving_point_aabox") {
-    enter_as<Q, AABoxOutcodes>(name, "outcodes");
-  } else if constexpr (is == "ray_aabox") {
-    enter_as<Q, AABoxSlabs>(name, "slabs");
+  const auto enter = [&]<class Asked>(std::type_identity<Asked>, const char* way) {
+    register_contender(name, "bullet", way, std::make_unique<ContenderOf<Asked, Q>>());
+  };
+  if constexpr (AsksOverlap<Q> || AsksDepth<Q>) {
+    if constexpr (is_triangle<Second<Q>> && is_aabox<First<Q>>) {
+      enter(std::type_identity<Gjk>(), "gjk");
+    } else if constexpr (is_triangle<Second<Q>>) {
+      enter(std::type_identity<SphereTriangle>(), "detector");
+    } else if constexpr (is_box<First<Q>> && is_box<Second<Q>>) {
+      enter(std::type_identity<BoxBoxDetector>(), "detector");
+    } else if constexpr (BulletKnows<First<Q>> && BulletKnows<Second<Q>>) {
+      if constexpr (is_sphere<First<Q>> && is_box<Second<Q>>) enter(std::type_identity<SphereBoxDistance>(), "distance");
+      enter(std::type_identity<Algorithm<Q>>(), "algorithm");
+    } else if constexpr (requires(const Q& q) { q.ray; }) {
+      enter(std::type_identity<AABoxSlabs>(), "slabs");
+    }
+  } else if constexpr (AsksBallMotion<Q> && BulletKnows<Second<Q>>) {
+    using Shot = BulletMotion<Second<Q>>;
+    if constexpr (!is_plane<Second<Q>>) enter(std::type_identity<Motion<Second<Q>, &Shot::subsimplex>>(), "subsimplex");
+    enter(std::type_identity<Motion<Second<Q>, &Shot::continuous>>(), "continuous");
+  } else if constexpr (AsksPointMotion<Q> && is_triangle<First<Q>>) {
+    enter(std::type_identity<RayTest<BulletTriangleRay>>(), "triangle-ray");
+  } else if constexpr (AsksPointMotion<Q> && is_aabox<First<Q>>) {
+    enter(std::type_identity<RayTest<BulletAABoxRay>>(), "outcodes");
+  } else if constexpr (AsksPointMotion<Q> && BulletKnows<First<Q>> && !is_plane<First<Q>>) {
+    enter(std::type_identity<Motion<First<Q>, &BulletMotion<First<Q>>::subsimplex>>(), "subsimplex");
   }
 }
 
@@ -404,7 +227,7 @@ void enter_query(const char* name) {
 
 void enter_bullet() {
   add_context("Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100));
-#define NEARMISS_QUERY(query) enter_query<#query, inputs::query<btScalar>>(#query);
+#define NEARMISS_QUERY(query) enter_query<inputs::query<double>>(#query);
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
 }

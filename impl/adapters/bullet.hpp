@@ -4,6 +4,9 @@
 ///
 /// Every margin that is not a radius is set to zero: with Bullet's default of 0.04 a box has round edges, so it would
 /// be a different body.
+///
+/// A body, an algorithm and a motion are prepared by their constructors; what their other functions do is Bullet's
+/// work.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -18,14 +21,13 @@
 #include <LinearMath/btAabbUtil2.h>
 
 #include <cmath>
-#include <concepts>
-#include <cstddef>
-#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "impl/adapters/motion.hpp"
+#include "impl/adapters/operations.hpp"
 #include "impl/subject/adapter.hpp"
 #include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
@@ -33,128 +35,22 @@ namespace nearmiss::adapters {
 
 namespace in = inputs;
 
-/// The queries with inputs in double that are exact btScalars.
-struct BulletInDoubles {
-  static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
-  static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
-  static auto answer(const in::box_box_overlap<double>& q) {
-    return only(collide::BoxOverlap<double>{decided(q.box1, q.box2).yes(), -1}, {});
-  }
-  static auto answer(const in::sphere_triangle_overlap<double>& q) {
-    btSphereShape ball(btScalar(q.sphere.radius));
-    btTriangleShape triangle(vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2));
-    triangle.setMargin(0);
-    btVector3 point, normal;
-    btScalar depth = 0, time = 1;
-    SphereTriangleDetector detector(&ball, &triangle, 0);
-    return collide::Decision<double>{detector.collide(vector(q.sphere.center), point, normal, depth, time, 0)};
-  }
-
-  static auto answer(const in::sphere_sphere_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2, &Result::on_first);
-  }
-  static auto answer(const in::sphere_box_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere, q.box);
-  }
-  static auto answer(const in::box_box_penetration<double>& q) {
-    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
-  }
-  static auto answer(const in::sphere_plane_penetration<double>& q) {
-    return depth<collide::Penetration<double>, 1>(q.sphere, q.plane, &Result::on_first);
-  }
-  static auto answer(const in::box_plane_penetration<double>& q) {
-    return depth<collide::CornerContacts<double>, 1>(q.box, q.plane);
-  }
-
-  static auto answer(const in::moving_point_sphere<double>& q) -> Reply<collide::Impact<double>> {
-    if (length(q.point - q.sphere.center) <= q.sphere.radius) {
-      return CannotAnswer{"Bullet's rays do not see a shape that they start in"};
-    }
-    return cast(q.point, q.velocity, q.sphere);
-  }
-  static auto answer(const in::moving_point_box<double>& q) { return cast(q.point, q.velocity, q.box); }
-  static auto answer(const in::moving_point_capsule<double>& q) { return cast(q.point, q.velocity, q.capsule); }
-  static auto answer(const in::moving_point_triangle<double>& q) -> Reply<collide::Impact<double>> {
-    const double horizon = time_of_cast(q.point, 0, q.velocity, ball_around(q.triangle));
-    const Vec3d end = q.point + q.velocity * horizon;
-    if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
-    Nearest nearest(vector(q.point), vector(end), btTriangleRaycastCallback::kF_FilterBackfaces);
-    btVector3 corners[3] = {vector(q.triangle.v0), vector(q.triangle.v1), vector(q.triangle.v2)};
-    nearest.processTriangle(corners, 0, 0);
-    if (!nearest.hit) return collide::Impact<double>::miss();
-    return only(collide::Impact<double>{nearest.m_hitFraction * horizon, {}, doubles(nearest.normal)},
-                {"time", "normal"});
-  }
-  static auto answer(const in::moving_point_aabox<double>& q) -> Reply<collide::Entry<double>> {
-    const double horizon = time_of_cast(q.point, 0, q.velocity, ball_around(q.aabox));
-    const Vec3d end = q.point + q.velocity * horizon;
-    if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
-    const auto within = [](double low, double x, double high) { return low <= x && x <= high; };
-    if (within(q.aabox.min.x, q.point.x, q.aabox.max.x) && within(q.aabox.min.y, q.point.y, q.aabox.max.y) &&
-        within(q.aabox.min.z, q.point.z, q.aabox.max.z)) {
-      return CannotAnswer{"btRayAabb is asked from outside"};
-    }
-    btScalar fraction = 1;
-    btVector3 normal(0, 0, 0);
-    const bool hit =
-        btRayAabb(vector(q.point), vector(end), vector(q.aabox.min), vector(q.aabox.max), fraction, normal);
-    collide::Entry<double> entry = collide::Entry<double>::miss();
-    if (hit) entry.time = fraction * horizon;
-    return only(entry, {"time"});  // btRayAabb's normal points inward on one side and outward on the other
-  }
-
-  static auto answer(const in::moving_sphere_sphere<double>& q) { return sweep(q.sphere, q.velocity, q.fixed); }
-  static auto answer(const in::moving_sphere_box<double>& q) { return sweep(q.sphere, q.velocity, q.box); }
-  static auto answer(const in::moving_sphere_capsule<double>& q) { return sweep(q.sphere, q.velocity, q.capsule); }
-
- private:
-  using Impact = collide::Impact<double>;
-  static constexpr const char* no_cast = "a cast has two ends, apart and finite";
-
-  /// Like time_to_pass, but positive also for a body that moves away; 0 without motion.
-  static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity,
-                             const collide::Sphere<double>& to) {
-    const double passing = time_to_pass(from, radius, velocity, to), speed = length(velocity);
-    if (passing > 0 || !(speed > 0)) return passing;
-    return power_of_two_above((to.radius > 0 ? to.radius : 1.0) / speed);
-  }
-
-  struct Nearest final : btTriangleRaycastCallback {
-    using btTriangleRaycastCallback::btTriangleRaycastCallback;
-    btScalar reportHit(const btVector3& hit_normal, btScalar fraction, int, int) override {
-      normal = hit_normal, hit = true;
-      return fraction;
-    }
-    btVector3 normal{0, 0, 0};
-    bool hit = false;
-  };
-  /// Collects the deepest contact instead of Bullet's manifold, which merges and drops contacts.
-  struct Deepest final : btManifoldResult {
-    using btManifoldResult::btManifoldResult;
-    void addContactPoint(const btVector3& on_b, const btVector3& point, btScalar distance) override {
-      if (any && distance >= least) return;
-      any = true, least = distance, normal = on_b, on_second = point;
-    }
-    bool any = false;
-    btScalar least = 0;
-    btVector3 normal{0, 0, 0};  ///< on the second, towards the first
-    btVector3 on_second{0, 0, 0};
-  };
-
+/// The shapes of `collide` as Bullet's, and their poses.
+struct BulletShapes {
   static bool fits(const Vec3d& v) {
     return std::isfinite(btScalar(v.x)) && std::isfinite(btScalar(v.y)) && std::isfinite(btScalar(v.z));
   }
   static btVector3 vector(const Vec3d& v) { return {btScalar(v.x), btScalar(v.y), btScalar(v.z)}; }
   static Vec3d doubles(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-  static btQuaternion turn(const collide::Box<double>& b) {
-    const auto [x, y, z, w] = unit(b.orientation);
-    return {btScalar(x), btScalar(y), btScalar(z), btScalar(w)};
-  }
   static btTransform at(const Vec3d& p) { return btTransform(btQuaternion::getIdentity(), vector(p)); }
+
   static btSphereShape shape(const collide::Sphere<double>& s) { return btSphereShape(btScalar(s.radius)); }
   static btTransform pose(const collide::Sphere<double>& s) { return at(s.center); }
   static btBoxShape shape(const collide::Box<double>& b) { return btBoxShape(vector(b.half)); }
-  static btTransform pose(const collide::Box<double>& b) { return btTransform(turn(b), vector(b.center)); }
+  static btTransform pose(const collide::Box<double>& b) {
+    const auto [x, y, z, w] = unit(b.orientation);
+    return btTransform({btScalar(x), btScalar(y), btScalar(z), btScalar(w)}, vector(b.center));
+  }
   static btCapsuleShapeZ shape(const collide::Capsule<double>& c) {
     return btCapsuleShapeZ(btScalar(c.radius), btScalar(length(c.p1 - c.p0)));
   }
@@ -168,98 +64,262 @@ struct BulletInDoubles {
     return btStaticPlaneShape(vector(p.normal), btScalar(-p.offset / length(p.normal)));
   }
   static btTransform pose(const collide::Plane<double>&) { return btTransform::getIdentity(); }
-
-  /// A shape with its pose, in the form of Bullet's algorithms.
-  template <class S>
-  struct Body {
-    explicit Body(const S& s) : geometry(shape(s)) {
-      if constexpr (std::same_as<S, collide::Box<double>>) geometry.setMargin(0);
-      object.setCollisionShape(&geometry);
-      object.setWorldTransform(pose(s));
-    }
-    decltype(shape(S{})) geometry;
-    btCollisionObject object;
-    btCollisionObjectWrapper wrapper{nullptr, &geometry, &object, object.getWorldTransform(), -1, -1};
-  };
-
-  static btCollisionDispatcher& dispatcher() {
-    static btDefaultCollisionConfiguration configuration;
-    static btCollisionDispatcher one(&configuration);
-    return one;
+  static btTriangleShape shape(const collide::Triangle<double>& t) {
+    return btTriangleShape(vector(t.v0), vector(t.v1), vector(t.v2));
   }
-  /// The result of the algorithm of Bullet's dispatcher: a signed distance and contact points, or none.
-  struct Result {
-    bool any;
-    btScalar distance;
-    btVector3 normal, on_second;
+  static btTransform pose(const collide::Triangle<double>&) { return btTransform::getIdentity(); }
+};
 
-    btVector3 on_first() const { return on_second + normal * distance; }
-  };
-  template <class A, class B>
-  static Result asked(const A& first, const B& second) {
-    Body<A> a(first);
-    Body<B> b(second);
-    btCollisionAlgorithm* algorithm =
-        dispatcher().findAlgorithm(&a.wrapper, &b.wrapper, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-    Deepest deepest(&a.wrapper, &b.wrapper);
-    algorithm->processCollision(&a.wrapper, &b.wrapper, btDispatcherInfo(), &deepest);
+template <class S>
+concept BulletKnows = requires(const S& s) { BulletShapes::shape(s); };
+
+/// A shape with its pose, in the form of Bullet's algorithms.
+template <class S>
+struct BulletBody {
+  explicit BulletBody(const S& s) : geometry(BulletShapes::shape(s)) {
+    if constexpr (is_box<S> || is_triangle<S>) geometry.setMargin(0);
+    object.setCollisionShape(&geometry);
+    object.setWorldTransform(BulletShapes::pose(s));
+  }
+  BulletBody(const BulletBody&) = delete;
+  BulletBody& operator=(const BulletBody&) = delete;
+  const btTransform& pose() const { return object.getWorldTransform(); }
+
+  decltype(BulletShapes::shape(S{})) geometry;
+  btCollisionObject object;
+  btCollisionObjectWrapper wrapper{nullptr, &geometry, &object, object.getWorldTransform(), -1, -1};
+};
+
+/// The deepest contact in place of Bullet's manifold, which merges and drops contacts.
+struct BulletContact final : btManifoldResult {
+  using btManifoldResult::btManifoldResult;
+  void addContactPoint(const btVector3& on_b, const btVector3& point, btScalar at_distance) override {
+    if (any && at_distance >= distance) return;
+    any = true, distance = at_distance, normal = on_b, on_second = point;
+  }
+  bool yes() const { return any && distance <= 0; }
+  btVector3 on_first() const { return on_second + normal * distance; }
+
+  bool any = false;
+  btScalar distance = 0;
+  btVector3 normal{0, 0, 0};  ///< on the second, towards the first
+  btVector3 on_second{0, 0, 0};
+};
+
+inline btCollisionDispatcher& bullet_dispatcher() {
+  static btDefaultCollisionConfiguration configuration;
+  static btCollisionDispatcher one(&configuration);
+  return one;
+}
+
+/// The algorithm that Bullet's dispatcher has for two shapes.
+template <class A, class B>
+struct BulletAlgorithm {
+  BulletAlgorithm(const A& first, const B& second) : a(first), b(second) {}
+  BulletAlgorithm(const BulletAlgorithm&) = delete;
+  BulletAlgorithm& operator=(const BulletAlgorithm&) = delete;
+  ~BulletAlgorithm() {
     algorithm->~btCollisionAlgorithm();
-    dispatcher().freeCollisionAlgorithm(algorithm);
-    return {deepest.any, deepest.least, deepest.normal, deepest.on_second};
+    bullet_dispatcher().freeCollisionAlgorithm(algorithm);
   }
-  template <class A, class B>
-  static collide::Decision<double> decided(const A& a, const B& b) {
-    const Result result = asked(a, b);
-    return {result.any && result.distance <= 0};
+  BulletContact deepest() const {
+    BulletContact contact(&a.wrapper, &b.wrapper);
+    algorithm->processCollision(&a.wrapper, &b.wrapper, settings, &contact);
+    return contact;
   }
-  /// `turn`: -1 for a normal from the first to the second, 1 for one from the second to the first.
-  /// `contact`: the member of the result that is the contact, for an answer with a contact.
-  template <class Depth, int turn = -1, class A, class B, class Contact = std::nullptr_t>
-  static Partly<Depth> depth(const A& a, const B& b, Contact contact = nullptr) {
-    const Result result = asked(a, b);
-    Depth d;
-    d.depth = result.any ? -result.distance : -1;
-    if (!(d.depth >= 0)) return only(d, {});  // apart: Bullet reports only short distances
-    d.normal = doubles(result.normal) * double(turn);
-    if constexpr (std::same_as<Contact, std::nullptr_t>) {
-      return only(d, {"depth", "normal"});
+
+  BulletBody<A> a;
+  BulletBody<B> b;
+  btCollisionAlgorithm* algorithm =
+      bullet_dispatcher().findAlgorithm(&a.wrapper, &b.wrapper, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+  static inline const btDispatcherInfo settings;
+};
+
+/// Bullet's test of a sphere against a triangle.
+struct BulletSphereTriangle {
+  BulletSphereTriangle(const collide::Sphere<double>& sphere, const collide::Triangle<double>& triangle)
+      : a(sphere), b(triangle), detector(&a.geometry, &b.geometry, 0) {}
+  bool meet() {
+    btVector3 point, normal;
+    btScalar depth = 0, time = 1;
+    return detector.collide(a.pose().getOrigin(), point, normal, depth, time, 0);
+  }
+
+  BulletBody<collide::Sphere<double>> a;
+  BulletBody<collide::Triangle<double>> b;
+  SphereTriangleDetector detector;
+};
+
+/// The share of a cast's way, and the normal.
+struct BulletHit {
+  btScalar fraction;
+  btVector3 normal;
+};
+
+/// A sphere, or a point as a sphere of radius 0, that is cast to `end`.
+template <class B>
+struct BulletMotion {
+  BulletMotion(const collide::Sphere<double>& sphere, const Vec3d& end, const B& fixed)
+      : a(sphere), b(fixed), to(BulletShapes::at(end)) {}
+  std::optional<BulletHit> subsimplex() const {
+    btVoronoiSimplexSolver simplex;
+    return by(btSubsimplexConvexCast(&a.geometry, &b.geometry, &simplex));
+  }
+  std::optional<BulletHit> continuous() const {
+    if constexpr (is_plane<B>) {
+      return by(btContinuousConvexCollision(&a.geometry, &b.geometry));
     } else {
-      d.contact = doubles(std::invoke(contact, result));
-      return only(d, {"depth", "normal", "contact"});
+      btVoronoiSimplexSolver simplex;
+      btGjkEpaPenetrationDepthSolver epa;
+      return by(btContinuousConvexCollision(&a.geometry, &b.geometry, &simplex, &epa));
     }
   }
 
-  template <class Cast>
-  static Reply<Impact> moved(Cast&& by, const Vec3d& from, const Vec3d& velocity, double horizon,
-                             const btTransform& still) {
-    const Vec3d end = from + velocity * horizon;
-    if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
+  BulletBody<collide::Sphere<double>> a;
+  BulletBody<B> b;
+  btTransform to;
+
+ private:
+  std::optional<BulletHit> by(btConvexCast&& cast) const {
     btConvexCast::CastResult result;
     result.m_fraction = 1;
     const btScalar unset = std::numeric_limits<btScalar>::quiet_NaN();  // Bullet leaves some numbers unset
     result.m_normal = btVector3(unset, unset, unset);
-    if (!by.calcTimeOfImpact(at(from), at(end), still, still, result)) return Impact::miss();
-    return only(Impact{result.m_fraction * horizon, {}, doubles(result.m_normal)}, {"time", "normal"});
+    if (!cast.calcTimeOfImpact(a.pose(), to, b.pose(), b.pose(), result)) return std::nullopt;
+    return BulletHit{result.m_fraction, result.m_normal};
   }
-  template <class B>
-  static Reply<Impact> cast(const Vec3d& point, const Vec3d& velocity, const B& fixed) {
-    Body<B> b(fixed);
-    btSphereShape dot_shape(0);
-    dot_shape.setMargin(0);
-    btVoronoiSimplexSolver simplex;
-    return moved(btSubsimplexConvexCast(&dot_shape, &b.geometry, &simplex), point, velocity,
-                 time_of_cast(point, 0, velocity, ball_around(fixed)), pose(fixed));
+};
+
+/// The ray test of a triangle's front.
+struct BulletTriangleRay {
+  BulletTriangleRay(const Vec3d& start, const Vec3d& end, const collide::Triangle<double>& t)
+      : from(BulletShapes::vector(start)),
+        to(BulletShapes::vector(end)),
+        corners{BulletShapes::vector(t.v0), BulletShapes::vector(t.v1), BulletShapes::vector(t.v2)} {}
+  std::optional<BulletHit> cast() {
+    Nearest nearest(from, to, btTriangleRaycastCallback::kF_FilterBackfaces);
+    nearest.processTriangle(corners, 0, 0);
+    return nearest.hit ? std::optional(BulletHit{nearest.m_hitFraction, nearest.normal}) : std::nullopt;
   }
-  template <class B>
-  static Reply<Impact> sweep(const collide::Sphere<double>& sphere, const Vec3d& velocity, const B& fixed) {
+
+  btVector3 from, to, corners[3];
+
+ private:
+  struct Nearest final : btTriangleRaycastCallback {
+    using btTriangleRaycastCallback::btTriangleRaycastCallback;
+    btScalar reportHit(const btVector3& hit_normal, btScalar fraction, int, int) override {
+      normal = hit_normal, hit = true;
+      return fraction;
+    }
+    btVector3 normal{0, 0, 0};
+    bool hit = false;
+  };
+};
+
+/// The ray test of an axis-aligned box by outcodes.
+struct BulletAABoxRay {
+  BulletAABoxRay(const Vec3d& start, const Vec3d& end, const collide::AABox<double>& box)
+      : from(BulletShapes::vector(start)),
+        to(BulletShapes::vector(end)),
+        min(BulletShapes::vector(box.min)),
+        max(BulletShapes::vector(box.max)) {}
+  std::optional<BulletHit> cast() const {
+    btScalar fraction = 1;
+    btVector3 normal(0, 0, 0);
+    if (!btRayAabb(from, to, min, max, fraction, normal)) return std::nullopt;
+    return BulletHit{fraction, normal};
+  }
+
+  btVector3 from, to, min, max;
+};
+
+/// The queries with inputs in double that are exact btScalars.
+struct BulletInDoubles : private BulletShapes {
+  template <AsksOverlap Q>
+    requires BulletKnows<First<Q>> && BulletKnows<Second<Q>>
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    if constexpr (is_triangle<Second<Q>>) {
+      return decided_alone<Q>(BulletSphereTriangle(a, b).meet());
+    } else {
+      return decided_alone<Q>(BulletAlgorithm(a, b).deepest().yes());
+    }
+  }
+
+  template <AsksDepth Q>
+    requires BulletKnows<First<Q>> && BulletKnows<Second<Q>>
+  static Partly<typename Q::Answer> answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    const BulletAlgorithm algorithm(a, b);
+    const BulletContact deepest = algorithm.deepest();
+    typename Q::Answer d;
+    d.depth = deepest.any ? -deepest.distance : -1;
+    if (!(d.depth >= 0)) return only(d, {});  // apart: Bullet reports only short distances
+    d.normal = doubles(deepest.normal) * (is_plane<Second<Q>> ? 1.0 : -1.0);
+    if constexpr (is_sphere<First<Q>> && (is_sphere<Second<Q>> || is_plane<Second<Q>>)) {
+      d.contact = doubles(deepest.on_first());
+      return only(d, {"depth", "normal", "contact"});
+    } else {
+      return only(d, {"depth", "normal"});
+    }
+  }
+
+  template <AsksPointMotion Q>
+    requires((BulletKnows<First<Q>> && !is_plane<First<Q>>) || is_aabox<First<Q>>)
+  static Reply<typename Q::Answer> answer(const Q& q) {
+    using Shape = First<Q>;
+    const Shape& target = std::get<0>(shapes_of(q));
+    if constexpr (is_sphere<Shape>) {
+      if (length(q.point - target.center) <= target.radius)
+        return CannotAnswer{"Bullet's rays do not see a shape that they start in"};
+    }
+    const double horizon = time_of_cast(q.point, 0, q.velocity, ball_around(target));
+    const Vec3d end = q.point + q.velocity * horizon;
+    if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
+    if constexpr (is_triangle<Shape>) {
+      const auto hit = BulletTriangleRay(q.point, end, target).cast();
+      return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
+    } else if constexpr (is_aabox<Shape>) {
+      if (contains(target, q.point)) return CannotAnswer{"btRayAabb is asked from outside"};
+      auto entry = collide::Entry<double>::miss();
+      if (const auto hit = BulletAABoxRay(q.point, end, target).cast()) entry.time = hit->fraction * horizon;
+      return only(entry, {"time"});  // btRayAabb's normal points inward on one side and outward on the other
+    } else {
+      const auto hit = BulletMotion({q.point, 0.0}, end, target).subsimplex();
+      return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
+    }
+  }
+
+  template <AsksBallMotion Q>
+    requires(BulletKnows<Second<Q>> && !is_plane<Second<Q>> && !is_triangle<Second<Q>>)
+  static Reply<collide::Impact<double>> answer(const Q& q) {
+    const auto& [sphere, target] = shapes_of(q);
     // Bullet's sweeps miss a shape in which they start, so the static algorithm is asked first.
-    if (decided(sphere, fixed).yes()) return only(Impact{0.0, {}, {}}, {"time"});
-    Body<B> b(fixed);
-    btSphereShape ball(btScalar(sphere.radius));
-    btVoronoiSimplexSolver simplex;
-    btGjkEpaPenetrationDepthSolver epa;
-    return moved(btContinuousConvexCollision(&ball, &b.geometry, &simplex, &epa), sphere.center, velocity,
-                 time_of_cast(sphere.center, sphere.radius, velocity, ball_around(fixed)), pose(fixed));
+    if (BulletAlgorithm(sphere, target).deepest().yes()) return only(Impact{0.0, {}, {}}, {"time"});
+    const double horizon = time_of_cast(sphere.center, sphere.radius, q.velocity, ball_around(target));
+    const Vec3d end = sphere.center + q.velocity * horizon;
+    if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
+    const auto hit = BulletMotion(sphere, end, target).continuous();
+    return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
+  }
+
+ private:
+  using Impact = collide::Impact<double>;
+  static constexpr const char* no_cast = "a cast has two ends, apart and finite";
+
+  /// Like time_to_pass, but positive also for a body that moves away; 0 without motion.
+  static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity,
+                             const collide::Sphere<double>& to) {
+    const double passing = time_to_pass(from, radius, velocity, to), speed = length(velocity);
+    if (passing > 0 || !(speed > 0)) return passing;
+    return power_of_two_above((to.radius > 0 ? to.radius : 1.0) / speed);
+  }
+  static Partly<Impact> first_contact(const BulletHit& hit, double horizon) {
+    return only(Impact{hit.fraction * horizon, {}, doubles(hit.normal)}, {"time", "normal"});
+  }
+  static bool contains(const collide::AABox<double>& b, const Vec3d& p) {
+    const auto within = [](double low, double x, double high) { return low <= x && x <= high; };
+    return within(b.min.x, p.x, b.max.x) && within(b.min.y, p.y, b.max.y) && within(b.min.z, p.z, b.max.z);
   }
 };
 
@@ -293,15 +353,15 @@ struct Bullet {
       return "the place, of which btTriangleRaycastCallback tells the fraction alone";
     } else if constexpr (requires(const Q& q) { q.velocity; }) {
       return "the place: no header says whether m_hitPoint is that of the first contact or of the cast's last step";
-    } else if constexpr (std::same_as<Q, in::box_plane_penetration<Number>>) {
+    } else if constexpr (AsksDepth<Q> && is_plane<Second<Q>> && !is_sphere<First<Q>>) {
       return "the corners: it tells the deepest alone";
-    } else if constexpr (std::same_as<Q, in::sphere_box_penetration<Number>>) {
+    } else if constexpr (AsksDepth<Q> && is_sphere<First<Q>> && is_box<Second<Q>>) {
       return "the contact: its manifolds have a place on each body, and which one is meant depends on where the center "
              "is";
-    } else if constexpr (std::same_as<Q, in::box_box_penetration<Number>>) {
+    } else if constexpr (AsksDepth<Q> && TellsAxis<Q>) {
       return "the axis, which it keeps to itself, and the contact: its manifolds have a place on each body, none "
              "between them";
-    } else if constexpr (std::same_as<Q, in::box_box_overlap<Number>>) {
+    } else if constexpr (AsksOverlap<Q> && TellsAxis<Q>) {
       return "the axis, which it keeps to itself";
     }
     return "";

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "impl/adapters/motion.hpp"
+#include "impl/adapters/operations.hpp"
 #include "impl/subject/adapter.hpp"
 #include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
@@ -19,79 +20,8 @@ namespace nearmiss::adapters {
 
 namespace in = inputs;
 
-enum class CcdAlgorithm { gjk, mpr };
-
-template <CcdAlgorithm algorithm>
-struct Ccd {
-  using Number = double;
-  static std::string version() { return "libccd 2.1"; }
-
-  /// The defaults of epa_tolerance and mpr_tolerance in ccd.h, 1e-4, in units of 2^-53, rounded up to a power of two.
-  /// These tolerances are lengths, so the domain starts at lengths of 1.
-  template <class Q>
-  static collide::Contract contract() {
-    return {.backward = 0x1p40, .lowest = 0, .highest = 300};
-  }
-  template <class Q>
-  static std::string equivalence() {
-    return requires(const Q& q) { q.limit; } ? "the sphere's way as one convex shape" : "";
-  }
-  template <class Q>
-  static std::string left_out() {
-    if constexpr (std::same_as<Q, in::box_box_overlap<double>>) return "the axis, which libccd does not look for";
-    if constexpr (std::same_as<Q, in::box_box_penetration<double>>)
-      return std::string("the axis and the contact: ") + positions;
-    if constexpr (std::same_as<Q, in::sphere_sphere_penetration<double>> ||
-                  std::same_as<Q, in::sphere_box_penetration<double>>) {
-      return std::string("the contact: ") + positions;
-    }
-    return "";
-  }
-  template <class Q>
-  static std::string why_not() {
-    if constexpr (requires(const Q& q) { q.plane; }) {
-      return "libccd's shapes are bounded, and a plane is not";
-    } else if constexpr (
-        requires(const Q& q) { q.velocity; } || requires(const Q& q) { q.ray; }) {
-      return "libccd knows no motions";
-    } else if constexpr (requires(const Q& q) { q.box1; }) {
-      return "libccd knows no boxes, only support functions";
-    }
-    return "libccd answers whether and how deep two convex shapes overlap";
-  }
-
-  static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
-  static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
-  static auto answer(const in::box_box_overlap<double>& q) {
-    return only(collide::BoxOverlap<double>{meet(q.box1, q.box2), -1}, {});
-  }
-  static auto answer(const in::sphere_triangle_overlap<double>& q) { return decided(q.sphere, q.triangle); }
-  static auto answer(const in::aabox_triangle_overlap<double>& q) { return decided(q.box, q.triangle); }
-
-  static auto answer(const in::box_box_penetration<double>& q) {
-    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
-  }
-  static auto answer(const in::sphere_sphere_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
-  }
-  static auto answer(const in::sphere_box_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere, q.box);
-  }
-
-  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q, q.box); }
-  static auto answer(const in::moving_sphere_passes_sphere<double>& q) { return passes(q, q.fixed); }
-
- private:
-  static constexpr const char* positions =
-      "ccd.h calls a position the place where a force should act, and not which point of the two bodies it is";
-
-  /// The limit of iterations for GJK, whose default is unlimited, and for EPA, which has none: against a ball EPA adds
-  /// points as long as each comes closer by the tolerance.
-  static constexpr int most_iterations = 1000;
-  /// Each iteration of either computes a support point of both bodies.
-  static constexpr int most_points = 2 * (most_iterations + most_iterations);
-  static inline int points = 0;  ///< support points computed in the current call
-
+/// The shapes of `collide` by their centers and support points.
+struct CcdShapes {
   /// The convex hull of at most three points, or a box, rounded by a radius.
   struct Convex {
     int corners = 0;
@@ -141,6 +71,79 @@ struct Ccd {
     }
   };
   static Corners convex(const collide::AABox<double>& b) { return {b.min, b.max}; }
+};
+
+template <class S>
+concept CcdKnows = requires(const S& s) { CcdShapes::convex(s); };
+
+enum class CcdAlgorithm { gjk, mpr };
+
+template <CcdAlgorithm algorithm>
+struct Ccd : private CcdShapes {
+  using Number = double;
+  static std::string version() { return "libccd 2.1"; }
+
+  /// The defaults of epa_tolerance and mpr_tolerance in ccd.h, 1e-4, in units of 2^-53, rounded up to a power of two.
+  /// These tolerances are lengths, so the domain starts at lengths of 1.
+  template <class Q>
+  static collide::Contract contract() {
+    return {.backward = 0x1p40, .lowest = 0, .highest = 300};
+  }
+  template <class Q>
+  static std::string equivalence() {
+    return requires(const Q& q) { q.limit; } ? "the sphere's way as one convex shape" : "";
+  }
+  template <class Q>
+  static std::string left_out() {
+    if constexpr (AsksOverlap<Q> && TellsAxis<Q>) return "the axis, which libccd does not look for";
+    if constexpr (AsksDepth<Q>)
+      return (TellsAxis<Q> ? "the axis and the contact: " : "the contact: ") + std::string(positions);
+    return "";
+  }
+  template <class Q>
+  static std::string why_not() {
+    if constexpr (requires(const Q& q) { q.plane; }) {
+      return "libccd's shapes are bounded, and a plane is not";
+    } else if constexpr (
+        requires(const Q& q) { q.velocity; } || requires(const Q& q) { q.ray; }) {
+      return "libccd knows no motions";
+    } else if constexpr (requires(const Q& q) { q.box1; }) {
+      return "libccd knows no boxes, only support functions";
+    }
+    return "libccd answers whether and how deep two convex shapes overlap";
+  }
+
+  template <AsksOverlap Q>
+    requires CcdKnows<First<Q>> && CcdKnows<Second<Q>>
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    return decided_alone<Q>(meet(a, b));
+  }
+  template <AsksDepth Q>
+    requires CcdKnows<First<Q>> && CcdKnows<Second<Q>>
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    return depth<typename Q::Answer>(a, b);
+  }
+  template <AsksBallPath Q>
+    requires CcdKnows<Second<Q>>
+  static Reply<collide::Decision<double>> answer(const Q& q) {
+    const auto& target = std::get<1>(shapes_of(q));
+    const auto way = way_of(q, ball_around(target));
+    if (!way) return CannotAnswer{no_end};
+    return collide::Decision<double>{meet(*way, target)};
+  }
+
+ private:
+  static constexpr const char* positions =
+      "ccd.h calls a position the place where a force should act, and not which point of the two bodies it is";
+
+  /// The limit of iterations for GJK, whose default is unlimited, and for EPA, which has none: against a ball EPA adds
+  /// points as long as each comes closer by the tolerance.
+  static constexpr int most_iterations = 1000;
+  /// Each iteration of either computes a support point of both bodies.
+  static constexpr int most_points = 2 * (most_iterations + most_iterations);
+  static inline int points = 0;  ///< support points computed in the current call
 
   template <class S>
   static void support(const void* shape, const ccd_vec3_t* direction, ccd_vec3_t* point) {
@@ -175,10 +178,6 @@ struct Ccd {
     const ccd_t ccd = settings<std::remove_cv_t<decltype(a)>, std::remove_cv_t<decltype(b)>>();
     return (algorithm == CcdAlgorithm::gjk ? ccdGJKIntersect(&a, &b, &ccd) : ccdMPRIntersect(&a, &b, &ccd)) != 0;
   }
-  template <class A, class B>
-  static collide::Decision<double> decided(const A& a, const B& b) {
-    return {meet(a, b)};
-  }
   template <class Depth, class A, class B>
   static Reply<Depth> depth(const A& first, const B& second) {
     const auto a = convex(first);
@@ -195,12 +194,6 @@ struct Ccd {
     d.depth = deep;
     d.normal = {direction.v[0], direction.v[1], direction.v[2]};
     return only(d, {"depth", "normal"});
-  }
-  template <class Q, class B>
-  static Reply<collide::Decision<double>> passes(const Q& q, const B& b) {
-    const auto way = way_of(q, ball_around(b));
-    if (!way) return CannotAnswer{no_end};
-    return decided(*way, b);
   }
 };
 

@@ -36,6 +36,16 @@ struct CollideArguments {
     return std::apply([&](const auto&... member) { return std::tuple(q.*(member.pointer)...); }, Q::members());
   }
 };
+/// Defines CollideArguments for a query: expressions of its inputs `q`.
+#define NEARMISS_COLLIDE_ARGUMENTS(query, ...)           \
+  template <class T>                                     \
+  struct CollideArguments<inputs::query<T>> {            \
+    template <class Tier>                                \
+    static auto of(const inputs::query<T>& q) noexcept { \
+      return std::tuple(__VA_ARGS__);                    \
+    }                                                    \
+  };
+
 template <class Tier, class Q>
 auto arguments(const Q& q) noexcept {
   return CollideArguments<Q>::template of<Tier>(q);

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "impl/adapters/motion.hpp"
+#include "impl/adapters/operations.hpp"
 #include "impl/subject/adapter.hpp"
 #include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
@@ -50,6 +51,50 @@ struct FclShapes {
   static fcl::Transform3d pose(const collide::Plane<double>&) { return fcl::Transform3d::Identity(); }
 };
 
+/// A shape with its pose.
+template <class S>
+struct FclBody {
+  explicit FclBody(const S& s) : geometry(FclShapes::shape(s)), pose(FclShapes::pose(s)) {}
+  decltype(FclShapes::shape(S{})) geometry;
+  fcl::Transform3d pose;
+};
+
+/// Two bodies, ready for the calls of FCL's interface.
+template <class A, class B>
+struct FclPair {
+  FclPair(const A& first, const B& second) : a(first), b(second) {}
+
+  bool meet(const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) const {
+    return fcl::collide(&a.geometry, a.pose, &b.geometry, b.pose, request, result) > 0;
+  }
+  fcl::ContinuousCollisionResultd move(const fcl::Transform3d& end,
+                                       const fcl::ContinuousCollisionRequestd& request) const {
+    fcl::ContinuousCollisionResultd result;
+    fcl::continuousCollide(&a.geometry, a.pose, end, &b.geometry, b.pose, b.pose, request, result);
+    return result;
+  }
+  double distance(const fcl::DistanceRequestd& request) const {
+    fcl::DistanceResultd result;
+    fcl::distance(&a.geometry, a.pose, &b.geometry, b.pose, request, result);
+    return result.min_distance;  // the return value is -1 for every overlap with GST_INDEP
+  }
+
+  FclBody<A> a;
+  FclBody<B> b;
+};
+
+/// FCL's test of a body against a triangle that is part of no mesh.
+template <class Solver, class S>
+bool meets_triangle(const Solver& solver, const FclBody<S>& body, const fcl::Vector3d (&corners)[3]) {
+  return solver.shapeTriangleIntersect(body.geometry, body.pose, corners[0], corners[1], corners[2], nullptr, nullptr,
+                                       nullptr);
+}
+
+template <class S>
+concept FclKnows = requires(const S& s) { FclShapes::shape(s); };
+template <class Q>
+concept FclKnowsBoth = FclKnows<First<Q>> && FclKnows<Second<Q>>;
+
 /// FCL with one solver for static queries and one solver for motions.
 template <fcl::GJKSolverType static_solver, fcl::CCDSolverType motion_solver>
 struct Fcl : FclShapes {
@@ -62,40 +107,30 @@ struct Fcl : FclShapes {
   static constexpr double time_of_contact_error = 0x1p40;
 
   template <class Q>
-  static constexpr bool is_motion =
-      requires(const Q& q) { q.sphere, q.velocity; } && !requires(const Q& q) { q.limit; };
-
-  template <class Q>
   static collide::Contract contract() {
-    return {.backward = is_motion<Q> ? time_of_contact_error : gjk_tolerance, .lowest = -300, .highest = 300};
+    return {.backward = AsksBallMotion<Q> ? time_of_contact_error : gjk_tolerance, .lowest = -300, .highest = 300};
   }
   template <class Q>
   static std::string equivalence() {
-    if constexpr (std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
-                  std::is_same_v<Q, in::box_plane_penetration<double>>) {
+    if constexpr (AsksDepth<Q> && is_plane<Second<Q>>) {
       return "collide with the half-space behind the plane";
-    } else if constexpr (std::is_same_v<Q, in::moving_sphere_plane<double>>) {
-      return "continuousCollide with the half-space behind the plane, asked where the plane's front is met";
-    } else if constexpr (std::is_same_v<Q, in::moving_sphere_passes_box<double>> ||
-                         std::is_same_v<Q, in::moving_sphere_passes_sphere<double>>) {
+    } else if constexpr (AsksBallPath<Q>) {
       return "collide of the sphere's way, a capsule";
-    } else if constexpr (is_motion<Q>) {
+    } else if constexpr (AsksBallMotion<Q> && is_plane<Second<Q>>) {
+      return "continuousCollide with the half-space behind the plane, asked where the plane's front is met";
+    } else if constexpr (AsksBallMotion<Q>) {
       return "continuousCollide over [0, T], T the power of two that carries the sphere past";
     }
     return "";
   }
   template <class Q>
   static std::string left_out() {
-    if constexpr (std::is_same_v<Q, in::box_box_overlap<double>>) {
+    if constexpr (AsksOverlap<Q> && TellsAxis<Q>) {
       return "the axis, which FCL does not tell";
-    } else if constexpr (std::is_same_v<Q, in::box_box_penetration<double>>) {
-      return "the axis, which it does not tell, and the contact: contact.h does not say which point pos is";
-    } else if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
-                         std::is_same_v<Q, in::sphere_box_penetration<double>> ||
-                         std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
-                         std::is_same_v<Q, in::box_plane_penetration<double>>) {
-      return "the contact: contact.h does not say which point pos is";
-    } else if constexpr (is_motion<Q>) {
+    } else if constexpr (AsksDepth<Q>) {
+      const std::string contact = "the contact: contact.h does not say which point pos is";
+      return TellsAxis<Q> ? "the axis, which it does not tell, and " + contact : contact;
+    } else if constexpr (AsksBallMotion<Q>) {
       return "the place and the normal, which continuousCollide does not tell";
     }
     return "";
@@ -116,48 +151,50 @@ struct Fcl : FclShapes {
     return "FCL has no points, segments, lines or rectangles";
   }
 
-  static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
-  static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
-  static auto answer(const in::box_box_overlap<double>& q) {  // FCL does not return the separating axis
-    return only(collide::BoxOverlap<double>{meet(q.box1, q.box2, nullptr), -1}, {});
+  template <AsksOverlap Q>
+    requires FclKnowsBoth<Q>
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    return decided_alone<Q>(meet(a, b, nullptr));
   }
-  static auto answer(const in::sphere_triangle_overlap<double>& q) {
-    return collide::Decision<double>{meets_triangle(shape(q.sphere), pose(q.sphere), q.triangle)};
+  template <AsksOverlap Q>
+    requires FclKnows<First<Q>> && is_triangle<Second<Q>>
+  static auto answer(const Q& q) {
+    const auto& [body, triangle] = shapes_of(q);
+    return decided_alone<Q>(meets(body, triangle));
   }
   static auto answer(const in::aabox_triangle_overlap<double>& q) -> Reply<collide::Decision<double>> {
     const auto box = centered(q.box);
     if (!box) return CannotAnswer{"the box's center and sides are not doubles exactly"};
-    return collide::Decision<double>{meets_triangle(shape(*box), pose(*box), q.triangle)};
+    return collide::Decision<double>{meets(*box, q.triangle)};
   }
 
-  static auto answer(const in::sphere_sphere_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
-  }
-  static auto answer(const in::sphere_box_penetration<double>& q) {
-    return depth<collide::Penetration<double>>(q.sphere, q.box);
-  }
-  static auto answer(const in::box_box_penetration<double>& q) {
-    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
-  }
-  static auto answer(const in::sphere_plane_penetration<double>& q) {  // FCL's normal points into the half-space
-    return depth<collide::Penetration<double>, -1>(q.sphere, q.plane);
-  }
-  static auto answer(const in::box_plane_penetration<double>& q) {
-    return depth<collide::CornerContacts<double>, -1>(q.box, q.plane);
+  template <AsksDepth Q>
+    requires FclKnowsBoth<Q>
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    constexpr int turn = is_plane<Second<Q>> ? -1 : 1;  // FCL's normal points into the half-space
+    return depth<typename Q::Answer, turn>(a, b);
   }
 
-  static auto answer(const in::moving_sphere_sphere<double>& q) { return moved(q.sphere, q.velocity, q.fixed); }
-  static auto answer(const in::moving_sphere_box<double>& q) { return moved(q.sphere, q.velocity, q.box); }
-  static auto answer(const in::moving_sphere_capsule<double>& q) { return moved(q.sphere, q.velocity, q.capsule); }
-  static auto answer(const in::moving_sphere_plane<double>& q) -> Reply<collide::Impact<double>> {
-    if (!(dot(q.plane.normal, q.velocity) < 0) || !(dot(q.plane.normal, q.sphere.center) + q.plane.offset > 0)) {
-      return CannotAnswer{"a half-space is no plane for a sphere behind it, or that does not approach it"};
+  template <AsksBallMotion Q>
+    requires FclKnows<Second<Q>>
+  static Reply<collide::Impact<double>> answer(const Q& q) {
+    const auto& [sphere, target] = shapes_of(q);
+    if constexpr (is_plane<Second<Q>>) {
+      if (!(dot(target.normal, q.velocity) < 0) || !(dot(target.normal, sphere.center) + target.offset > 0))
+        return CannotAnswer{"a half-space is no plane for a sphere behind it, or that does not approach it"};
     }
-    return moved(q.sphere, q.velocity, q.plane);
+    return moved(sphere, q.velocity, target);
   }
 
-  static auto answer(const in::moving_sphere_passes_box<double>& q) { return passes(q, q.box); }
-  static auto answer(const in::moving_sphere_passes_sphere<double>& q) { return passes(q, q.fixed); }
+  template <AsksBallPath Q>
+    requires FclKnows<Second<Q>>
+  static Reply<collide::Decision<double>> answer(const Q& q) {
+    const auto way = way_of(q, ball_around(std::get<1>(shapes_of(q))));
+    if (!way) return CannotAnswer{no_end};
+    return collide::Decision<double>{meet(*way, std::get<1>(shapes_of(q)), nullptr)};
+  }
 
  private:
   using Solver = std::conditional_t<static_solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
@@ -169,18 +206,11 @@ struct Fcl : FclShapes {
     fcl::CollisionRequestd request(result != nullptr ? 16 : 1, result != nullptr);
     request.gjk_solver_type = static_solver;
     fcl::CollisionResultd decision_only;
-    const auto shape_a = shape(a);
-    const auto shape_b = shape(b);
-    return fcl::collide(&shape_a, pose(a), &shape_b, pose(b), request, result != nullptr ? *result : decision_only) > 0;
-  }
-  template <class A, class B>
-  static collide::Decision<double> decided(const A& a, const B& b) {
-    return {meet(a, b, nullptr)};
+    return FclPair(a, b).meet(request, result != nullptr ? *result : decision_only);
   }
   template <class S>
-  static bool meets_triangle(const S& s, const fcl::Transform3d& where, const collide::Triangle<double>& t) {
-    return Solver().shapeTriangleIntersect(s, where, vector(t.v0), vector(t.v1), vector(t.v2), nullptr, nullptr,
-                                           nullptr);
+  static bool meets(const S& s, const collide::Triangle<double>& t) {
+    return meets_triangle(Solver(), FclBody(s), {vector(t.v0), vector(t.v1), vector(t.v2)});
   }
 
   /// The depth and normal of the deepest contact. FCL's contact position is a different point than the query asks for.
@@ -203,31 +233,15 @@ struct Fcl : FclShapes {
   static Reply<collide::Impact<double>> moved(const collide::Sphere<double>& sphere, const Vec3d& velocity,
                                               const B& b) {
     using Impact = collide::Impact<double>;
-    double horizon = 0;
-    if constexpr (std::is_same_v<B, collide::Plane<double>>) {
-      horizon = time_to_pass(sphere.center, sphere.radius, velocity, b);
-    } else {
-      horizon = time_to_pass(sphere.center, sphere.radius, velocity, ball_around(b));
-    }
+    const double horizon = time_to_pass(sphere.center, sphere.radius, velocity, bound_of(b));
     if (horizon == 0) return only(meet(sphere, b, nullptr) ? Impact{0.0, {}, {}} : Impact::miss(), {"time"});
     const Vec3d end = sphere.center + velocity * horizon;
     if (!finite(end)) return CannotAnswer{no_end};
     fcl::ContinuousCollisionRequestd request;
     request.gjk_solver_type = static_solver;
     request.ccd_solver_type = motion_solver;
-    fcl::ContinuousCollisionResultd result;
-    const fcl::Sphered shape_a = shape(sphere);
-    const auto shape_b = shape(b);
-    const fcl::Transform3d still = pose(b);
-    fcl::continuousCollide(&shape_a, at(sphere.center), at(end), &shape_b, still, still, request, result);
+    const fcl::ContinuousCollisionResultd result = FclPair(sphere, b).move(at(end), request);
     return only(result.is_collide ? Impact{result.time_of_contact * horizon, {}, {}} : Impact::miss(), {"time"});
-  }
-
-  template <class Q, class B>
-  static Reply<collide::Decision<double>> passes(const Q& q, const B& b) {
-    const auto way = way_of(q, ball_around(b));
-    if (!way) return CannotAnswer{no_end};
-    return decided(*way, b);
   }
 };
 
@@ -259,40 +273,22 @@ struct FclDistance : FclShapes {
         requires(const Q& q) { q.plane; } && !requires(const Q& q) { q.velocity; }) {
       return "FCL 0.7 has no distance to a plane or half-space, and crashes when it is asked for one (its issue 623)";
     }
-    if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
-                  std::is_same_v<Q, in::sphere_box_penetration<double>>) {
+    if constexpr (AsksDepth<Q>) {
       return "GST_LIBCCD builds the ball from triangles, which may take minutes";
     }
     return "it is no distance; see the subject fcl";
   }
 
-  static auto answer(const in::sphere_sphere_penetration<double>& q)
-    requires(solver == fcl::GST_INDEP)
-  {
-    return depth<collide::Penetration<double>>(q.sphere1, q.sphere2);
-  }
-  static auto answer(const in::sphere_box_penetration<double>& q)
-    requires(solver == fcl::GST_INDEP)
-  {
-    return depth<collide::Penetration<double>>(q.sphere, q.box);
-  }
-  static auto answer(const in::box_box_penetration<double>& q) {
-    return depth<collide::BoxPenetration<double>>(q.box1, q.box2);
-  }
-
- private:
-  template <class Depth, class A, class B>
-  static Partly<Depth> depth(const A& a, const B& b) {
+  template <AsksDepth Q>
+    requires(FclKnowsBoth<Q> && !is_plane<Second<Q>> && (solver == fcl::GST_INDEP || !is_sphere<First<Q>>))
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
     fcl::DistanceRequestd request(false, true);
     request.gjk_solver_type = solver;
-    fcl::DistanceResultd result;
-    const auto shape_a = shape(a);
-    const auto shape_b = shape(b);
-    fcl::distance(&shape_a, pose(a), &shape_b, pose(b), request, result);
-    Depth d;
-    d.depth = -result.min_distance;  // the return value is -1 for every overlap with GST_INDEP
+    typename Q::Answer d;
+    d.depth = -FclPair(a, b).distance(request);
     // For separated boxes the query asks for the gap along an axis, which is not their distance.
-    if (std::is_same_v<Depth, collide::BoxPenetration<double>> && d.depth < 0) return only(d, {});
+    if (TellsAxis<Q> && d.depth < 0) return only(d, {});
     return only(d, {"depth"});
   }
 };

@@ -28,6 +28,16 @@ inline collide::Sphere<double> ball_around(const collide::Triangle<double>& t) {
   return {t.v0, std::max(length(t.v1 - t.v0), length(t.v2 - t.v0))};
 }
 
+/// What a motion past the shape is measured by: a ball around it, or the plane itself.
+template <class S>
+auto bound_of(const S& shape) {
+  if constexpr (requires { ball_around(shape); }) {
+    return ball_around(shape);
+  } else {
+    return shape;
+  }
+}
+
 /// The normalized quaternion, rounded, for any length except zero.
 inline collide::Quaternion<double> unit(const collide::Quaternion<double>& q) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});

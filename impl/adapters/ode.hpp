@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "impl/adapters/motion.hpp"
+#include "impl/adapters/operations.hpp"
 #include "impl/subject/adapter.hpp"
 #include "nearmiss/catalogue_inputs.hpp"  // written by CMake from impl/catalogue/catalogue.def
 
@@ -17,123 +18,8 @@ namespace nearmiss::adapters {
 
 namespace in = inputs;
 
-/// No contract: ODE's manual states no figure for its colliders.
-struct Ode {
-  using Number = double;
-  static_assert(std::is_same_v<dReal, double>);
-  static std::string version() { return "ODE 0.16"; }
-
-  template <class Q>
-  static std::string equivalence() {
-    return requires(const Q& q) {
-      q.point, q.velocity;
-    } ? "a ray that is long enough; time is its length over the speed" : "";
-  }
-  template <class Q>
-  static std::string left_out() {
-    if constexpr (std::is_same_v<Q, in::box_box_overlap<double>>) {
-      return "the axis, which ODE keeps to itself";
-    } else if constexpr (std::is_same_v<Q, in::box_box_penetration<double>>) {
-      return "the axis, which it keeps to itself, and the contact: ODE's manual does not say which point its position "
-             "is";
-    } else if constexpr (std::is_same_v<Q, in::sphere_sphere_penetration<double>> ||
-                         std::is_same_v<Q, in::sphere_box_penetration<double>> ||
-                         std::is_same_v<Q, in::sphere_plane_penetration<double>> ||
-                         std::is_same_v<Q, in::box_plane_penetration<double>>) {
-      return "the contact: ODE's manual does not say which point its position is";
-    }
-    return "";
-  }
-  template <class Q>
-  static std::string why_not() {
-    if constexpr (
-        requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
-      return "ODE has triangles only as parts of meshes";
-    } else if constexpr (requires(const Q& q) { q.sphere, q.velocity; }) {
-      return "ODE knows no motions";
-    } else if constexpr (requires(const Q& q) { q.box1; }) {
-      return "ODE keeps the parts of its test of two boxes to itself";
-    } else if constexpr (requires(const Q& q) { q.ray; }) {
-      return "ODE's rays have an end, and a box turns their start inside into an exit";
-    }
-    return "ODE answers how geometries overlap";
-  }
-
-  static auto answer(const in::sphere_sphere_overlap<double>& q) { return decided(q.sphere1, q.sphere2); }
-  static auto answer(const in::sphere_box_overlap<double>& q) { return decided(q.sphere, q.box); }
-  static auto answer(const in::box_box_overlap<double>& q) {
-    return only(collide::BoxOverlap<double>{deepest(q.box1, q.box2).has_value(), -1}, {});
-  }
-
-  static auto answer(const in::sphere_sphere_penetration<double>& q) {
-    return depth<collide::Penetration<double>, -1>(q.sphere1, q.sphere2);
-  }
-  static auto answer(const in::sphere_box_penetration<double>& q) {
-    return depth<collide::Penetration<double>, -1>(q.sphere, q.box);
-  }
-  static auto answer(const in::box_box_penetration<double>& q) {
-    return depth<collide::BoxPenetration<double>, -1>(q.box1, q.box2);
-  }
-  static auto answer(
-      const in::sphere_plane_penetration<double>& q) {  // the normal points into the first operand, like the plane's
-    return depth<collide::Penetration<double>, 1>(q.sphere, q.plane);
-  }
-  static auto answer(const in::box_plane_penetration<double>& q) {
-    return depth<collide::CornerContacts<double>, 1>(q.box, q.plane);
-  }
-
-  static auto answer(const in::moving_point_sphere<double>& q) -> Reply<collide::Impact<double>> {
-    const Geometry sphere = geometry(q.sphere);
-    if (q.solid && dGeomSpherePointDepth(sphere.get(), q.point.x, q.point.y, q.point.z) >= 0) {
-      return only(collide::Impact<double>{0.0, {}, {}}, {"time"});  // ODE's ray would return the exit
-    }
-    // From inside, ODE's ray returns the exit, with a normal that points inward.
-    const bool inside = dGeomSpherePointDepth(sphere.get(), q.point.x, q.point.y, q.point.z) >= 0;
-    return cast(q.point, q.velocity, sphere, time_to_pass(q.point, 0, q.velocity, q.sphere), !inside);
-  }
-  static auto answer(const in::moving_point_box<double>& q) -> Reply<collide::Impact<double>> {
-    const Geometry box = geometry(q.box);
-    const double depth = dGeomBoxPointDepth(box.get(), q.point.x, q.point.y, q.point.z);
-    if (std::abs(depth) <= rounding_of_depth(q.point, q.box)) return CannotAnswer{on_surface};
-    if (depth > 0) return collide::Impact<double>::miss();
-    return cast(q.point, q.velocity, box, time_to_pass(q.point, 0, q.velocity, ball_around(q.box)));
-  }
-  static auto answer(const in::moving_point_capsule<double>& q) -> Reply<collide::Impact<double>> {
-    const Geometry capsule = geometry(q.capsule);
-    const double depth = dGeomCapsulePointDepth(capsule.get(), q.point.x, q.point.y, q.point.z);
-    if (std::abs(depth) <= rounding_of_depth(q.point, q.capsule)) return CannotAnswer{on_surface};
-    if (depth > 0) return collide::Impact<double>::miss();
-    return cast(q.point, q.velocity, capsule, time_to_pass(q.point, 0, q.velocity, ball_around(q.capsule)));
-  }
-  static auto answer(const in::moving_point_plane<double>& q) -> Reply<collide::Impact<double>> {
-    if (!(dot(q.plane.normal, q.velocity) < 0)) return collide::Impact<double>::miss();  // ODE's planes have two sides
-    const Geometry plane = geometry(q.plane);
-    if (dGeomPlanePointDepth(plane.get(), q.point.x, q.point.y, q.point.z) > 0) return collide::Impact<double>::miss();
-    // Twice as long: a point may pass the plane exactly at the end of the ray, which rounding then puts before it.
-    return cast(q.point, q.velocity, plane, 2 * time_to_pass(q.point, 0, q.velocity, q.plane));
-  }
-
- private:
-  static double largest_of(double so_far, const Vec3d& v) {
-    return std::max({so_far, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  }
-  /// At most so far is dGeomBoxPointDepth() from the exact depth. In each direction, 3 terms up to twice the largest
-  /// number are added to a half extent, each with at most 24 roundings: of the unit quaternion, the entry of its
-  /// matrix, the difference to the center, the product and the sum.
-  static double rounding_of_depth(const Vec3d& p, const collide::Box<double>& b) {
-    constexpr double roundings = 2 * 4 * 24 * 0x1p-53;
-    return roundings * largest_of(largest_of(largest_of(0, b.half), b.center), p);
-  }
-  /// At most so far is dGeomCapsulePointDepth() from the exact depth. The center, the axis and the length of the
-  /// capsule are rounded too. In each direction, at most 16 terms up to twice the largest number are added, each with
-  /// at most 8 roundings: of the center, the length, the axis (by a rotation), the place along it, and the distance.
-  static double rounding_of_depth(const Vec3d& p, const collide::Capsule<double>& c) {
-    constexpr double roundings = 2 * 16 * 8 * 0x1p-53;
-    return roundings * largest_of(largest_of(largest_of(c.radius, c.p0), c.p1), p);
-  }
-  static constexpr const char* on_surface =
-      "ODE's rays do not tell entering from leaving where they start on a surface";
-
+/// The shapes of `collide` as ODE's geometries.
+struct OdeShapes {
   struct Destroy {
     void operator()(dGeomID g) const { dGeomDestroy(g); }
   };
@@ -177,6 +63,111 @@ struct Ode {
     start();
     return made(dCreatePlane(nullptr, p.normal.x, p.normal.y, p.normal.z, -p.offset));
   }
+};
+
+template <class S>
+concept OdeKnows = requires(const S& s) { OdeShapes::geometry(s); };
+
+/// No contract: ODE's manual states no figure for its colliders.
+struct Ode : private OdeShapes {
+  using Number = double;
+  using Impact = collide::Impact<double>;
+  static_assert(std::is_same_v<dReal, double>);
+  static std::string version() { return "ODE 0.16"; }
+
+  template <class Q>
+  static std::string equivalence() {
+    return requires(const Q& q) {
+      q.point, q.velocity;
+    } ? "a ray that is long enough; time is its length over the speed" : "";
+  }
+  template <class Q>
+  static std::string left_out() {
+    const std::string contact = "the contact: ODE's manual does not say which point its position is";
+    if constexpr (AsksOverlap<Q> && TellsAxis<Q>) {
+      return "the axis, which ODE keeps to itself";
+    } else if constexpr (AsksDepth<Q>) {
+      return TellsAxis<Q> ? "the axis, which it keeps to itself, and " + contact : contact;
+    }
+    return "";
+  }
+  template <class Q>
+  static std::string why_not() {
+    if constexpr (
+        requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
+      return "ODE has triangles only as parts of meshes";
+    } else if constexpr (requires(const Q& q) { q.sphere, q.velocity; }) {
+      return "ODE knows no motions";
+    } else if constexpr (requires(const Q& q) { q.box1; }) {
+      return "ODE keeps the parts of its test of two boxes to itself";
+    } else if constexpr (requires(const Q& q) { q.ray; }) {
+      return "ODE's rays have an end, and a box turns their start inside into an exit";
+    }
+    return "ODE answers how geometries overlap";
+  }
+
+  template <AsksOverlap Q>
+    requires OdeKnows<First<Q>> && OdeKnows<Second<Q>>
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    return decided_alone<Q>(deepest(a, b).has_value());
+  }
+  /// ODE's normals point into the first geometry. Its contact positions are different points than the query asks for.
+  template <AsksDepth Q>
+    requires OdeKnows<First<Q>> && OdeKnows<Second<Q>>
+  static Partly<typename Q::Answer> answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    typename Q::Answer d;
+    d.depth = -1;
+    const auto contact = deepest(a, b);
+    if (!contact) return only(d, {});  // ODE returns no distance
+    constexpr int turn = is_plane<Second<Q>> ? 1 : -1;
+    d.depth = contact->depth;
+    d.normal = {turn * contact->normal[0], turn * contact->normal[1], turn * contact->normal[2]};
+    return only(d, {"depth", "normal"});
+  }
+
+  static Reply<Impact> answer(const in::moving_point_sphere<double>& q) {
+    const Geometry sphere = geometry(q.sphere);
+    // From inside, ODE's ray returns the exit, with a normal that points inward.
+    const bool inside = dGeomSpherePointDepth(sphere.get(), q.point.x, q.point.y, q.point.z) >= 0;
+    if (q.solid && inside) return only(Impact{0.0, {}, {}}, {"time"});
+    return cast(q.point, q.velocity, sphere, time_to_pass(q.point, 0, q.velocity, q.sphere), !inside);
+  }
+  static Reply<Impact> answer(const in::moving_point_box<double>& q) {
+    return cast_at_solid(q.point, q.velocity, q.box, dGeomBoxPointDepth);
+  }
+  static Reply<Impact> answer(const in::moving_point_capsule<double>& q) {
+    return cast_at_solid(q.point, q.velocity, q.capsule, dGeomCapsulePointDepth);
+  }
+  static Reply<Impact> answer(const in::moving_point_plane<double>& q) {
+    if (!(dot(q.plane.normal, q.velocity) < 0)) return Impact::miss();  // ODE's planes have two sides
+    const Geometry plane = geometry(q.plane);
+    if (dGeomPlanePointDepth(plane.get(), q.point.x, q.point.y, q.point.z) > 0) return Impact::miss();
+    // Twice as long: a point may pass the plane exactly at the end of the ray, which rounding then puts before it.
+    return cast(q.point, q.velocity, plane, 2 * time_to_pass(q.point, 0, q.velocity, q.plane));
+  }
+
+ private:
+  static double largest_of(double so_far, const Vec3d& v) {
+    return std::max({so_far, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  }
+  /// At most so far is dGeomBoxPointDepth() from the exact depth. In each direction, 3 terms up to twice the largest
+  /// number are added to a half extent, each with at most 24 roundings: of the unit quaternion, the entry of its
+  /// matrix, the difference to the center, the product and the sum.
+  static double rounding_of_depth(const Vec3d& p, const collide::Box<double>& b) {
+    constexpr double roundings = 2 * 4 * 24 * 0x1p-53;
+    return roundings * largest_of(largest_of(largest_of(0, b.half), b.center), p);
+  }
+  /// At most so far is dGeomCapsulePointDepth() from the exact depth. The center, the axis and the length of the
+  /// capsule are rounded too. In each direction, at most 16 terms up to twice the largest number are added, each with
+  /// at most 8 roundings: of the center, the length, the axis (by a rotation), the place along it, and the distance.
+  static double rounding_of_depth(const Vec3d& p, const collide::Capsule<double>& c) {
+    constexpr double roundings = 2 * 16 * 8 * 0x1p-53;
+    return roundings * largest_of(largest_of(largest_of(c.radius, c.p0), c.p1), p);
+  }
+  static constexpr const char* on_surface =
+      "ODE's rays do not tell entering from leaving where they start on a surface";
 
   template <class A, class B>
   static std::optional<dContactGeom> deepest(const A& first, const B& second) {
@@ -187,25 +178,18 @@ struct Ode {
     return *std::max_element(contacts.begin(), contacts.begin() + count,
                              [](const dContactGeom& x, const dContactGeom& y) { return x.depth < y.depth; });
   }
-  template <class A, class B>
-  static collide::Decision<double> decided(const A& a, const B& b) {
-    return {deepest(a, b).has_value()};
-  }
-  /// ODE's normals point into the first geometry. Its contact positions are different points than the query asks for.
-  template <class Depth, int turn, class A, class B>
-  static Partly<Depth> depth(const A& a, const B& b) {
-    Depth d;
-    d.depth = -1;
-    const auto contact = deepest(a, b);
-    if (!contact) return only(d, {});  // ODE returns no distance
-    d.depth = contact->depth;
-    d.normal = {turn * contact->normal[0], turn * contact->normal[1], turn * contact->normal[2]};
-    return only(d, {"depth", "normal"});
+  template <class S>
+  static Reply<Impact> cast_at_solid(const Vec3d& from, const Vec3d& velocity, const S& solid,
+                                     dReal depth_of(dGeomID, dReal, dReal, dReal)) {
+    const Geometry to = geometry(solid);
+    const double depth = depth_of(to.get(), from.x, from.y, from.z);
+    if (std::abs(depth) <= rounding_of_depth(from, solid)) return CannotAnswer{on_surface};
+    if (depth > 0) return Impact::miss();
+    return cast(from, velocity, to, time_to_pass(from, 0, velocity, ball_around(solid)));
   }
   /// The time of the ray to the geometry's surface.
-  static Reply<collide::Impact<double>> cast(const Vec3d& from, const Vec3d& velocity, const Geometry& to,
-                                             double horizon, bool normal_is_outward = true) {
-    using Impact = collide::Impact<double>;
+  static Reply<Impact> cast(const Vec3d& from, const Vec3d& velocity, const Geometry& to, double horizon,
+                            bool normal_is_outward = true) {
     const double speed = length(velocity);
     if (!(speed > 0)) return CannotAnswer{"a ray has a direction, and nothing moves here"};
     if (horizon == 0) horizon = 1 / speed;  // starts past the geometry: any length is right

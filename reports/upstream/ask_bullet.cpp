@@ -13,50 +13,29 @@ namespace {
 
 using namespace collide;
 
-/// Declares the shape NAME and its pose NAME_pose.
-struct BulletShape {
-  std::string name;
-
-  std::string posed(const std::string& shape, const std::string& turn, const Vec3<double>& at) const {
-    return shape + fmt::format("const btTransform {}_pose({},\n    btVector3({}));\n", name, turn, literals(at));
-  }
-  std::string operator()(const Sphere<double>& s) const {
-    return posed(fmt::format("btSphereShape {}({});\n", name, literal(s.radius)), "btQuaternion::getIdentity()",
-                 s.center);
-  }
-  std::string operator()(const Box<double>& b) const {
-    const auto [x, y, z, w] = adapters::unit(b.orientation);
-    return posed(fmt::format("btBoxShape {}(btVector3({}));\n{}.setMargin(0);\n", name, literals(b.half), name),
-                 fmt::format("btQuaternion({}, {})", literals({x, y, z}), literal(w)), b.center);
-  }
-  std::string operator()(const Capsule<double>& c) const {
-    const Vec3<double> along = c.p1 - c.p0;
-    const double length = adapters::length(along);
-    return posed(fmt::format("btCapsuleShapeZ {}({}, {});\n", name, literal(c.radius), literal(length)),
-                 length > 0
-                     ? fmt::format("shortestArcQuat(btVector3(0, 0, 1), btVector3({}).normalized())", literals(along))
-                     : "btQuaternion::getIdentity()",
-                 c.p0 * 0.5 + c.p1 * 0.5);
-  }
-  std::string operator()(const Plane<double>& p) const {
-    return fmt::format(
-        "btStaticPlaneShape {}(btVector3({}), {});  // Bullet normalizes the normal\n"
-        "const btTransform {}_pose = btTransform::getIdentity();\n",
-        name, literals(p.normal), literal(-p.offset / adapters::length(p.normal)), name);
-  }
-  std::string operator()(const Triangle<double>& t) const {
-    return fmt::format("const btVector3 v0({}), v1({}), v2({});\n", literals(t.v0), literals(t.v1), literals(t.v2));
-  }
-  std::string operator()(const AABox<double>& b) const {
-    return fmt::format("const btVector3 low({}), high({});\n", literals(b.min), literals(b.max));
-  }
-  template <class S>
-  std::string operator()(const S&) const {
-    throw BadInput("Bullet has no such shape");
-  }
+constexpr ShapeText shape_texts[] = {
+    {Shape::sphere, R"(btSphereShape $name($radius);
+const btTransform $name_pose(btQuaternion::getIdentity(),
+    btVector3($center));
+)"},
+    {Shape::box, R"(btBoxShape $name(btVector3($half));
+$name.setMargin(0);
+const btTransform $name_pose(btQuaternion($turn),
+    btVector3($center));
+)"},
+    {Shape::capsule, R"(btCapsuleShapeZ $name($radius, $length);
+const btTransform $name_pose($turned,
+    btVector3($center));
+)",
+     "shortestArcQuat(btVector3(0, 0, 1), btVector3($along).normalized())", "btQuaternion::getIdentity()"},
+    {Shape::plane, R"(btStaticPlaneShape $name(btVector3($normal), $distance);  // Bullet normalizes the normal
+const btTransform $name_pose = btTransform::getIdentity();
+)"},
+    {Shape::triangle, "const btVector3 v0($v0), v1($v1), v2($v2);\n"},
+    {Shape::aabox, "const btVector3 low($min), high($max);\n"},
 };
 
-std::string declared(const NamedShape& o) { return std::visit(BulletShape{o.name}, o.shape); }
+std::string declared(const NamedShape& o) { return nearmiss::declared(o, shape_texts, "Bullet"); }
 
 constexpr std::string_view contact_helpers =
     R"(/// Collects the deepest contact of the algorithm of Bullet's dispatcher.
@@ -113,12 +92,8 @@ bool fits(const Vec3<double>& v, Scalar scalar) {
   return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
-/// The end of a cast that carries the body past the target.
-struct CastEnd {
-  double duration;
-  Vec3<double> end;
-};
-CastEnd cast_end(const Moving& m, const TypedShape& target, Scalar scalar) {
+/// $from, $end and $duration of a cast that carries the body past the target.
+Words cast_of(const Moving& m, const TypedShape& target, Scalar scalar) {
   const Sphere<double> to = ball_around(target);
   const double speed = adapters::length(m.velocity);
   double duration = adapters::time_to_pass(m.from, m.radius, m.velocity, to);
@@ -126,38 +101,30 @@ CastEnd cast_end(const Moving& m, const TypedShape& target, Scalar scalar) {
   const Vec3<double> end = m.from + m.velocity * duration;
   if (duration == 0 || !fits(end, scalar))
     throw BadInput("Bullet cannot be asked: a cast has two ends, apart and finite");
-  return {duration, end};
+  return {{"from", literals(m.from)}, {"end", literals(end)}, {"duration", literal(duration)}};
 }
 
-Asking overlap(const NamedShape& a, const NamedShape& b) {
-  Asking asking;
-  asking.helpers = contact_helpers;
-  asking.statements = declared(a) + declared(b) +
-                      filled_in(
-                          "const Deepest deepest = deepest_contact($a, $a_pose, $b, $b_pose);\n"
-                          "got_yes = deepest.any && deepest.distance <= 0;\n",
-                          {{"a", a.name}, {"a_pose", a.name + "_pose"}, {"b", b.name}, {"b_pose", b.name + "_pose"}});
-  return asking;
-}
+constexpr std::string_view overlap = R"(const Deepest deepest = deepest_contact($a, $a_pose, $b, $b_pose);
+got_yes = deepest.any && deepest.distance <= 0;
+)";
+constexpr std::string_view depth = R"(if (got_yes) {
+  got_depth = -deepest.distance;
+  for (int k = 0; k < 3; ++k) got_normal[k] = $side.normal[k];
+)";
+constexpr std::string_view contact_on_first =
+    R"(  const btVector3 on_first = deepest.on_second + deepest.normal * deepest.distance;
+  for (int k = 0; k < 3; ++k) got_contact[k] = on_first[k];
+)";
 
-Asking depth(const NamedShape& a, const NamedShape& b, bool to_first, bool has_contact) {
-  Asking asking = overlap(a, b);
-  asking.statements += filled_in(
-      "if (got_yes) {\n"
-      "  got_depth = -deepest.distance;\n"
-      "  for (int k = 0; k < 3; ++k) got_normal[k] = $side.normal[k];\n",
-      {{"side", to_first ? "deepest" : "-deepest"}});
-  asking.members = {"depth", "normal"};
-  if (has_contact) {
-    asking.statements +=
-        "  const btVector3 on_first = deepest.on_second + deepest.normal * deepest.distance;\n"
-        "  for (int k = 0; k < 3; ++k) got_contact[k] = on_first[k];\n";
-    asking.members.push_back("contact");
-  }
-  asking.statements += "}\n";
-  return asking;
-}
-
+constexpr std::string_view point_cast = R"(btSphereShape dot(0);
+dot.setMargin(0);
+btVoronoiSimplexSolver simplex;
+btSubsimplexConvexCast cast(&dot, &$b, &simplex);
+)";
+constexpr std::string_view sweep = R"(btVoronoiSimplexSolver simplex;
+btGjkEpaPenetrationDepthSolver epa;
+btContinuousConvexCollision cast(&$a, &$b, &simplex, &epa);
+)";
 constexpr std::string_view cast_result = R"(btConvexCast::CastResult result;
 result.m_fraction = 1;
 got_yes = cast.calcTimeOfImpact(at($from), at($end), $b_pose, $b_pose, result);
@@ -167,109 +134,71 @@ if (got_yes) {
 }
 )";
 
-std::string cast(const Moving& m, const NamedShape& b, const std::string& by, Scalar scalar) {
-  const CastEnd e = cast_end(m, b.shape, scalar);
-  return by + filled_in(cast_result, {{"from", literals(m.from)},
-                                      {"end", literals(e.end)},
-                                      {"b_pose", b.name + "_pose"},
-                                      {"duration", literal(e.duration)}});
+constexpr std::string_view triangle_ray =
+    R"(Nearest nearest(btVector3($from), btVector3($end), btTriangleRaycastCallback::kF_FilterBackfaces);
+btVector3 corners[3] = {v0, v1, v2};
+nearest.processTriangle(corners, 0, 0);
+got_yes = nearest.hit;
+if (got_yes) {
+  got_time = nearest.m_hitFraction * $duration;
+  for (int k = 0; k < 3; ++k) got_normal[k] = nearest.normal[k];
 }
+)";
+constexpr std::string_view aabox_ray = R"(btScalar fraction = 1;
+btVector3 normal(0, 0, 0);
+got_yes = btRayAabb(btVector3($from), btVector3($end), low, high, fraction, normal);
+if (got_yes) got_time = fraction * $duration;
+)";
 
-Asking point_cast(const Moving& m, const NamedShape& b, Scalar scalar) {
-  Asking asking;
-  asking.helpers = cast_helpers;
-  asking.statements = declared(b) + cast(m, b,
-                                         filled_in("btSphereShape dot(0);\n"
-                                                   "dot.setMargin(0);\n"
-                                                   "btVoronoiSimplexSolver simplex;\n"
-                                                   "btSubsimplexConvexCast cast(&dot, &$b, &simplex);\n",
-                                                   {{"b", b.name}}),
-                                         scalar);
-  asking.members = {"time", "normal"};
-  return asking;
-}
+constexpr std::string_view sphere_triangle = R"(btTriangleShape triangle($corners);
+triangle.setMargin(0);
+btVector3 point, normal;
+btScalar depth = 0, time = 1;
+SphereTriangleDetector detector(&sphere, &triangle, 0);
+got_yes = detector.collide(sphere_pose.getOrigin(), point, normal, depth, time, 0);
+)";
 
-Asking sweep(const Moving& m, const NamedShape& a, const NamedShape& b, Scalar scalar) {
-  Asking asking = overlap(a, b);
-  asking.helpers += "\n" + std::string(cast_helpers);
-  asking.statements +=
-      "if (got_yes) {  // Bullet's sweeps miss a shape in which they start\n  got_time = 0;\n} else {\n" +
-      indented(cast(m, b,
-                    filled_in("btVoronoiSimplexSolver simplex;\n"
-                              "btGjkEpaPenetrationDepthSolver epa;\n"
-                              "btContinuousConvexCollision cast(&$a, &$b, &simplex, &epa);\n",
-                              {{"a", a.name}, {"b", b.name}}),
-                    scalar)) +
-      "}\n";
-  asking.members = {"time", "normal"};
-  return asking;
-}
-
-Asking triangle_ray(const Moving& m, const NamedShape& b, Scalar scalar) {
-  const CastEnd e = cast_end(m, b.shape, scalar);
-  Asking asking;
-  asking.helpers = triangle_helpers;
-  asking.statements =
-      declared(b) +
-      filled_in(
-          "Nearest nearest(btVector3($from), btVector3($end), btTriangleRaycastCallback::kF_FilterBackfaces);\n"
-          "btVector3 corners[3] = {v0, v1, v2};\n"
-          "nearest.processTriangle(corners, 0, 0);\n"
-          "got_yes = nearest.hit;\n"
-          "if (got_yes) {\n"
-          "  got_time = nearest.m_hitFraction * $duration;\n"
-          "  for (int k = 0; k < 3; ++k) got_normal[k] = nearest.normal[k];\n"
-          "}\n",
-          {{"from", literals(m.from)}, {"end", literals(e.end)}, {"duration", literal(e.duration)}});
-  asking.members = {"time", "normal"};
-  return asking;
-}
-
-Asking aabox_ray(const Moving& m, const NamedShape& b, Scalar scalar) {
-  const CastEnd e = cast_end(m, b.shape, scalar);
-  Asking asking;
-  asking.statements =
-      declared(b) + filled_in(
-                        "btScalar fraction = 1;\n"
-                        "btVector3 normal(0, 0, 0);\n"
-                        "got_yes = btRayAabb(btVector3($from), btVector3($end), low, high, fraction, normal);\n"
-                        "if (got_yes) got_time = fraction * $duration;\n",
-                        {{"from", literals(m.from)}, {"end", literals(e.end)}, {"duration", literal(e.duration)}});
-  asking.members = {"time"};
-  return asking;
-}
-
-Asking sphere_triangle(const NamedShape& a, const NamedShape& b) {
-  Asking asking;
-  asking.statements =
-      declared(a) + filled_in(
-                        "btTriangleShape triangle(btVector3($v0), btVector3($v1), btVector3($v2));\n"
-                        "triangle.setMargin(0);\n"
-                        "btVector3 point, normal;\n"
-                        "btScalar depth = 0, time = 1;\n"
-                        "SphereTriangleDetector detector(&sphere, &triangle, 0);\n"
-                        "got_yes = detector.collide(sphere_pose.getOrigin(), point, normal, depth, time, 0);\n",
-                        {{"v0", literals(std::get<Triangle<double>>(b.shape).v0)},
-                         {"v1", literals(std::get<Triangle<double>>(b.shape).v1)},
-                         {"v2", literals(std::get<Triangle<double>>(b.shape).v2)}});
-  return asking;
+Asking point_motion(const CaseShapes& shapes, Scalar scalar) {
+  const NamedShape b = target_of(shapes);
+  const Words cast = cast_of(moving_of(shapes), b.shape, scalar);
+  if (is_a<Triangle>(b)) {
+    return {.helpers = std::string(triangle_helpers),
+            .statements = declared(b) + filled_in(triangle_ray, cast),
+            .members = {"time", "normal"}};
+  }
+  if (is_a<AABox>(b)) return {.statements = declared(b) + filled_in(aabox_ray, cast), .members = {"time"}};
+  return {.helpers = std::string(cast_helpers),
+          .statements = declared(b) + call(point_cast, b, b) + call(cast_result, b, b, cast),
+          .members = {"time", "normal"}};
 }
 
 Asking asking_of(const Case& question) {
   const CaseShapes shapes(question);
-  const Scalar scalar = question.scalar;
-  if (shapes.has("point.x")) {
-    const NamedShape b = target_of(shapes);
-    if (shapes.has("triangle.v0.x")) return triangle_ray(moving_of(shapes), b, scalar);
-    if (shapes.has("aabox.min.x")) return aabox_ray(moving_of(shapes), b, scalar);
-    return point_cast(moving_of(shapes), b, scalar);
+  if (shapes.has("point.x")) return point_motion(shapes, question.scalar);
+  const auto [a, b] = sides_of(shapes);
+  if (const auto* t = std::get_if<Triangle<double>>(&b.shape)) {
+    const std::string corners =
+        fmt::format("btVector3({}), btVector3({}), btVector3({})", literals(t->v0), literals(t->v1), literals(t->v2));
+    return {.statements = declared(a) + filled_in(sphere_triangle, {{"corners", corners}})};
   }
-  const auto [a, b] = two_operands(shapes);
-  if (shapes.has("velocity.x")) return sweep(moving_of(shapes), a, b, scalar);
-  if (shapes.has("triangle.v0.x")) return sphere_triangle(a, b);
-  if (question.query->kind != Kind::depth) return overlap(a, b);
-  const bool plane = shapes.has("plane.normal.x");
-  return depth(a, b, plane, shapes.has("sphere1.radius") || (plane && shapes.has("sphere.radius")));
+  Asking asking{.helpers = std::string(contact_helpers), .statements = declared(a) + declared(b) + call(overlap, a, b)};
+  if (shapes.has("velocity.x")) {
+    const Words cast = cast_of(moving_of(shapes), b.shape, question.scalar);
+    asking.helpers += "\n" + std::string(cast_helpers);
+    asking.statements +=
+        "if (got_yes) {  // Bullet's sweeps miss a shape in which they start\n  got_time = 0;\n} else {\n" +
+        indented(call(sweep, a, b) + call(cast_result, a, b, cast)) + "}\n";
+    asking.members = {"time", "normal"};
+  } else if (question.query->kind == Kind::depth) {
+    asking.statements += filled_in(depth, {{"side", is_a<Plane>(b) ? "deepest" : "-deepest"}});
+    asking.members = {"depth", "normal"};
+    if (is_a<Sphere>(a) && !is_a<Box>(b)) {
+      asking.statements += contact_on_first;
+      asking.members.push_back("contact");
+    }
+    asking.statements += "}\n";
+  }
+  return asking;
 }
 
 }  // namespace

@@ -80,54 +80,41 @@ void center(const void* shape, ccd_vec3_t* point) {
 }
 )";
 
-std::string braced(const Vec3<double>& v) { return "{" + literals(v) + "}"; }
-
-struct Declared {
-  std::string type, text;
+constexpr ShapeText shape_texts[] = {
+    {Shape::sphere, "const Convex $name = {1, {{$center}}, {}, {}, $radius};\n"},
+    {Shape::triangle, "const Convex $name = {3, {{$v0}, {$v1}, {$v2}}, {}, {}, 0.0};\n"},
+    {Shape::capsule, "const Convex $name = {2, {{$p0}, {$p1}}, {}, {}, $radius};\n"},
+    {Shape::box, R"(const Convex $name = {1,
+    {{$center}},  // the center
+    {$half},  // half the sides
+    {{$axis0},
+     {$axis1},
+     {$axis2}},
+    0.0};
+)"},
+    {Shape::aabox, "const Corners $name = {{$min}, {$max}};\n"},
 };
 
-/// Declares the shape NAME.
-struct CcdShape {
-  std::string name;
+std::string declared(const NamedShape& o) { return nearmiss::declared(o, shape_texts, "libccd"); }
 
-  Declared round(int count, const std::string& corner, double radius) const {
-    return {"Convex",
-            fmt::format("const Convex {} = {{{}, {{{}}}, {{}}, {{}}, {}}};\n", name, count, corner, literal(radius))};
-  }
-  Declared operator()(const Sphere<double>& s) const { return round(1, braced(s.center), s.radius); }
-  Declared operator()(const Triangle<double>& t) const {
-    return round(3, braced(t.v0) + ", " + braced(t.v1) + ", " + braced(t.v2), 0);
-  }
-  Declared operator()(const Capsule<double>& c) const { return round(2, braced(c.p0) + ", " + braced(c.p1), c.radius); }
-  Declared operator()(const Box<double>& b) const {
-    const auto [x, y, z, w] = adapters::unit(b.orientation);
-    const Vec3<double> e0{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)};
-    const Vec3<double> e1{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)};
-    const Vec3<double> e2{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
-    return {"Convex", fmt::format("const Convex {} = {{1,\n    {{{}}},  // the center\n    {},  // half the sides\n    "
-                                  "{{{},\n     {},\n     {}}},\n    0.0}};\n",
-                                  name, braced(b.center), braced(b.half), braced(e0), braced(e1), braced(e2))};
-  }
-  Declared operator()(const AABox<double>& b) const {
-    return {"Corners", fmt::format("const Corners {} = {{{}, {}}};\n", name, braced(b.min), braced(b.max))};
-  }
-  template <class S>
-  Declared operator()(const S&) const {
-    throw BadInput("libccd has no such shape");
-  }
-};
-
-std::string settings(const Declared& a, const Declared& b) {
-  return filled_in(
-      "ccd_t ccd;\n"
-      "CCD_INIT(&ccd);\n"
-      "ccd.support1 = support<$a>;\n"
-      "ccd.support2 = support<$b>;\n"
-      "ccd.center1 = center<$a>;\n"
-      "ccd.center2 = center<$b>;\n"
-      "ccd.max_iterations = most_iterations;\n",
-      {{"a", a.type}, {"b", b.type}});
+constexpr std::string_view settings = R"(ccd_t ccd;
+CCD_INIT(&ccd);
+ccd.support1 = support<$a_type>;
+ccd.support2 = support<$b_type>;
+ccd.center1 = center<$a_type>;
+ccd.center2 = center<$b_type>;
+ccd.max_iterations = most_iterations;
+)";
+constexpr std::string_view decision = "got_yes = $function(&$a, &$b, &ccd) != 0;\n";
+constexpr std::string_view depth = R"(ccd_vec3_t direction, position;
+double depth = 0;
+got_yes = $function(&$a, &$b, &ccd, &depth, &direction, &position) == 0;
+if (got_yes) {
+  got_depth = depth;
+  for (int k = 0; k < 3; ++k) got_normal[k] = direction.v[k];
+  got_yes = depth >= 0;
 }
+)";
 
 }  // namespace
 }  // namespace libccd_text
@@ -136,34 +123,19 @@ Asking ask_libccd(const Case& question, const Subject& subject) {
   using namespace libccd_text;
   const CaseShapes shapes(question);
   const bool gjk = subject.name == "libccd-gjk", is_depth = question.query->kind == Kind::depth;
-  const auto [first, second] = shapes.has("limit")
-                                   ? std::pair(NamedShape{"way", way_of_sphere(shapes)}, target_of(shapes))
-                                   : two_operands(shapes);
-  const Declared a = std::visit(CcdShape{first.name}, first.shape), b = std::visit(CcdShape{second.name}, second.shape);
+  const auto [a, b] = sides_of(shapes);
   Asking asking;
   asking.includes = "#include <ccd/ccd.h>\n#include <ccd/vec3.h>\n";
   asking.helpers = std::string(vectors) + std::string(convex);
-  if (a.type == "Corners") asking.helpers += corners;
+  if (is_a<AABox>(a)) asking.helpers += corners;
   asking.helpers += callbacks;
   asking.build = "g++ -std=c++17 test.cpp -lccd";
   const std::string function = std::string(gjk ? "ccdGJK" : "ccdMPR") + (is_depth ? "Penetration" : "Intersect");
-  asking.statements = a.text + b.text + settings(a, b);
-  if (is_depth) {
-    asking.statements += filled_in(
-        "ccd_vec3_t direction, position;\n"
-        "double depth = 0;\n"
-        "got_yes = $function(&$a, &$b, &ccd, &depth, &direction, &position) == 0;\n"
-        "if (got_yes) {\n"
-        "  got_depth = depth;\n"
-        "  for (int k = 0; k < 3; ++k) got_normal[k] = direction.v[k];\n"
-        "  got_yes = depth >= 0;\n"
-        "}\n",
-        {{"function", function}, {"a", first.name}, {"b", second.name}});
-    asking.members = {"depth", "normal"};
-  } else {
-    asking.statements += filled_in("got_yes = $function(&$a, &$b, &ccd) != 0;\n",
-                                   {{"function", function}, {"a", first.name}, {"b", second.name}});
-  }
+  const auto type_of = [](const NamedShape& o) { return is_a<AABox>(o) ? "Corners" : "Convex"; };
+  asking.statements = declared(a) + declared(b) +
+                      call(std::string(settings) + std::string(is_depth ? depth : decision), a, b,
+                           {{"a_type", type_of(a)}, {"b_type", type_of(b)}, {"function", function}});
+  if (is_depth) asking.members = {"depth", "normal"};
   return asking;
 }
 

@@ -13,42 +13,27 @@ namespace {
 
 using namespace collide;
 
-/// Declares the geometry NAME.
-struct OdeShape {
-  std::string name;
-
-  std::string placed(const std::string& make, const Vec3<double>& at) const {
-    return fmt::format("const dGeomID {} = {};\ndGeomSetPosition({}, {});\n", name, make, name, literals(at));
-  }
-  std::string operator()(const Sphere<double>& s) const {
-    return placed(fmt::format("dCreateSphere(nullptr, {})", literal(s.radius)), s.center);
-  }
-  std::string operator()(const Box<double>& b) const {
-    const auto [x, y, z, w] = adapters::unit(b.orientation);
-    return placed(fmt::format("dCreateBox(nullptr, {})", literals(b.half * 2.0)), b.center) +
-           fmt::format("const dQuaternion {}_turn = {{{}, {}}};  // w, x, y, z\ndGeomSetQuaternion({}, {}_turn);\n",
-                       name, literal(w), literals({x, y, z}), name, name);
-  }
-  std::string operator()(const Capsule<double>& c) const {
-    const Vec3<double> along = c.p1 - c.p0;
-    const double length = adapters::length(along);
-    const std::string text = placed(fmt::format("dCreateCapsule(nullptr, {}, {})", literal(c.radius), literal(length)),
-                                    c.p0 * 0.5 + c.p1 * 0.5);
-    if (!(length > 0)) return text;
-    return text + fmt::format("dMatrix3 {}_turn;\ndRFromZAxis({}_turn, {});\ndGeomSetRotation({}, {}_turn);\n", name,
-                              name, literals(along / length), name, name);
-  }
-  std::string operator()(const Plane<double>& p) const {
-    return fmt::format("const dGeomID {} = dCreatePlane(nullptr, {}, {});  // ODE normalizes the normal\n", name,
-                       literals(p.normal), literal(-p.offset));
-  }
-  template <class S>
-  std::string operator()(const S&) const {
-    throw BadInput("ODE has no such shape");
-  }
+constexpr ShapeText shape_texts[] = {
+    {Shape::sphere, R"(const dGeomID $name = dCreateSphere(nullptr, $radius);
+dGeomSetPosition($name, $center);
+)"},
+    {Shape::box, R"(const dGeomID $name = dCreateBox(nullptr, $sides);
+dGeomSetPosition($name, $center);
+const dQuaternion $name_turn = {$turn_w_first};  // w, x, y, z
+dGeomSetQuaternion($name, $name_turn);
+)"},
+    {Shape::capsule, R"(const dGeomID $name = dCreateCapsule(nullptr, $radius, $length);
+dGeomSetPosition($name, $center);
+$turned)",
+     R"(dMatrix3 $name_turn;
+dRFromZAxis($name_turn, $direction);
+dGeomSetRotation($name, $name_turn);
+)"},
+    {Shape::plane,
+     "const dGeomID $name = dCreatePlane(nullptr, $normal, $minus_offset);  // ODE normalizes the normal\n"},
 };
 
-std::string declared(const NamedShape& o) { return std::visit(OdeShape{o.name}, o.shape); }
+std::string declared(const NamedShape& o) { return nearmiss::declared(o, shape_texts, "ODE"); }
 
 constexpr std::string_view deepest_helper = R"(/// The number of contacts; the deepest of them in `deepest`.
 int contacts_of(dGeomID a, dGeomID b, dContactGeom* deepest) {
@@ -61,29 +46,15 @@ int contacts_of(dGeomID a, dGeomID b, dContactGeom* deepest) {
 }
 )";
 
-Asking overlap(const NamedShape& a, const NamedShape& b) {
-  Asking asking;
-  asking.helpers = deepest_helper;
-  asking.statements = declared(a) + declared(b) +
-                      filled_in(
-                          "dContactGeom deepest;\n"
-                          "got_yes = contacts_of($a, $b, &deepest) > 0;\n",
-                          {{"a", a.name}, {"b", b.name}});
-  return asking;
+constexpr std::string_view overlap = R"(dContactGeom deepest;
+got_yes = contacts_of($a, $b, &deepest) > 0;
+)";
+constexpr std::string_view depth = R"(if (got_yes) {
+  got_depth = deepest.depth;
+  for (int k = 0; k < 3; ++k) got_normal[k] = $side.normal[k];  // ODE's normal points into the first
+  got_yes = got_depth >= 0;
 }
-
-Asking depth(const NamedShape& a, const NamedShape& b, bool to_first) {
-  Asking asking = overlap(a, b);
-  asking.statements += filled_in(
-      "if (got_yes) {\n"
-      "  got_depth = deepest.depth;\n"
-      "  for (int k = 0; k < 3; ++k) got_normal[k] = $side.normal[k];  // ODE's normal points into the first\n"
-      "  got_yes = got_depth >= 0;\n"
-      "}\n",
-      {{"side", to_first ? "deepest" : "-deepest"}});
-  asking.members = {"depth", "normal"};
-  return asking;
-}
+)";
 
 constexpr std::string_view ray_cast = R"(const dGeomID ray = dCreateRay(nullptr, $reach);
 dGeomRaySet(ray, $from, $along);
@@ -128,46 +99,41 @@ Asking sphere_ray(const CaseShapes& shapes, const NamedShape& b) {
   return asking;
 }
 
-Asking solid_ray(const CaseShapes& shapes, const NamedShape& b, const std::string& point_depth) {
-  const Moving m = moving_of(shapes);
-  const double horizon = adapters::time_to_pass(m.from, 0, m.velocity, ball_around(b.shape));
-  Asking asking;
-  asking.statements =
-      declared(b) +
-      fmt::format("if (!({}({}, {}) > 0)) {{  // a start inside is a miss\n", point_depth, b.name, literals(m.from)) +
-      indented(ray(m, b.name, horizon, true)) + "}\n";
-  asking.members = {"time", "location", "normal"};
-  return asking;
-}
+constexpr std::string_view from_outside = R"(if (!($point_depth($b, $from) > 0)) {  // a start $where is a miss
+)";
 
-Asking plane_ray(const CaseShapes& shapes, const NamedShape& b) {
+Asking ray_from_outside(const CaseShapes& shapes, const NamedShape& b) {
   const Moving m = moving_of(shapes);
-  const Plane<double>& plane = std::get<Plane<double>>(b.shape);
-  Asking asking;
-  asking.members = {"time", "location", "normal"};
-  if (!(adapters::dot(plane.normal, m.velocity) < 0)) {
+  const Plane<double>* plane = std::get_if<Plane<double>>(&b.shape);
+  if (plane != nullptr && !(adapters::dot(plane->normal, m.velocity) < 0)) {
     throw BadInput("ODE is not asked: its planes have two sides, and the point does not approach the front");
   }
-  const double horizon = 2 * adapters::time_to_pass(m.from, 0, m.velocity, plane);
-  asking.statements =
-      declared(b) +
-      fmt::format("if (!(dGeomPlanePointDepth({}, {}) > 0)) {{  // a start behind the plane is a miss\n", b.name,
-                  literals(m.from)) +
-      indented(ray(m, b.name, horizon, true)) + "}\n";
-  return asking;
+  const double horizon = time_to_pass(m, b) * (plane != nullptr ? 2 : 1);
+  const char* point_depth = plane != nullptr ? "dGeomPlanePointDepth"
+                            : is_a<Box>(b)   ? "dGeomBoxPointDepth"
+                                             : "dGeomCapsulePointDepth";
+  return {.statements = declared(b) +
+                        filled_in(from_outside, {{"point_depth", point_depth},
+                                                 {"b", b.name},
+                                                 {"from", literals(m.from)},
+                                                 {"where", plane != nullptr ? "behind the plane" : "inside"}}) +
+                        indented(ray(m, b.name, horizon, true)) + "}\n",
+          .members = {"time", "location", "normal"}};
 }
 
 Asking asking_of(const Case& question) {
   const CaseShapes shapes(question);
   if (shapes.has("point.x")) {
     const NamedShape b = target_of(shapes);
-    if (shapes.has("sphere.radius")) return sphere_ray(shapes, b);
-    if (shapes.has("plane.normal.x")) return plane_ray(shapes, b);
-    return solid_ray(shapes, b, shapes.has("box.half.x") ? "dGeomBoxPointDepth" : "dGeomCapsulePointDepth");
+    return is_a<Sphere>(b) ? sphere_ray(shapes, b) : ray_from_outside(shapes, b);
   }
-  const auto [a, b] = two_operands(shapes);
-  if (question.query->kind != Kind::depth) return overlap(a, b);
-  return depth(a, b, shapes.has("plane.normal.x"));
+  const auto [a, b] = sides_of(shapes);
+  Asking asking{.helpers = std::string(deepest_helper), .statements = declared(a) + declared(b) + call(overlap, a, b)};
+  if (question.query->kind == Kind::depth) {
+    asking.statements += filled_in(depth, {{"side", is_a<Plane>(b) ? "deepest" : "-deepest"}});
+    asking.members = {"depth", "normal"};
+  }
+  return asking;
 }
 
 }  // namespace

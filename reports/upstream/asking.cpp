@@ -17,7 +17,7 @@ bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 
 
 }  // namespace
 
-std::string filled_in(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> values) {
+std::string filled_in(std::string_view text, const Words& values) {
   std::string filled;
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] != '$') {
@@ -42,6 +42,86 @@ std::string literal(double x) {
 
 std::string literals(const collide::Vec3<double>& v) {
   return fmt::format("{}, {}, {}", literal(v.x), literal(v.y), literal(v.z));
+}
+
+namespace {
+
+/// The shape and its numbers by name.
+struct ShapeWords {
+  Shape shape;
+  Words words;
+};
+ShapeWords words_of(const collide::Sphere<double>& s) {
+  return {Shape::sphere, {{"center", literals(s.center)}, {"radius", literal(s.radius)}}};
+}
+ShapeWords words_of(const collide::Box<double>& b) {
+  const auto [x, y, z, w] = adapters::unit(b.orientation);
+  return {Shape::box,
+          {{"center", literals(b.center)},
+           {"half", literals(b.half)},
+           {"sides", literals(b.half * 2.0)},
+           {"turn", literals({x, y, z}) + ", " + literal(w)},
+           {"turn_w_first", literal(w) + ", " + literals({x, y, z})},
+           {"axis0", literals({1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)})},
+           {"axis1", literals({2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)})},
+           {"axis2", literals({2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)})}}};
+}
+ShapeWords words_of(const collide::Capsule<double>& c) {
+  const collide::Vec3<double> along = c.p1 - c.p0;
+  const double length = adapters::length(along);
+  return {Shape::capsule,
+          {{"center", literals(c.p0 * 0.5 + c.p1 * 0.5)},
+           {"radius", literal(c.radius)},
+           {"length", literal(length)},
+           {"along", literals(along)},
+           {"direction", literals(along / length)},
+           {"p0", literals(c.p0)},
+           {"p1", literals(c.p1)}}};
+}
+ShapeWords words_of(const collide::Plane<double>& p) {
+  return {Shape::plane,
+          {{"normal", literals(p.normal)},
+           {"minus_offset", literal(-p.offset)},
+           {"distance", literal(-p.offset / adapters::length(p.normal))}}};
+}
+ShapeWords words_of(const collide::Triangle<double>& t) {
+  return {Shape::triangle, {{"v0", literals(t.v0)}, {"v1", literals(t.v1)}, {"v2", literals(t.v2)}}};
+}
+ShapeWords words_of(const collide::AABox<double>& b) {
+  return {Shape::aabox, {{"min", literals(b.min)}, {"max", literals(b.max)}}};
+}
+
+}  // namespace
+
+std::string declared(const NamedShape& shape, std::span<const ShapeText> texts, std::string_view library) {
+  return std::visit(
+      [&](const auto& s) -> std::string {
+        if constexpr (requires { words_of(s); }) {
+          auto [kind, words] = words_of(s);
+          words.insert(
+              words.end(),
+              {{"name", shape.name}, {"name_pose", shape.name + "_pose"}, {"name_turn", shape.name + "_turn"}});
+          const auto text = std::ranges::find(texts, kind, &ShapeText::shape);
+          if (text != texts.end()) {
+            if (const auto* c = std::get_if<collide::Capsule<double>>(&shape.shape))
+              words.emplace_back("turned",
+                                 filled_in(adapters::length(c->p1 - c->p0) > 0 ? text->turned : text->unturned, words));
+            return filled_in(text->text, words);
+          }
+        }
+        throw BadInput(fmt::format("{} has no such shape", library));
+      },
+      shape.shape);
+}
+
+Words names_of(const NamedShape& a, const NamedShape& b) {
+  return {{"a", a.name}, {"a_pose", a.name + "_pose"}, {"b", b.name}, {"b_pose", b.name + "_pose"}};
+}
+
+std::string call(std::string_view text, const NamedShape& a, const NamedShape& b, const Words& more) {
+  Words words = names_of(a, b);
+  words.insert(words.end(), more.begin(), more.end());
+  return filled_in(text, words);
 }
 
 std::string indented(std::string_view text) {
@@ -102,7 +182,14 @@ collide::Sphere<double> ball_around(const TypedShape& shape) {
       shape);
 }
 
-std::pair<NamedShape, NamedShape> two_operands(const CaseShapes& shapes) {
+double time_to_pass(const Moving& moving, const NamedShape& target) {
+  if (const auto* plane = std::get_if<collide::Plane<double>>(&target.shape))
+    return adapters::time_to_pass(moving.from, moving.radius, moving.velocity, *plane);
+  return adapters::time_to_pass(moving.from, moving.radius, moving.velocity, ball_around(target.shape));
+}
+
+std::pair<NamedShape, NamedShape> sides_of(const CaseShapes& shapes) {
+  if (shapes.has("limit")) return {{"way", way_of_sphere(shapes)}, target_of(shapes)};
   const std::vector<NamedShape> all = shapes.operands();
   if (all.size() != 2) throw std::logic_error("not two shapes");
   return {all[0], all[1]};

@@ -1,7 +1,7 @@
 /// The part of an emitted test that asks one library, in the same way as the library's adapter does.
 #pragma once
 
-#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,12 +18,12 @@ struct Asking {
   enum class Style { googletest, googletest_with_main, main, c };
 
   Style style = Style::main;
-  std::string suite;                 ///< of a GoogleTest
-  std::string includes;              ///< lines
-  std::string helpers;               ///< declarations outside of the test
-  std::string statements;            ///< lines without indentation
-  std::vector<std::string> members;  ///< the members of an answer that they may set: "depth"
-  std::string build;                 ///< the compiler's command line for the file "test.cpp" or "test.c"
+  std::string suite{};                 ///< of a GoogleTest
+  std::string includes{};              ///< lines
+  std::string helpers{};               ///< declarations outside of the test
+  std::string statements{};            ///< lines without indentation
+  std::vector<std::string> members{};  ///< the members of an answer that they may set: "depth"
+  std::string build{};                 ///< the compiler's command line for the file "test.cpp" or "test.c"
 };
 
 /// Each throws BadInput where the library cannot be asked the case.
@@ -35,8 +35,27 @@ Asking ask_collide(const Case& question, const Subject& subject);
 /// A plugin by its entry, in C.
 Asking ask_plugin(const Case& question, const Subject& subject);
 
+/// Values by name.
+using Words = std::vector<std::pair<std::string_view, std::string>>;
 /// The text with every "$name" replaced. A name is of letters, digits and underscores.
-std::string filled_in(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> values);
+std::string filled_in(std::string_view text, const Words& values);
+
+/// How a library declares a shape: $name is its name, $name_pose and $name_turn those of its pose and rotation, and
+/// further words are its numbers: $center, $radius, $half, $sides, $turn (x, y, z, w), $turn_w_first, $axis0 to $axis2,
+/// $length and $along of a capsule, $direction (along / length), $normal, $minus_offset, $distance (from the origin),
+/// $v0, $p0, $min and the like.
+struct ShapeText {
+  Shape shape;
+  std::string_view text;
+  std::string_view turned{}, unturned{};  ///< $turned in the text of a capsule: with a length, and without
+};
+/// Throws BadInput where no text is for the shape: "LIBRARY has no such shape".
+std::string declared(const NamedShape& shape, std::span<const ShapeText> texts, std::string_view library);
+/// $a, $a_pose, $b and $b_pose: the names of two shapes and of their poses.
+Words names_of(const NamedShape& a, const NamedShape& b);
+
+/// A library's statements for the sides of one operation, with the words of names_of() and `more`.
+std::string call(std::string_view text, const NamedShape& a, const NamedShape& b, const Words& more = {});
 
 /// A number that reads back exactly, as a literal of double: "0.5", "1.0".
 std::string literal(double x);
@@ -60,9 +79,15 @@ struct Moving {
 Moving moving_of(const CaseShapes& shapes);
 /// The shape that is met.
 NamedShape target_of(const CaseShapes& shapes);
+template <template <class> class S>
+bool is_a(const NamedShape& shape) {
+  return std::holds_alternative<S<double>>(shape.shape);
+}
 /// A ball around the shape, as adapters choose it for the length of a cast. The shape must be bounded.
 collide::Sphere<double> ball_around(const TypedShape& shape);
-/// The operands of a query that has two shapes.
-std::pair<NamedShape, NamedShape> two_operands(const CaseShapes& shapes);
+/// The least power of two as a time after which the mover is past the shape.
+double time_to_pass(const Moving& moving, const NamedShape& target);
+/// The two shapes of a query; for a motion with a limit, the way of the sphere ("way") and the target.
+std::pair<NamedShape, NamedShape> sides_of(const CaseShapes& shapes);
 
 }  // namespace nearmiss

@@ -1,8 +1,6 @@
 /// The function takes a prepared ray and a prepared box.
 #pragma once
 
-#include <tuple>
-
 #include <collide/ray_aabox.hpp>
 
 #include "impl/adapters/collide_function.hpp"
@@ -10,12 +8,6 @@
 
 namespace nearmiss::adapters {
 
-template <class T>
-struct CollideArguments<inputs::ray_aabox<T>> {
-  template <class Tier>
-  static auto of(const inputs::ray_aabox<T>& q) noexcept {
-    return std::tuple(collide::prepare_ray<Tier>(q.ray), collide::prepare_aabox<Tier>(q.aabox));
-  }
-};
+NEARMISS_COLLIDE_ARGUMENTS(ray_aabox, collide::prepare_ray<Tier>(q.ray), collide::prepare_aabox<Tier>(q.aabox))
 
 }  // namespace nearmiss::adapters
