@@ -8,17 +8,10 @@
 #include <utility>
 
 #include "reports/engine/interrupt.hpp"
-#include "reports/triage/hypotheses/convention.hpp"
-#include "reports/triage/hypotheses/error_share.hpp"
-#include "reports/triage/hypotheses/few_answers.hpp"
-#include "reports/triage/hypotheses/logic.hpp"
-#include "reports/triage/hypotheses/motion_steps.hpp"
-#include "reports/triage/hypotheses/number_range.hpp"
+#include "reports/triage/hypotheses/hypotheses.hpp"
 #include "reports/triage/hypotheses/predictions.hpp"
 #include "reports/triage/hypotheses/relative_tolerance.hpp"
-#include "reports/triage/hypotheses/rounding.hpp"
 #include "reports/triage/hypotheses/tolerance.hpp"
-#include "reports/triage/hypotheses/unsupported.hpp"
 
 namespace nearmiss {
 

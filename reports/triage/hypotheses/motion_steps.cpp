@@ -1,4 +1,4 @@
-#include "reports/triage/hypotheses/motion_steps.hpp"
+#include "reports/triage/hypotheses/hypotheses.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "reports/triage/hypotheses/unsupported.hpp"
+#include "reports/triage/hypotheses/hypotheses.hpp"
 
 #include <fmt/format.h>
 
