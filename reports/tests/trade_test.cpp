@@ -71,9 +71,9 @@ TEST(TradeStatistics, NoneOfManyObeysTheRuleOfThree) {
 
 TEST(TradeStatistics, TheIntervalsOfManyContinueThoseOfFewer) {
   const Rate fewer = rate_of(999, 1'000'000), more = rate_of(1000, 1'000'000);
-  // One more of a thousand moves both ends by a thousandth; the two formulas agree within another one.
-  EXPECT_NEAR(more.low / fewer.low, 1.001, 0.0015);
-  EXPECT_NEAR(more.high / fewer.high, 1.001, 0.0015);
+  // One more of a thousand moves both ends by a thousandth.
+  EXPECT_NEAR(more.low / fewer.low, 1.001, 1e-4);
+  EXPECT_NEAR(more.high / fewer.high, 1.001, 1e-4);
   EXPECT_LT(more.low, 1e-3);
   EXPECT_GT(more.high, 1e-3);
 }

@@ -1,50 +1,11 @@
 #include "reports/trade/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
 
 namespace nearmiss {
-
-namespace {
-
-constexpr double confidence_left_out = 0.05;
-constexpr std::uint64_t enough_for_wilson = 1000;
-
-/// The probability of at most `count` in `of` independent draws at the rate p.
-double at_most(std::uint64_t count, std::uint64_t of, double p) {
-  if (p <= 0) return 1;
-  if (p >= 1) return count >= of ? 1 : 0;
-  const double n = double(of), log_p = std::log(p), log_q = std::log1p(-p);
-  double sum = 0;
-  for (std::uint64_t i = 0; i <= count; ++i) {
-    const double k = double(i);
-    sum += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) + k * log_p + (n - k) * log_q);
-  }
-  return std::min(1.0, sum);
-}
-
-/// The rate at which at most `count` of `of` have the probability `probability`, by halving.
-double rate_with(std::uint64_t count, std::uint64_t of, double probability) {
-  constexpr int halvings = 60;  // down to 2^-60
-  double low = 0, high = 1;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (low + high) / 2;
-    (at_most(count, of, middle) > probability ? low : high) = middle;
-  }
-  return high;
-}
-
-/// The interval of Wilson, for many of both kinds: it then agrees with that of Clopper and Pearson to three digits, and
-/// its cost does not grow with the counts.
-Rate wilson(std::uint64_t count, std::uint64_t of) {
-  constexpr double z = 1.959964;  // 95 % of a normal distribution lie within so many standard deviations
-  const double n = double(of), p = double(count) / n;
-  const double middle = p + z * z / (2 * n), half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  return {count, of, (middle - half) / (1 + z * z / n), (middle + half) / (1 + z * z / n)};
-}
-
-}  // namespace
 
 double quantile(std::span<const double> sorted, double q) {
   const double rank = std::ceil(q * double(sorted.size()));
@@ -63,12 +24,13 @@ std::optional<Quantiles> quantiles_of(std::vector<double>& values) {
 }
 
 Rate rate_of(std::uint64_t count, std::uint64_t of) {
+  using Binomial = boost::math::binomial_distribution<>;
+  constexpr double confidence_left_out = 0.05;
   if (of == 0) return {count, of, 0, 1};
   if (count == 0) return {count, of, 0, -std::expm1(std::log(confidence_left_out) / double(of))};
   if (count == of) return {count, of, std::exp(std::log(confidence_left_out) / double(of)), 1};
-  if (std::min(count, of - count) >= enough_for_wilson) return wilson(count, of);
-  const double tail = confidence_left_out / 2;
-  return {count, of, rate_with(count - 1, of, 1 - tail), rate_with(count, of, tail)};
+  const double n = double(of), k = double(count), tail = confidence_left_out / 2;
+  return {count, of, Binomial::find_lower_bound_on_p(n, k, tail), Binomial::find_upper_bound_on_p(n, k, tail)};
 }
 
 std::vector<bool> pareto_front(std::span<const Price> choices) {

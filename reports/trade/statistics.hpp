@@ -23,8 +23,8 @@ struct Quantiles {
 std::optional<Quantiles> quantiles_of(std::vector<double>& values);
 
 /// How often something happened, and the interval that holds its true rate with 95 % confidence where the cases are
-/// independent draws: of Clopper and Pearson, or of Wilson for a thousand or more of both kinds. Where it happened
-/// never or always, the interval is one-sided: the rule of three, 1 - 0.05^(1/n), or about 3/n.
+/// independent draws: of Clopper and Pearson. Where it happened never or always, the interval is one-sided: the rule of
+/// three, 1 - 0.05^(1/n), or about 3/n.
 struct Rate {
   std::uint64_t count = 0, of = 0;
   double low = 0, high = 1;
