@@ -1,6 +1,6 @@
 /// Bullet 3.24 as a contender, in float or double: the calls of its adapter, and those that the adapter has no use for.
 /// Bodies and algorithms are made before the timing; the timed part is one call. Each query uses the most direct
-/// functions of Bullet:
+/// functions of Bullet, whose boxes have no margin here, as in the adapter:
 ///
 ///   algorithm    processCollision of the algorithm that its dispatcher finds for the two shapes
 ///   distance     btSphereBoxCollisionAlgorithm::getSphereDistance

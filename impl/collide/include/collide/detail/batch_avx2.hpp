@@ -30,28 +30,14 @@ struct Wide<float> {
   static constexpr std::size_t size = 8;
   __m256 v;
 
-  COLLIDE_BATCH_FUNCTION static Wide splat(float x) { return {_mm256_set1_ps(x)}; }
-  COLLIDE_BATCH_FUNCTION static Wide load(const float* p) { return {_mm256_loadu_ps(p)}; }
-  COLLIDE_BATCH_FUNCTION void store(float* p) const { _mm256_storeu_ps(p, v); }
+  COLLIDE_WIDE_OPERATIONS(_mm256, ps)
   COLLIDE_BATCH_FUNCTION static Wide mask(const bool* p) {
     const __m128i flags = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
     return {_mm256_castsi256_ps(_mm256_sub_epi32(_mm256_setzero_si256(), _mm256_cvtepu8_epi32(flags)))};
   }
-  COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm256_add_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm256_sub_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm256_mul_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator&(Wide a, Wide b) { return {_mm256_and_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator|(Wide a, Wide b) { return {_mm256_or_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator^(Wide a, Wide b) { return {_mm256_xor_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide and_not(Wide a, Wide where) { return {_mm256_andnot_ps(where.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide sqrt(Wide a) { return {_mm256_sqrt_ps(a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide larger(Wide a, Wide b) { return {_mm256_max_ps(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide smaller(Wide a, Wide b) { return {_mm256_min_ps(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION int bits() const { return _mm256_movemask_ps(v); }
   COLLIDE_BATCH_FUNCTION Wide sign_mask() const {
     return {_mm256_castsi256_ps(_mm256_srai_epi32(_mm256_castps_si256(v), 31))};
   }
@@ -63,30 +49,16 @@ struct Wide<double> {
   static constexpr std::size_t size = 4;
   __m256d v;
 
-  COLLIDE_BATCH_FUNCTION static Wide splat(double x) { return {_mm256_set1_pd(x)}; }
-  COLLIDE_BATCH_FUNCTION static Wide load(const double* p) { return {_mm256_loadu_pd(p)}; }
-  COLLIDE_BATCH_FUNCTION void store(double* p) const { _mm256_storeu_pd(p, v); }
+  COLLIDE_WIDE_OPERATIONS(_mm256, pd)
   COLLIDE_BATCH_FUNCTION static Wide mask(const bool* p) {
     int flags;
     std::memcpy(&flags, p, sizeof flags);
     const __m256i words = _mm256_cvtepu8_epi64(_mm_cvtsi32_si128(flags));
     return {_mm256_castsi256_pd(_mm256_sub_epi64(_mm256_setzero_si256(), words))};
   }
-  COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm256_add_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm256_sub_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm256_mul_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_LT_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_LE_OS)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator&(Wide a, Wide b) { return {_mm256_and_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator|(Wide a, Wide b) { return {_mm256_or_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator^(Wide a, Wide b) { return {_mm256_xor_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide and_not(Wide a, Wide where) { return {_mm256_andnot_pd(where.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide sqrt(Wide a) { return {_mm256_sqrt_pd(a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide larger(Wide a, Wide b) { return {_mm256_max_pd(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide smaller(Wide a, Wide b) { return {_mm256_min_pd(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION int bits() const { return _mm256_movemask_pd(v); }
   COLLIDE_BATCH_FUNCTION Wide sign_mask() const {
     return {_mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_setzero_si256(), _mm256_castpd_si256(v)))};
   }

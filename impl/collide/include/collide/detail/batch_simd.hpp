@@ -10,6 +10,24 @@
 /// defines COLLIDE_NO_LANES.
 #if defined(COLLIDE_LANES) && defined(__GNUC__) && defined(__x86_64__)
 #define COLLIDE_BATCH_LANES 1
+
+/// The operations of the struct Wide in batch_sse2.hpp and batch_avx2.hpp whose intrinsics are called alike.
+#define COLLIDE_WIDE_OPERATIONS(prefix, suffix)                                                                       \
+  COLLIDE_BATCH_FUNCTION static Wide splat(Number x) { return {prefix##_set1_##suffix(x)}; }                          \
+  COLLIDE_BATCH_FUNCTION static Wide load(const Number* p) { return {prefix##_loadu_##suffix(p)}; }                   \
+  COLLIDE_BATCH_FUNCTION void store(Number* p) const { prefix##_storeu_##suffix(p, v); }                              \
+  COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {prefix##_add_##suffix(a.v, b.v)}; }          \
+  COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {prefix##_sub_##suffix(a.v, b.v)}; }          \
+  COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {prefix##_mul_##suffix(a.v, b.v)}; }          \
+  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }                                \
+  COLLIDE_BATCH_FUNCTION friend Wide operator&(Wide a, Wide b) { return {prefix##_and_##suffix(a.v, b.v)}; }          \
+  COLLIDE_BATCH_FUNCTION friend Wide operator|(Wide a, Wide b) { return {prefix##_or_##suffix(a.v, b.v)}; }           \
+  COLLIDE_BATCH_FUNCTION friend Wide operator^(Wide a, Wide b) { return {prefix##_xor_##suffix(a.v, b.v)}; }          \
+  COLLIDE_BATCH_FUNCTION friend Wide and_not(Wide a, Wide where) { return {prefix##_andnot_##suffix(where.v, a.v)}; } \
+  COLLIDE_BATCH_FUNCTION friend Wide sqrt(Wide a) { return {prefix##_sqrt_##suffix(a.v)}; }                           \
+  COLLIDE_BATCH_FUNCTION friend Wide larger(Wide a, Wide b) { return {prefix##_max_##suffix(b.v, a.v)}; }             \
+  COLLIDE_BATCH_FUNCTION friend Wide smaller(Wide a, Wide b) { return {prefix##_min_##suffix(b.v, a.v)}; }            \
+  COLLIDE_BATCH_FUNCTION int bits() const { return prefix##_movemask_##suffix(v); }
 #endif
 
 #include <collide/detail/strict_begin.hpp>

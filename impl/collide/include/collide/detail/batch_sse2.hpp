@@ -28,30 +28,16 @@ struct Wide<float> {
   static constexpr std::size_t size = 4;
   __m128 v;
 
-  COLLIDE_BATCH_FUNCTION static Wide splat(float x) { return {_mm_set1_ps(x)}; }
-  COLLIDE_BATCH_FUNCTION static Wide load(const float* p) { return {_mm_loadu_ps(p)}; }
-  COLLIDE_BATCH_FUNCTION void store(float* p) const { _mm_storeu_ps(p, v); }
+  COLLIDE_WIDE_OPERATIONS(_mm, ps)
   COLLIDE_BATCH_FUNCTION static Wide mask(const bool* p) {
     int flags;
     std::memcpy(&flags, p, sizeof flags);
     const __m128i zero = _mm_setzero_si128(), bytes = _mm_unpacklo_epi8(_mm_cvtsi32_si128(flags), zero);
     return {_mm_castsi128_ps(_mm_sub_epi32(zero, _mm_unpacklo_epi16(bytes, zero)))};
   }
-  COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm_add_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm_sub_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm_mul_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm_cmplt_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm_cmple_ps(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm_cmpeq_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator&(Wide a, Wide b) { return {_mm_and_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator|(Wide a, Wide b) { return {_mm_or_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator^(Wide a, Wide b) { return {_mm_xor_ps(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide and_not(Wide a, Wide where) { return {_mm_andnot_ps(where.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide sqrt(Wide a) { return {_mm_sqrt_ps(a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide larger(Wide a, Wide b) { return {_mm_max_ps(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide smaller(Wide a, Wide b) { return {_mm_min_ps(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION int bits() const { return _mm_movemask_ps(v); }
   COLLIDE_BATCH_FUNCTION Wide sign_mask() const { return {_mm_castsi128_ps(_mm_srai_epi32(_mm_castps_si128(v), 31))}; }
 };
 
@@ -61,27 +47,13 @@ struct Wide<double> {
   static constexpr std::size_t size = 2;
   __m128d v;
 
-  COLLIDE_BATCH_FUNCTION static Wide splat(double x) { return {_mm_set1_pd(x)}; }
-  COLLIDE_BATCH_FUNCTION static Wide load(const double* p) { return {_mm_loadu_pd(p)}; }
-  COLLIDE_BATCH_FUNCTION void store(double* p) const { _mm_storeu_pd(p, v); }
+  COLLIDE_WIDE_OPERATIONS(_mm, pd)
   COLLIDE_BATCH_FUNCTION static Wide mask(const bool* p) {
     return {_mm_castsi128_pd(_mm_setr_epi32(-int(p[0]), -int(p[0]), -int(p[1]), -int(p[1])))};
   }
-  COLLIDE_BATCH_FUNCTION friend Wide operator+(Wide a, Wide b) { return {_mm_add_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator-(Wide a, Wide b) { return {_mm_sub_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator*(Wide a, Wide b) { return {_mm_mul_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator/(Wide a, Wide b) { return {a.v / b.v}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<(Wide a, Wide b) { return {_mm_cmplt_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator<=(Wide a, Wide b) { return {_mm_cmple_pd(a.v, b.v)}; }
   COLLIDE_BATCH_FUNCTION friend Wide operator==(Wide a, Wide b) { return {_mm_cmpeq_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator&(Wide a, Wide b) { return {_mm_and_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator|(Wide a, Wide b) { return {_mm_or_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide operator^(Wide a, Wide b) { return {_mm_xor_pd(a.v, b.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide and_not(Wide a, Wide where) { return {_mm_andnot_pd(where.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide sqrt(Wide a) { return {_mm_sqrt_pd(a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide larger(Wide a, Wide b) { return {_mm_max_pd(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION friend Wide smaller(Wide a, Wide b) { return {_mm_min_pd(b.v, a.v)}; }
-  COLLIDE_BATCH_FUNCTION int bits() const { return _mm_movemask_pd(v); }
   COLLIDE_BATCH_FUNCTION Wide sign_mask() const {
     const __m128i high = _mm_srai_epi32(_mm_castpd_si128(v), 31);
     return {_mm_castsi128_pd(_mm_shuffle_epi32(high, _MM_SHUFFLE(3, 3, 1, 1)))};
