@@ -47,7 +47,7 @@ struct Taken {
   Step step;
 } taken;
 
-bool is_real(Role role) { return role != Role::flag && role != Role::index; }
+bool is_real(Role role) { return !is_discrete(role); }
 
 /// Moves one number by some ulps. False, without a change, where the result breaks a rule.
 bool apply(Case& c, Step step) {

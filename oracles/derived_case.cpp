@@ -7,6 +7,7 @@ namespace nearmiss {
 
 DerivedCase::DerivedCase(const Case& from, QueryId query)
     : from_(from), question_{&query_of(query), from.scalar, {}, from.origin, 0, 0, {}} {
+  if (!question_.query->lists.empty()) throw std::logic_error("a query with lists is derived from no other");
   question_.values.resize(question_.fields().size());
   index_.resize(question_.values.size());
 }

@@ -34,8 +34,9 @@ using Magnitudes = std::array<double, 16>;  // indexed by role
 
 Magnitudes magnitudes(const Query& query, std::span<const double> values) {
   Magnitudes largest{};
+  const std::vector<Field>& fields = query.fields_of(values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    double& m = largest[std::size_t(query.inputs[i].role)];
+    double& m = largest[std::size_t(fields[i].role)];
     m = std::max(m, std::abs(values[i]));
   }
   return largest;

@@ -132,7 +132,7 @@ class StartAsCase {
   /// name `second`.
   void set_obstacle(std::string_view to, std::span<const Renamed> renamed = {}) {
     const Operand& operand = *derived_.question().operands().find(to);
-    for (const ShapeMember& m : operand.traits().members) {
+    for (const ShapeMember& m : operand.members) {
       const auto other =
           std::find_if(renamed.begin(), renamed.end(), [&](const Renamed& r) { return m.name == r.first; });
       const std::size_t from = start_.obstacle.member(other == renamed.end() ? m.name : other->second).value();

@@ -17,8 +17,8 @@ namespace {
 
 using Triangle = std::array<std::size_t, 3>;
 
-std::optional<std::size_t> input_named(const Query& query, std::string_view name) {
-  const auto& members = query.operands.members;
+std::optional<std::size_t> input_named(const Case& c, std::string_view name) {
+  const auto& members = c.operands().members;
   const auto found = std::ranges::find(members, name, &InputMember::name);
   return found == members.end() ? std::nullopt : std::optional(found->begin);
 }
@@ -27,7 +27,7 @@ std::optional<std::size_t> input_named(const Query& query, std::string_view name
 class Rules {
  public:
   explicit Rules(const Case& question)
-      : c_(question), query_(*question.query), parts_(query_.operands), start_(parts_.start) {}
+      : c_(question), query_(*question.query), parts_(question.operands()), start_(parts_.start) {}
 
   std::string broken() const {
     if (query_.kind == Kind::decision) return limit_of_time();
@@ -40,7 +40,7 @@ class Rules {
   const std::string& other() const { return parts_[1].words; }
 
   std::string limit_of_time() const {
-    const auto forever = input_named(query_, "forever");
+    const auto forever = input_named(c_, "forever");
     if (!forever || c_.values[*forever] != 0) return "";
     Case unlimited = c_;
     unlimited.values[*forever] = 1;
@@ -119,7 +119,7 @@ class Rules {
     if (meets(c_, Precondition::starts_outside)) return "";
     if (start_->obstacle.shape == Shape::aabox) return fmt::format("{} starts in {}", one(), other());
     if (exact_decision(at_rest())) return fmt::format("{} starts in touch with {} and moves away", one(), other());
-    if (start_->obstacle.shape == Shape::sphere && input_named(query_, "solid"))
+    if (start_->obstacle.shape == Shape::sphere && input_named(c_, "solid"))
       return fmt::format("{} does not move, and so never leaves {}", one(), other());
     return fmt::format("{} starts inside {}", one(), other());
   }

@@ -14,9 +14,9 @@ namespace {
 constexpr int far_below_rounding = 300;  // 2^-300: below the lowest bit of any two doubles of one scene
 
 /// The position inputs of the first operand that has any, so that the operand moves as a whole.
-std::vector<std::size_t> places_of_first_operand(const Query& query) {
+std::vector<std::size_t> places_of_first_operand(const Case& c) {
   std::vector<std::size_t> places;
-  for (const Operand& o : query.operands) {
+  for (const Operand& o : c.operands()) {
     for (const std::size_t at : o.positions) places.insert(places.end(), {at, at + 1, at + 2});
     if (!places.empty()) break;
   }
@@ -42,7 +42,7 @@ bool may_flip_next_door(const Case& c) {
 
 bool touches_exactly(const Case& question) {
   const Query& query = *question.query;
-  const std::vector<std::size_t> places = places_of_first_operand(query);
+  const std::vector<std::size_t> places = places_of_first_operand(question);
   const double scale = largest_place_or_size(question);
   if (!decides(query.kind) || places.empty() || scale == 0) return false;
   if (!may_flip_next_door(question)) return false;

@@ -97,6 +97,12 @@ std::string_view vector_of(std::string_view name) {
 class NumberFields {
  public:
   explicit NumberFields(std::span<const Field> fields) : fields_(fields), values_(fields.size()) {}
+  /// The inputs of a case; those of the given numbers that are counts are set.
+  NumberFields(const Query& query, std::span<const double> counts) : NumberFields(query.fields_of(counts)) {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (fields_[i].role == Role::count) values_[i] = counts[i];
+    }
+  }
 
   /// Reads "NAME = VALUE; NAME = VALUE" and replaces what an earlier call has set.
   void read(const std::vector<std::string_view>& assignments) {
@@ -121,6 +127,7 @@ class NumberFields {
     const auto first = std::find_if(fields_.begin(), fields_.end(), below);
     if (first == fields_.end()) throw BadLine(fmt::format("the query has no number \"{}\"", name));
     std::size_t at = std::size_t(first - fields_.begin());
+    if (fields_[at].role == Role::count) ++at;  // follows from the entries
     const std::size_t end = std::size_t(std::find_if_not(first, fields_.end(), below) - fields_.begin());
     for (const std::string_view item : split(value, ',')) {
       if (at == end) throw BadLine(fmt::format("{} has too many numbers", name));
@@ -153,6 +160,23 @@ class NumberFields {
   std::span<const Field> fields_;
   std::vector<std::optional<double>> values_;
 };
+
+/// Numbers of 0 with the counts of the lists: of the entries in the last of "LIST = (x, y, z), (x, y, z)".
+std::vector<double> counts_in(const Query& query, const std::vector<std::string_view>& assignments) {
+  std::vector<double> numbers(query.most_numbers());
+  for (std::size_t k = 0; k < query.lists.size(); ++k) {
+    const CountedInput& list = query.lists[k];
+    std::size_t count = list.least;
+    for (const std::string_view assignment : assignments) {
+      const std::size_t equals = std::min(assignment.find('='), assignment.size());
+      if (trimmed(assignment.substr(0, equals)) == list.name) count = split(assignment.substr(equals), ',').size();
+    }
+    if (count > list.most) throw BadLine(fmt::format("{} has more than {} entries", list.name, list.most));
+    numbers[query.lists.place_of_count(k, numbers)] = double(count);
+  }
+  numbers.resize(query.numbers_of(numbers));
+  return numbers;
+}
 
 /// The words of a yes and of a no, as reports show them.
 std::pair<std::string_view, std::string_view> decision_words(Kind kind) {
@@ -218,7 +242,7 @@ std::vector<Statement> statements(std::string_view text) {
 /// The state between the statements of a file.
 class Parser {
  public:
-  Parser(const Query& query, HandDerivedFile& into) : query_(query), common_(query.inputs), into_(into) {}
+  Parser(const Query& query, HandDerivedFile& into) : query_(query), into_(into) {}
 
   void statement(std::string_view text, const std::string& where) {
     const std::size_t space = text.find(' ');
@@ -228,8 +252,9 @@ class Parser {
       classes(rest);
     } else if (keyword == "common") {
       end_of_inputs();
-      common_ = NumberFields(query_.inputs);
-      common_.read(split(rest, ';'));
+      common_.clear();
+      if (query_.lists.empty()) inputs_of(split(rest, ';'));  // its errors are those of this line
+      common_ = rest;
     } else if (keyword == "given") {
       end_of_inputs();
       given(rest, where);
@@ -255,12 +280,23 @@ class Parser {
     given_where_ = where;
     inputs_.clear();
     stage_ = Stage::bad_inputs;
-    NumberFields all = common_;
-    all.read(split(text, ';'));
+    std::vector<std::string_view> assignments;
+    if (!common_.empty()) assignments = split(common_, ';');
+    const std::size_t own = assignments.size();
+    for (const std::string_view part : split(text, ';')) assignments.push_back(part);
+    const NumberFields all = inputs_of(assignments, own);
     if (const auto missing = all.missing()) throw BadLine(fmt::format("{} is missing", *missing));
     for (const std::optional<double>& x : all.values()) inputs_.push_back(*x);
     if (const auto invalid = query_.broken(inputs_)) throw BadLine(invalid->text());
     stage_ = Stage::inputs;
+  }
+  /// The assignments from `own` on replace those before.
+  NumberFields inputs_of(const std::vector<std::string_view>& assignments, std::size_t own = 0) const {
+    const auto middle = assignments.begin() + std::ptrdiff_t(own);
+    NumberFields inputs(query_, counts_in(query_, assignments));
+    inputs.read({assignments.begin(), middle});
+    inputs.read({middle, assignments.end()});
+    return inputs;
   }
   void answer(bool right, std::string_view text, const std::string& where) {
     if (stage_ == Stage::bad_inputs) return;
@@ -283,7 +319,7 @@ class Parser {
   }
 
   const Query& query_;
-  NumberFields common_;
+  std::string common_;
   HandDerivedFile& into_;
   enum class Stage { start, inputs, bad_inputs, answers } stage_ = Stage::start;
   std::string given_where_;

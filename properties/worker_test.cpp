@@ -605,9 +605,9 @@ TEST(Wire, CarriesAnswersWholeWhileOthersAreWritten) {
   std::vector<Answer> answers(wire::capacity);
   for (int round = 0; round < rounds; ++round) {
     asked->answer = halves;
-    asked->inputs = 1, asked->first = 0, asked->numbers_at = 0, asked->count = wire::capacity,
-    asked->batch = std::uint32_t(round);
+    asked->first = 0, asked->numbers_at = 0, asked->count = wire::capacity, asked->batch = std::uint32_t(round);
     for (std::size_t i = 0; i < wire::capacity; ++i) asked->values[i] = double(round) * 10'000 + double(i);
+    std::iota(asked->begins.begin(), asked->begins.end(), 0u);
     answered->done.store(0, std::memory_order_relaxed);
     ASSERT_EQ(write(to_host[1], "g", 1), 1);
     std::size_t got = 0, numbers = 0;

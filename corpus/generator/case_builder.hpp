@@ -42,17 +42,20 @@ class Random {
   std::uint64_t state_;
 };
 
-/// The inputs of a query, listed as the mutators need them. A vector is named by its first number.
+/// The inputs of a case, listed as the mutators need them. A vector is named by its first number.
 struct Plan {
-  explicit Plan(const Query& q);
+  explicit Plan(const Query& q) : Plan(q, {}) {}
+  /// Of cases whose lists have the counts among these values.
+  Plan(const Query& q, std::span<const double> values);
 
   const Query* query;
+  std::span<const Field> fields;
   std::uint64_t name_hash;
   std::vector<std::size_t> rotations;  ///< index of the x of each quaternion x, y, z, w
   std::vector<std::size_t> sizes;      ///< one entry per number
   std::vector<std::size_t> upper;      ///< one entry per number of an axis-aligned box's upper corner
-  std::vector<std::size_t> lone;       ///< numbers outside of vectors, sizes and rotations: times, flags, indices
-  std::vector<Operand> operands;       ///< those with a position, in order
+  std::vector<std::size_t> lone;  ///< numbers outside of vectors, sizes, rotations and lists: times, flags, indices
+  std::vector<Operand> operands;  ///< those with a position, in order
   std::vector<std::size_t> positions, velocities, directions, movable;  ///< movable: all three
   std::array<std::vector<std::size_t>, 16> numbers;                     ///< by role
 };

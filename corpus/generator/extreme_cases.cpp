@@ -136,8 +136,9 @@ class MovedCase {
 /// Lengths that all became zero no longer represent their scale.
 bool vanished(const Query& query, std::span<const double> before, std::span<const double> after) {
   bool had = false, has_any = false;
+  const std::vector<Field>& fields = query.fields_of(before);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const Role role = query.inputs[i].role;
+    const Role role = fields[i].role;
     if (role != Role::position && role != Role::size) continue;
     had = had || before[i] != 0;
     has_any = has_any || after[i] != 0;

@@ -21,13 +21,14 @@ std::uint64_t hash(std::string_view text) {  // FNV-1a
 
 bool is_movable(Role role) { return role == Role::position || role == Role::velocity || role == Role::direction; }
 
-/// The plan of a query, made once per thread.
-const Plan& plan_of(const Query& query) {
+/// The plan of a case, made once per thread for cases of the same query and counts.
+const Plan& plan_of(const Case& c) {
   static thread_local std::deque<Plan> plans;
+  const Field* fields = c.fields().data();
   for (const Plan& p : plans) {
-    if (p.query == &query) return p;
+    if (p.fields.data() == fields) return p;
   }
-  return plans.emplace_back(query);
+  return plans.emplace_back(*c.query, c.values);
 }
 
 /// Whether all numbers are within the magnitudes that generator.hpp states.
@@ -90,9 +91,12 @@ bool attempt(Case& c, const Plan& plan, Random& random) {
 
 }  // namespace
 
-Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) numbers[std::size_t(q.inputs[i].role)].push_back(i);
-  for (const InputMember& m : q.operands.members) {
+Plan::Plan(const Query& q, std::span<const double> values)
+    : query(&q), fields(q.fields_of(values)), name_hash(hash(q.name)) {
+  const Operands& parts = q.operands_of(values);
+  for (std::size_t i = 0; i < fields.size(); ++i) numbers[std::size_t(fields[i].role)].push_back(i);
+  for (const InputMember& m : parts.members) {
+    if (m.role == Role::count) continue;
     if (m.role == Role::rotation) {
       rotations.push_back(m.begin);
     } else if (m.is_vector() && is_movable(m.role)) {
@@ -103,7 +107,7 @@ Plan::Plan(const Query& q) : query(&q), name_hash(hash(q.name)) {
       for (std::size_t k = 0; k < m.count; ++k) list.push_back(m.begin + k);
     }
   }
-  for (const Operand& operand : q.operands) {
+  for (const Operand& operand : parts) {
     if (!operand.positions.empty()) operands.push_back(operand);
     if (operand.shape == Shape::aabox)
       upper.insert(upper.end(), {operand.begin + 3, operand.begin + 4, operand.begin + 5});
@@ -139,13 +143,33 @@ void CaseBuilder::repair() {
   }
 }
 
+namespace {
+
+/// A few entries are more often drawn than many: they show the same branches, and are easier to read.
+std::size_t draw_count(const CountedInput& list, Random& random) {
+  const std::size_t some = std::min(list.most, list.least + 8);
+  return list.least + random.below((random.one_in(4) ? list.most : some) - list.least + 1);
+}
+
+/// Zeros, with a drawn count for each list.
+void draw_counts(Case& c, Random& random) {
+  const CountedInputs& lists = c.query->lists;
+  c.values.assign(c.query->most_numbers(), 0);
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    c.values[lists.place_of_count(k, c.values)] = double(draw_count(lists[k], random));
+  c.values.resize(c.query->numbers_of(c.values));
+}
+
+}  // namespace
+
 void generate(Case& into, const Query& query, Scalar scalar, std::uint64_t seed, std::uint64_t index) {
-  const Plan& plan = plan_of(query);
   // Each part passes through the mixer, so that streams of neighbouring seeds are unrelated.
-  Random random(Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar)).bits() ^ Random(index).bits());
+  Random random(Random(Random(seed).bits() ^ hash(query.name) ^ std::uint64_t(scalar)).bits() ^ Random(index).bits());
   into.query = &query;
   into.scalar = scalar;
-  into.values.resize(query.inputs.size());
+  into.values.resize(query.numbers_of({}));
+  if (!query.lists.empty()) draw_counts(into, random);
+  const Plan& plan = plan_of(into);
   into.origin = "generator";
   into.seed = seed;
   into.index = index;
@@ -162,13 +186,45 @@ Case generate(const Query& query, Scalar scalar, std::uint64_t seed, std::uint64
   return c;
 }
 
+namespace {
+
+constexpr MutatorName entry_mutators[] = {
+    {"drop-vertex", "a shape of any number of vertices has one less", false},
+    {"repeat-vertex", "it has a vertex twice", false},
+    {"add-vertex", "it has one more, on the line through two others or beside one", false},
+};
+
+/// Moves the entry of a list to a place on the line through another entry, or a little away.
+void move_entry(Case& c, std::size_t list, std::size_t entry, std::size_t other, Random& random) {
+  const std::size_t numbers = c.query->lists[list].numbers;
+  double* const to = &c.values[c.query->lists.place_of_count(list, c.values) + 1 + entry * numbers];
+  const double* const along = to + (std::ptrdiff_t(other) - std::ptrdiff_t(entry)) * std::ptrdiff_t(numbers);
+  const double share = 0.125 * random.between(-8, 16);
+  const bool is_alone = other == entry;
+  for (std::size_t k = 0; k < numbers; ++k)
+    to[k] = rounded_to(c.scalar, is_alone ? to[k] + random.uniform(-1, 1) : to[k] + share * (along[k] - to[k]));
+}
+
+/// Changes the count of a list.
+void change_entries(Case& c, Random& random) {
+  const std::size_t list = random.below(c.query->lists.size());
+  const std::size_t count = c.query->lists.count_of(list, c.values), entry = random.below(count);
+  const std::size_t change = random.below(std::size(entry_mutators));
+  if (change == 0 ? !erase_entry(c, list, entry) : !repeat_entry(c, list, entry)) return;
+  if (change == 2) move_entry(c, list, entry + 1, random.below(count + 1), random);
+  c.moves.push_back(entry_mutators[change].name);
+}
+
+}  // namespace
+
 void mutate(Case& c, std::uint64_t seed) {
   Random random(seed);
   const std::vector<double> before = c.values;
   const std::size_t moves_before = c.moves.size();
   constexpr int attempts = 16;
   for (int i = 0; i < attempts; ++i) {
-    CaseBuilder builder(plan_of(*c.query), c.scalar, random, c.values);
+    if (!c.query->lists.empty() && random.one_in(2)) change_entries(c, random);
+    CaseBuilder builder(plan_of(c), c.scalar, random, c.values);
     apply(builder, choose(random, random.between(1, 3), mutators().size()), c.moves);
     if (c.moves.size() > moves_before && !c.query->broken(c.values)) return;
     c.values = before;
@@ -193,6 +249,9 @@ bool has_extreme_mutator(const Case& c) {
 
 std::string_view known_mutator(std::string_view name) {
   for (const Mutator& m : mutators()) {
+    if (m.name == name) return m.name;
+  }
+  for (const MutatorName& m : entry_mutators) {
     if (m.name == name) return m.name;
   }
   return {};

@@ -27,7 +27,7 @@ struct MutatorName {
 };
 /// Every mutator, in the order of application.
 std::span<const MutatorName> mutator_names();
-/// The table's own copy of the name; empty if there is no such mutator.
+/// The own copy of the name, also of a mutator of lists, which mutate() applies; empty if there is no such mutator.
 std::string_view known_mutator(std::string_view name);
 
 /// Whether one of the case's mutators is an extreme one.

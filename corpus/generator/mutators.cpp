@@ -232,7 +232,7 @@ bool aimed_at_corner(CaseBuilder& d) {
 bool some_direction(CaseBuilder& d, std::size_t but, Numbers& out) {
   const auto& list = d.plan.movable;
   const std::size_t v = list[d.random.below(list.size())];
-  if (d.plan.query->inputs[v].role != Role::position) {
+  if (d.plan.fields[v].role != Role::position) {
     out = d.vector(v);
     return v != but;
   }
@@ -586,12 +586,12 @@ bool scaled_lengths(CaseBuilder& d) {
 }
 
 bool ulp_nudge(CaseBuilder& d) {
-  const std::size_t count = d.plan.query->inputs.size();
+  const std::size_t count = d.plan.fields.size();
   bool any = false;
   for (int i = d.random.between(1, 3); i > 0; --i) {
     const std::size_t at = d.random.below(count);
-    const Role role = d.plan.query->inputs[at].role;
-    if (role == Role::flag || role == Role::index || (d[at] == 0 && d.random.one_in(2))) continue;
+    const Role role = d.plan.fields[at].role;
+    if (is_discrete(role) || (d[at] == 0 && d.random.one_in(2))) continue;
     const int ulps = d.random.between(1, 3);
     d.step_ulps(at, d.random.one_in(2) ? ulps : -ulps);
     if (role == Role::size && d[at] < 0) d.set(at, 0);
@@ -602,16 +602,16 @@ bool ulp_nudge(CaseBuilder& d) {
 
 /// A number that may have any value: a component of a position, velocity, direction or rotation.
 bool some_signed_number(CaseBuilder& d, std::size_t& at) {
-  at = d.random.below(d.plan.query->inputs.size());
-  const Role role = d.plan.query->inputs[at].role;
+  at = d.random.below(d.plan.fields.size());
+  const Role role = d.plan.fields[at].role;
   return role == Role::position || role == Role::velocity || role == Role::direction || role == Role::rotation;
 }
 
 /// A relative change of 1e-15 ... 1e-3.
 bool relative_nudge(CaseBuilder& d) {
-  const std::size_t at = d.random.below(d.plan.query->inputs.size());
-  const Role role = d.plan.query->inputs[at].role;
-  if (role == Role::flag || role == Role::index || d[at] == 0) return false;
+  const std::size_t at = d.random.below(d.plan.fields.size());
+  const Role role = d.plan.fields[at].role;
+  if (is_discrete(role) || d[at] == 0) return false;
   d.scale(at, 1 + tiny(d, 3, 15));
   d.repair();
   return true;
@@ -619,9 +619,9 @@ bool relative_nudge(CaseBuilder& d) {
 
 bool negative_zero(CaseBuilder& d) {
   bool any = false;
-  for (std::size_t i = 0; i < d.plan.query->inputs.size(); ++i) {
-    const Role role = d.plan.query->inputs[i].role;
-    if (role == Role::flag || role == Role::index || d[i] != 0 || std::signbit(d[i]) || d.random.one_in(3)) continue;
+  for (std::size_t i = 0; i < d.plan.fields.size(); ++i) {
+    const Role role = d.plan.fields[i].role;
+    if (is_discrete(role) || d[i] != 0 || std::signbit(d[i]) || d.random.one_in(3)) continue;
     d.set(i, -0.0);
     any = true;
   }

@@ -146,7 +146,7 @@ double draw_offset(CaseBuilder& d, std::size_t i) {
 }
 
 double draw_lone(CaseBuilder& d, std::size_t i) {
-  switch (d.plan.query->inputs[i].role) {
+  switch (d.plan.fields[i].role) {
     case Role::flag: return double(d.random.below(2));
     case Role::index: return draw_index(d);
     case Role::time: return d.random.uniform(0, 2);

@@ -25,6 +25,22 @@ bool nearly_parallel_directions(const Case& c) {
   return cx * cx + cy * cy + cz * cz <= beyond_rounding * (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz);
 }
 
+struct Range {
+  std::size_t begin, count;
+};
+
+/// Exchanges two ranges of numbers, which may differ in their lengths; `one` comes first.
+void exchange_ranges(std::vector<double>& values, Range one, Range two) {
+  const auto at = [&](std::size_t i) { return values.begin() + std::ptrdiff_t(i); };
+  std::vector<double> exchanged(at(0), at(one.begin));
+  const auto add = [&](std::size_t begin, std::size_t end) { exchanged.insert(exchanged.end(), at(begin), at(end)); };
+  add(two.begin, two.begin + two.count);
+  add(one.begin + one.count, two.begin);
+  add(one.begin, one.begin + one.count);
+  add(two.begin + two.count, values.size());
+  values = std::move(exchanged);
+}
+
 }  // namespace
 
 std::optional<FollowUps> turned_corners(const Case& c, std::uint64_t) {
@@ -75,9 +91,9 @@ std::optional<FollowUps> swapped(const Case& c, std::uint64_t) {
   if (allowed == Exchange::unless_nearly_parallel && nearly_parallel_directions(c)) return std::nullopt;
   Case other = c;
   const Operand &one = c.operands()[0], &two = c.operands()[1];
-  std::swap_ranges(&other.values[one.begin], &other.values[one.begin] + one.count, &other.values[two.begin]);
+  exchange_ranges(other.values, {one.begin, one.count}, {two.begin, two.count});
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (c.role(i) == Role::index) other.values[i] = swapped_box_axis(int(c.values[i]));
+    if (other.role(i) == Role::index) other.values[i] = swapped_box_axis(int(other.values[i]));
   }
   return counterpart(std::move(other), [&query](const Answer& own) {
     Answer a = own;

@@ -23,6 +23,7 @@ bool add_loose(QueryPlan& plan, const InputMember& m) {
 std::optional<QueryPlan> query_plan(const Query& query) {
   QueryPlan plan;
   if (query.kind == Kind::direction) return std::nullopt;  // asked after a contact, about its place
+  if (!query.lists.empty()) return std::nullopt;           // a scene has no shape of any number of vertices
   for (const InputMember& m : query.operands.members) {
     if (!m.operand && !add_loose(plan, m)) return std::nullopt;
   }

@@ -56,7 +56,7 @@ std::string_view name_of_part(const Field& f, PartKind kind) {
 
 /// The part of that kind that contains input `at`.
 Range part_around(std::span<const Field> fields, std::size_t at, PartKind kind) {
-  if (kind == PartKind::number) return {at, 1};
+  if (kind == PartKind::number || fields[at].role == Role::count) return {at, 1};
   const auto belongs = [&](std::size_t i) { return name_of_part(fields[i], kind) == name_of_part(fields[at], kind); };
   std::size_t begin = at, end = at + 1;
   while (begin > 0 && belongs(begin - 1)) --begin;
@@ -64,18 +64,23 @@ Range part_around(std::span<const Field> fields, std::size_t at, PartKind kind) 
   return {begin, end - begin};
 }
 
-bool have_same_roles(std::span<const Field> fields, Range a, Range b) {
-  return a.count == b.count && std::equal(&fields[a.begin], &fields[a.begin] + a.count, &fields[b.begin],
+bool has_count(std::span<const Field> fields, Range part) {
+  return std::any_of(&fields[part.begin], &fields[part.begin] + part.count,
+                     [](const Field& f) { return f.role == Role::count; });
+}
+
+bool have_same_roles(std::span<const Field> fields, Range a, std::span<const Field> others, Range b) {
+  return a.count == b.count && std::equal(&fields[a.begin], &fields[a.begin] + a.count, &others[b.begin],
                                           [](const Field& f, const Field& g) { return f.role == g.role; });
 }
 
 /// Another part of the kind that has the same roles; the part itself if the one drawn has not.
 Range draw_like(Random& random, std::span<const Field> fields, Range part, PartKind kind) {
   const Range drawn = part_around(fields, random.below(fields.size()), kind);
-  return have_same_roles(fields, part, drawn) ? drawn : part;
+  return have_same_roles(fields, part, fields, drawn) ? drawn : part;
 }
 
-bool can_vary(Role role) { return role != Role::flag && role != Role::index; }
+bool can_vary(Role role) { return !is_discrete(role); }
 
 /// Finds where the decision flips as one number of the case varies.
 class FlipSearch {
@@ -173,12 +178,15 @@ const NumbersByRole& stored_numbers(const Query& query) {
 
 bool cross(Case& into, const Case& other, std::uint64_t seed) {
   if (into.query != other.query) return false;
-  const std::span<const Field> fields = into.fields();
+  const std::span<const Field> fields = into.fields(), others = other.fields();
   Random random(seed);
   return attempt_change(into, [&] {
     const auto kind = PartKind(random.below(3));
     const Range to = part_around(fields, random.below(fields.size()), kind);
     const Range from = random.one_in(4) ? draw_like(random, fields, to, kind) : to;
+    // Lists of different lengths have no place in common.
+    if (from.begin + from.count > others.size() || has_count(fields, to)) return;
+    if (!into.query->lists.empty() && !have_same_roles(fields, to, others, from)) return;
     for (std::size_t i = 0; i < to.count; ++i) {
       into.values[to.begin + i] = rounded_to(into.scalar, other.values[from.begin + i]);
     }
@@ -208,6 +216,7 @@ bool take_number_of_stored_case(Case& c, std::uint64_t seed) {
   Random random(seed);
   return attempt_change(c, [&] {
     const std::size_t i = random.below(c.values.size());
+    if (c.role(i) == Role::count) return;
     const auto numbers = stored.find(c.role(i));
     if (numbers != stored.end()) c.values[i] = rounded_to(c.scalar, random.pick(numbers->second));
   });

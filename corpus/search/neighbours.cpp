@@ -12,7 +12,7 @@ namespace {
 
 int digits_of(Scalar s) { return s == Scalar::float32 ? 24 : 53; }
 
-bool may_move(Role role) { return role != Role::flag && role != Role::index; }
+bool may_move(Role role) { return !is_discrete(role); }
 
 bool is_valid(const Case& c) {
   return std::all_of(c.values.begin(), c.values.end(), [](double x) { return std::isfinite(x); }) &&
@@ -53,9 +53,9 @@ double changed(const Case& c, std::size_t i, Random& random) {
 }
 
 /// The index of a number that may move; the inputs of every query have one.
-std::size_t number_that_may_move(const Query& query, Random& random) {
-  std::size_t i = random.below(query.inputs.size());
-  while (!may_move(query.inputs[i].role)) i = (i + 1) % query.inputs.size();
+std::size_t number_that_may_move(const Case& c, Random& random) {
+  std::size_t i = random.below(c.values.size());
+  while (!may_move(c.role(i))) i = (i + 1) % c.values.size();
   return i;
 }
 
@@ -67,7 +67,7 @@ Case neighbour(const Case& of, int changes, std::uint64_t seed) {
   Case c = of;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     for (int k = 0; k < changes; ++k) {
-      const std::size_t i = number_that_may_move(*c.query, random);
+      const std::size_t i = number_that_may_move(c, random);
       c.values[i] = changed(c, i, random);
     }
     if (c.values != of.values && is_valid(c)) return c;
@@ -78,6 +78,7 @@ Case neighbour(const Case& of, int changes, std::uint64_t seed) {
 
 std::optional<Case> beyond(std::span<const double> before, const Case& here, double factor) {
   Case c = here;
+  if (before.size() != here.values.size()) return std::nullopt;  // other counts of a list
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (!may_move(c.role(i))) continue;
     c.values[i] = rounded_to(c.scalar, here.values[i] + factor * (here.values[i] - before[i]));

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace nearmiss {
 
@@ -19,14 +20,17 @@ int cost(double x) {
   return 6 * significant + 2 * std::abs(exponent - significant) + (x < 0 ? 1 : 0);
 }
 
-long cost(const Case& c) {
+/// The count of numbers decides first: a shape of fewer vertices is simpler, whatever their numbers.
+using Cost = std::pair<std::size_t, long>;
+
+Cost cost(const Case& c) {
   std::set<double> distinct;
   long sum = 0;
   for (double x : c.values) {
     distinct.insert(std::abs(x));
     sum += cost(x);
   }
-  return 4 * sum + long(distinct.size());
+  return {c.values.size(), 4 * sum + long(distinct.size())};
 }
 
 /// Simpler numbers than x, the simplest first. Rounding may lead beyond the range of the scalar.
@@ -57,9 +61,10 @@ class Shrinker {
   }
 
  private:
-  /// True if any number became simpler.
+  /// True if anything became simpler.
   bool pass() {
-    const long before = cost_;
+    const Cost before = cost_;
+    drop_entries();
     scale_lengths();
     shift_positions();
     round_lengths();
@@ -74,7 +79,7 @@ class Shrinker {
     if (questions_ <= 0 || !exact) return false;
     Case c = best_;
     c.values = values;
-    const long own = cost(c);
+    const Cost own = cost(c);
     if (own >= cost_ || c.query->broken(c.values)) return false;
     --questions_;
     if (!keeps_(c)) return false;
@@ -87,7 +92,17 @@ class Shrinker {
     values[i] = x;
     return accept(values);
   }
+  /// Leaves out the entries of lists that the finding does not need, the last ones first.
+  void drop_entries() {
+    for (std::size_t list = 0; list < best_.query->lists.size(); ++list) {
+      for (std::size_t entry = best_.query->lists.count_of(list, best_.values); entry-- > 0;) {
+        Case c = best_;
+        if (erase_entry(c, list, entry)) (void)accept(c.values);
+      }
+    }
+  }
   void simplify(std::size_t i) {
+    if (best_.role(i) == Role::count) return;
     for (double x : simpler(best_.values[i])) {
       if (accept(i, x)) return;
     }
@@ -153,7 +168,7 @@ class Shrinker {
   }
 
   Case best_;
-  long cost_;
+  Cost cost_;
   const std::function<bool(const Case&)>& keeps_;
   int questions_;
 };

@@ -7,9 +7,9 @@
 
 namespace nearmiss {
 
-/// The simplest case found for which `keeps` holds: zeros, small integers, few significant bits, few distinct numbers.
-/// `keeps(c)` must hold. It is called at most `questions` times, always with valid cases that are exact in their
-/// scalar. Deterministic.
+/// The simplest case found for which `keeps` holds: few entries in lists, and then zeros, small integers, few
+/// significant bits, few distinct numbers. `keeps(c)` must hold. It is called at most `questions` times, always with
+/// valid cases that are exact in their scalar. Deterministic.
 Case shrink(const Case& c, const std::function<bool(const Case&)>& keeps, int questions = 20000);
 
 }  // namespace nearmiss

@@ -25,6 +25,11 @@ struct Child {
   bool leaf;  ///< the component ends the name
 };
 
+/// A list of counted entries: its count, and its entries by their numbers.
+bool is_counted_list(std::span<const Field> fields, std::span<const Child> of) {
+  return !of.empty() && of.front().leaf && fields[of.front().begin].role == Role::count;
+}
+
 /// Splits fields whose names share their first `prefix` characters.
 std::vector<Child> children(std::span<const Field> fields, std::size_t prefix) {
   std::vector<Child> found;
@@ -61,13 +66,14 @@ ordered_json number_to_json(Role role, double value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
   if (role == Role::flag) return value != 0;
-  if (role == Role::index) return static_cast<std::int64_t>(value);
+  if (is_discrete(role)) return static_cast<std::int64_t>(value);
   return value;
 }
 
 ordered_json nested(std::span<const Field> fields, std::span<const double> values, std::size_t prefix) {
-  const std::vector<Child> parts = children(fields, prefix);
-  const bool array = is_array(parts);
+  std::vector<Child> parts = children(fields, prefix);
+  const bool is_list = is_counted_list(fields, parts), array = is_list || is_array(parts);
+  if (is_list) parts.erase(parts.begin());  // an array has its count
   ordered_json j = array ? ordered_json::array() : ordered_json::object();
   for (const Child& c : parts) {
     ordered_json value = c.leaf ? number_to_json(fields[c.begin].role, values[c.begin])
@@ -93,6 +99,13 @@ std::string cut(const std::string& s) { return s.size() > 40 ? s.substr(0, 37) +
 
 bool has_control_characters(std::string_view s) {
   return std::any_of(s.begin(), s.end(), [](char c) { return (0 <= c && c < 0x20) || c == 0x7F; });
+}
+
+/// The list whose count is the last of these numbers.
+const CountedInput& list_counted_by_last(const Query& query, std::span<const double> numbers) {
+  std::size_t k = 0;
+  while (query.lists.place_of_count(k, numbers) + 1 != numbers.size()) ++k;
+  return query.lists[k];
 }
 
 RoundedNumbers rounded;
@@ -186,7 +199,9 @@ class Reader {
   double number(const json& j, const std::string& path, Role role, Scalar scalar) const;
   double in_scalar(double x, const std::string& path, Scalar scalar) const;
   void expect_items(const json& j, const std::string& path, std::span<const Child> parts) const;
-  std::vector<double> values(const json& j, std::span<const Field> fields, Scalar scalar) const;
+  std::vector<double> values(const json& j, const Query& query, Scalar scalar) const;
+  std::vector<double> counts(const json& inputs, const Query& query) const;
+  void expect_count(std::span<const double> numbers, const Query& query, const std::string& path) const;
   void inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix, Scalar scalar,
               std::vector<double>& values) const;
   const Query* query(std::string_view name) const;
@@ -203,7 +218,7 @@ double Reader::number(const json& j, const std::string& path, Role role, Scalar 
     if (!j.is_boolean()) fail(path, j, "true or false");
     return j.get<bool>() ? 1 : 0;
   }
-  if (role == Role::index) {
+  if (is_discrete(role)) {
     if (!j.is_number_integer()) fail(path, j, "an integer");
     return j.get<double>();
   }
@@ -240,28 +255,73 @@ void Reader::expect_items(const json& j, const std::string& path, std::span<cons
 }
 
 /// The numbers in the order of the query; a flag may be 0 or 1.
-std::vector<double> Reader::values(const json& j, std::span<const Field> fields, Scalar scalar) const {
+std::vector<double> Reader::values(const json& j, const Query& query, Scalar scalar) const {
   if (!j.is_array()) fail("values", j, "an array");
-  if (j.size() != fields.size())
-    fail("values", fmt::format("has {} numbers: it must have {}, the inputs of the query", j.size(), fields.size()));
   std::vector<double> numbers;
-  for (const Field& f : fields) {
+  const auto expect_size = [&] {
+    const std::size_t size = query.numbers_of(numbers);
+    if (j.size() == size) return;
+    const char* of = query.lists.empty() ? "the inputs of the query" : "the inputs of the query with these counts";
+    fail("values", fmt::format("has {} numbers: it must have {}, {}", j.size(), size, of));
+  };
+  if (query.lists.empty()) expect_size();
+  while (numbers.size() < query.numbers_of(numbers)) {
+    if (numbers.size() == j.size()) expect_size();
+    const Field& f = query.fields_of(numbers)[numbers.size()];
     const json& x = j[numbers.size()];
     const std::string path = fmt::format("values[{}], {},", numbers.size(), f.name);
     const bool flag = f.role == Role::flag && x.is_number();
     if (flag && x != 0 && x != 1) fail(path, x, "true, false, 0 or 1");
-    const bool whole =
-        f.role == Role::index && x.is_number_float() && x.get<double>() == std::nearbyint(x.get<double>());
+    const bool whole = f.role != Role::flag && is_discrete(f.role) && x.is_number_float() &&
+                       x.get<double>() == std::nearbyint(x.get<double>());
     numbers.push_back(flag || whole ? x.get<double>() : number(x, path, f.role, scalar));
+    if (f.role == Role::count) expect_count(numbers, query, path);
   }
+  expect_size();
+  return numbers;
+}
+
+/// The last number is a count that its list can have.
+void Reader::expect_count(std::span<const double> numbers, const Query& query, const std::string& path) const {
+  const CountedInput& list = list_counted_by_last(query, numbers);
+  const double count = numbers.back();
+  if (count >= double(list.least) && count <= double(list.most)) return;
+  fail(path, fmt::format("is {}: it must be from {} to {}", count, list.least, list.most));
+}
+
+/// Numbers of 0 with the counts of the lists in the inputs. Of a list that is no array, the fewest: inputs() tells then
+/// what is wrong with it.
+std::vector<double> Reader::counts(const json& inputs, const Query& query) const {
+  std::vector<double> numbers(query.most_numbers());
+  for (std::size_t k = 0; k < query.lists.size(); ++k) {
+    const CountedInput& list = query.lists[k];
+    const json* j = &inputs;
+    for (std::string_view rest = list.name; j != nullptr && !rest.empty();) {
+      const std::string_view name = rest.substr(0, rest.find('.'));
+      const auto found = j->is_object() ? j->find(name) : j->end();
+      j = j->is_object() && found != j->end() ? &*found : nullptr;
+      rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+    }
+    const std::size_t count = j != nullptr && j->is_array() ? j->size() : list.least;
+    if (count < list.least || count > list.most) {
+      fail("inputs." + list.name, fmt::format("has {} entries: it must have {} to {}", count, list.least, list.most));
+    }
+    numbers[query.lists.place_of_count(k, numbers)] = double(count);
+  }
+  numbers.resize(query.numbers_of(numbers));
   return numbers;
 }
 
 void Reader::inputs(const json& j, const std::string& path, std::span<const Field> fields, std::size_t prefix,
                     Scalar scalar, std::vector<double>& values) const {
-  const std::vector<Child> parts = children(fields, prefix);
+  std::vector<Child> parts = children(fields, prefix);
+  const bool is_list = is_counted_list(fields, parts);
+  if (is_list) {
+    parts.erase(parts.begin());
+    values.push_back(double(parts.size()));
+  }
   const bool is_vector = is_quaternion(parts) || are_numbers(parts, {"x", "y", "z"});
-  const bool array = is_vector ? !j.is_object() : is_array(parts);
+  const bool array = is_list || (is_vector ? !j.is_object() : is_array(parts));
   if (array) {
     expect_items(j, path, parts);
   } else {
@@ -387,8 +447,6 @@ class StrictSax : public json::json_sax_t {
   std::vector<Level> levels_;
 };
 
-bool is_small(Role role) { return role == Role::flag || role == Role::index; }
-
 template <class Bits>
 void append_bits(std::vector<std::uint8_t>& bytes, Bits bits) {
   for (std::size_t i = 0; i < sizeof(Bits); ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
@@ -401,22 +459,24 @@ Bits take_bits(std::span<const std::uint8_t>& bytes) {
   return bits;
 }
 double take_number(std::span<const std::uint8_t>& bytes, Role role, Scalar scalar) {
-  if (is_small(role)) {
+  if (is_discrete(role)) {
     const auto b = static_cast<std::int8_t>(take_bits<std::uint8_t>(bytes));
     return role == Role::flag ? b & 1 : b;
   }
   if (scalar == Scalar::float32) return std::bit_cast<float>(take_bits<std::uint32_t>(bytes));
   return std::bit_cast<double>(take_bits<std::uint64_t>(bytes));
 }
-std::size_t bytes_of(const Query& query, Scalar scalar) {
-  std::size_t n = 0;
-  for (const Field& f : query.inputs) n += is_small(f.role) ? 1 : scalar == Scalar::float32 ? 4 : 8;
-  return n;
+std::size_t bytes_of(Role role, Scalar scalar) { return is_discrete(role) ? 1 : scalar == Scalar::float32 ? 4 : 8; }
+
+/// A count that the list can have, for each byte another one of them as far as there are.
+double count_of_byte(double byte, const CountedInput& list) {
+  if (byte >= double(list.least) && byte <= double(list.most)) return byte;
+  return double(list.least + std::size_t(std::abs(byte)) % (list.most - list.least + 1));
 }
 
 std::string literal(double value, Role role, Scalar scalar) {
   if (role == Role::flag) return value != 0 ? "true" : "false";
-  if (role == Role::index) return fmt::format("{:.0f}", value);
+  if (is_discrete(role)) return fmt::format("{:.0f}", value);
   std::string text = scalar == Scalar::float32 ? fmt::format("{}", float(value)) : fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return scalar == Scalar::float32 ? text + "f" : text;
@@ -424,8 +484,9 @@ std::string literal(double value, Role role, Scalar scalar) {
 
 std::string cpp_nested(const Case& c, std::size_t begin, std::size_t end, std::size_t prefix) {
   const std::span<const Field> fields = std::span(c.fields()).subspan(begin, end - begin);
-  const std::vector<Child> parts = children(fields, prefix);
-  const bool array = is_array(parts);
+  std::vector<Child> parts = children(fields, prefix);
+  const bool is_list = is_counted_list(fields, parts), array = is_list || is_array(parts);
+  if (is_list) parts.erase(parts.begin());
   std::string text;
   for (const Child& p : parts) {
     if (!text.empty()) text += ", ";
@@ -433,6 +494,7 @@ std::string cpp_nested(const Case& c, std::size_t begin, std::size_t end, std::s
     const std::size_t at = begin + p.begin;
     text += p.leaf ? literal(c.values[at], c.role(at), c.scalar) : cpp_nested(c, at, begin + p.end, below(prefix, p));
   }
+  if (is_list) return fmt::format("{{.count = {}, .entries = {{{{{}}}}}}}", parts.size(), text);
   return "{" + text + "}";
 }
 
@@ -490,11 +552,14 @@ Case case_from_json(const json& j, const std::string& where, Decimals decimals) 
   c.query = reader.query(query.get_ref<const std::string&>());
   c.scalar = reader.scalar(reader.text(reader.member(j, "", "scalar"), "scalar"));
   if (!j.contains("values")) {
-    reader.inputs(reader.member(j, "", "inputs"), "inputs", c.fields(), 0, c.scalar, c.values);
+    const json& inputs = reader.member(j, "", "inputs");
+    const std::vector<Field>& fields =
+        c.query->lists.empty() ? c.query->inputs : c.query->fields_of(reader.counts(inputs, *c.query));
+    reader.inputs(inputs, "inputs", fields, 0, c.scalar, c.values);
   } else if (j.contains("inputs")) {
     reader.fail("values", "is given beside inputs: one of them must be left out");
   } else {
-    c.values = reader.values(j["values"], c.fields(), c.scalar);
+    c.values = reader.values(j["values"], *c.query, c.scalar);
   }
   if (j.contains("origin")) reader.origin(j["origin"], c);
   return checked_case(std::move(c), where);
@@ -506,7 +571,7 @@ Case case_from_values(std::string_view query, std::string_view scalar, std::span
   Case c;
   c.query = reader.query(query);
   c.scalar = reader.scalar(scalar);
-  c.values = reader.values(json(values), c.fields(), c.scalar);
+  c.values = reader.values(json(values), *c.query, c.scalar);
   return checked_case(std::move(c), where);
 }
 
@@ -532,10 +597,10 @@ std::string case_to_cpp(const Case& c) {
 
 std::vector<std::uint8_t> case_to_bytes(const Case& c) {
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(1 + bytes_of(*c.query, c.scalar));
+  bytes.reserve(1 + 8 * c.values.size());
   bytes.push_back(c.scalar == Scalar::float32 ? 0 : 1);
   for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (is_small(c.role(i))) {
+    if (is_discrete(c.role(i))) {
       bytes.push_back(static_cast<std::uint8_t>(static_cast<std::int8_t>(c.values[i])));
     } else if (c.scalar == Scalar::float32) {
       append_bits(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(c.values[i])));
@@ -553,9 +618,13 @@ std::optional<Case> case_from_bytes(const Query& query, std::span<const std::uin
   c.scalar = (bytes[0] & 1) == 0 ? Scalar::float32 : Scalar::float64;
   c.origin = "bytes";
   bytes = bytes.subspan(1);
-  if (bytes.size() < bytes_of(query, c.scalar)) return std::nullopt;
   c.values.reserve(query.inputs.size());
-  for (const Field& f : query.inputs) c.values.push_back(take_number(bytes, f.role, c.scalar));
+  while (c.values.size() < query.numbers_of(c.values)) {
+    const Role role = query.fields_of(c.values)[c.values.size()].role;
+    if (bytes.size() < bytes_of(role, c.scalar)) return std::nullopt;
+    c.values.push_back(take_number(bytes, role, c.scalar));
+    if (role == Role::count) c.values.back() = count_of_byte(c.values.back(), list_counted_by_last(query, c.values));
+  }
   if (query.broken(c.values)) return std::nullopt;
   return c;
 }

@@ -39,11 +39,12 @@ std::string rounded_numbers_text();
 /// {"query", "scalar", "inputs": {nested by field; vectors as [x, y, z]}, "origin": {"from", "seed", "index",
 /// "moves"}}. Numbers are decimals that read back as the same double; -0.0 keeps its sign.
 nlohmann::ordered_json case_to_json(const Case& c);
-/// The inputs are members, in which a vector is [x, y, z] or {x, y, z} and a quaternion [x, y, z, w] or {x, y, z, w};
-/// or "values", all numbers in the order of the query, in place of "inputs". Throws BadInput, with `where` (a file
-/// name) in the message, for an unknown query, a missing, surplus or mistyped field, a number beyond the range of the
-/// scalar or, with Decimals::exact, one that the scalar cannot hold, and for inputs that break a rule. "origin" may be
-/// missing; "note", "expected" and "worst" (see store.hpp) are allowed and ignored.
+/// The inputs are members, in which a vector is [x, y, z] or {x, y, z}, a quaternion [x, y, z, w] or {x, y, z, w}, and
+/// a list of counted entries an array of them; or "values", all numbers in the order of the query, in place of
+/// "inputs". Throws BadInput, with `where` (a file name) in the message, for an unknown query, a missing, surplus or
+/// mistyped field, a number beyond the range of the scalar or, with Decimals::exact, one that the scalar cannot hold,
+/// and for inputs that break a rule. "origin" may be missing; "note", "expected" and "worst" (see store.hpp) are
+/// allowed and ignored.
 Case case_from_json(const nlohmann::json& j, const std::string& where, Decimals decimals = Decimals::exact);
 /// The same for a query and a scalar by their names, and numbers in the order of the query.
 Case case_from_values(std::string_view query, std::string_view scalar, std::span<const double> values,
@@ -63,11 +64,11 @@ Case read_case(const std::filesystem::path& file, Decimals decimals = Decimals::
 /// C++ to paste into a test: the query's inputs by name, exactly, and a call of `Fast`.
 std::string case_to_cpp(const Case& c);
 
-/// One byte for the scalar, then each number in little-endian IEEE 754 of that scalar; flags and
-/// indices as one signed byte.
+/// One byte for the scalar, then each number in little-endian IEEE 754 of that scalar; flags, indices and counts as one
+/// signed byte.
 std::vector<std::uint8_t> case_to_bytes(const Case& c);
 /// Empty if there are too few bytes or the inputs break a rule. Ignores surplus bytes, and all but the lowest bit of
-/// the scalar and of a flag.
+/// the scalar and of a flag; a count that its list cannot have stands for one that it can.
 std::optional<Case> case_from_bytes(const Query& query, std::span<const std::uint8_t> bytes);
 
 }  // namespace nearmiss

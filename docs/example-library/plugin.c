@@ -5,26 +5,26 @@
 #include "nearmiss_plugin.h"
 #include "skim.h"
 
-static void to_floats(const double* from, int count, float* to) {
-  for (int i = 0; i < count; ++i) to[i] = (float)from[i]; /* exact: Skim is asked nothing but floats */
+static void to_floats(const double* from, size_t count, float* to) {
+  for (size_t i = 0; i < count; ++i) to[i] = (float)from[i]; /* exact: Skim is asked nothing but floats */
 }
 
 /* sphere1.center, sphere1.radius, sphere2.center, sphere2.radius */
-static int sphere_sphere_overlap(const double* inputs, nearmiss_answer* answer) {
+static int sphere_sphere_overlap(const double* inputs, size_t count, nearmiss_answer* answer) {
   float in[8];
-  to_floats(inputs, 8, in);
+  to_floats(inputs, count, in);
   answer->yes = skim_balls_meet(in, in[3], in + 4, in[7]);
   return NEARMISS_ANSWERED;
 }
 
 /* point, velocity, sphere.center, sphere.radius, solid; time, location, normal */
-static int moving_point_sphere(const double* inputs, nearmiss_answer* answer) {
-  float in[10], t;
+static int moving_point_sphere(const double* inputs, size_t count, nearmiss_answer* answer) {
+  float in[11], t;
   if (inputs[10] == 0) {
     strcpy(answer->why, "Skim's balls are solid");
     return NEARMISS_CANNOT_ANSWER;
   }
-  to_floats(inputs, 10, in);
+  to_floats(inputs, count, in);
   answer->yes = skim_ray_ball(in, in + 3, in + 6, in[9], &t);
   answer->values[0] = answer->yes ? t : INFINITY;
   answer->given = 1u << 0; /* the time, and no more */
@@ -32,9 +32,9 @@ static int moving_point_sphere(const double* inputs, nearmiss_answer* answer) {
 }
 
 /* segment.v0, segment.v1, point; point */
-static int closest_point_segment(const double* inputs, nearmiss_answer* answer) {
+static int closest_point_segment(const double* inputs, size_t count, nearmiss_answer* answer) {
   float in[9], nearest[3];
-  to_floats(inputs, 9, in);
+  to_floats(inputs, count, in);
   skim_nearest_on_segment(in, in + 3, in + 6, nearest);
   answer->yes = 1;
   for (int i = 0; i < 3; ++i) answer->values[i] = nearest[i];

@@ -11,7 +11,7 @@
 enum { INPUTS = 8, MOST = 2048 };
 
 struct request {
-  uint32_t offer, count, first, zero;
+  uint32_t offer, count, first, numbers;
 };
 struct reply {
   uint8_t status, yes;
@@ -27,16 +27,19 @@ static int balls_meet(const double* q) {
 
 int main(void) {
   FILE *cases = fdopen(3, "rb"), *answers = fdopen(4, "wb");
+  static uint32_t lengths[MOST]; /* INPUTS, each: no input of the query is a list */
   static double numbers[MOST][INPUTS];
   static struct reply replies[MOST];
   struct request batch;
   if (!cases || !answers) return 2;
   fputs(
-      "{\"nearmiss\": 1, \"name\": \"balls-c\", \"version\": \"1.0\", \"scalar\": \"double\", \"batches\": \"binary\", "
+      "{\"nearmiss\": 3, \"name\": \"balls-c\", \"version\": \"1.0\", \"scalar\": \"double\", \"batches\": \"binary\", "
       "\"offers\": [{\"query\": \"sphere_sphere_overlap\"}]}\n",
       answers);
   fflush(answers);
   while (fread(&batch, sizeof batch, 1, cases) == 1 && batch.count <= MOST) {
+    if (fread(lengths, sizeof lengths[0], batch.count, cases) != batch.count) return 1;
+    if (batch.numbers != INPUTS * batch.count) return 1;
     if (fread(numbers, sizeof numbers[0], batch.count, cases) != batch.count) return 1;
     for (uint32_t i = 0; i < batch.count; ++i)
       replies[i] = (struct reply){.yes = (uint8_t)balls_meet(numbers[i]), .number = batch.first + i};

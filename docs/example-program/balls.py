@@ -32,7 +32,7 @@ def ray_meets_ball(numbers):
 
 
 functions = {"sphere_sphere_overlap": balls_meet, "moving_point_sphere": ray_meets_ball}
-print(json.dumps({"nearmiss": 1, "name": "balls-py", "version": "1.0", "scalar": "double", "batches": "json",
+print(json.dumps({"nearmiss": 3, "name": "balls-py", "version": "1.0", "scalar": "double", "batches": "json",
                   "offers": [{"query": query} for query in functions]}), file=answers, flush=True)
 for line in cases:
     batch = json.loads(line)

@@ -21,7 +21,7 @@ int answer_by(typename Q::Answer (*mistake)(Q), const double* numbers, nearmiss_
 namespace {
 
 template <class Q>
-int answer_right(const double* numbers, nearmiss_answer* to) {
+int answer_right(const double* numbers, std::size_t, nearmiss_answer* to) {
   return answer_by<Q>([](Q q) { return right(q); }, numbers, to);
 }
 

@@ -48,11 +48,11 @@ bool are_the_same(const nearmiss_answer& a, const nearmiss_answer& b) {
   return a.yes == b.yes && std::equal(a.values, a.values + two_mistakes.numbers, b.values);
 }
 
-int answer_by_two(const double* numbers, nearmiss_answer* to) {
+int answer_by_two(const double* numbers, std::size_t count, nearmiss_answer* to) {
   nearmiss_answer added = *to, right = *to;
-  two_mistakes.added(numbers, &added);
-  two_mistakes.right(numbers, &right);
-  if (are_the_same(added, right)) return two_mistakes.known(numbers, to);
+  two_mistakes.added(numbers, count, &added);
+  two_mistakes.right(numbers, count, &right);
+  if (are_the_same(added, right)) return two_mistakes.known(numbers, count, to);
   *to = added;
   return NEARMISS_ANSWERED;
 }

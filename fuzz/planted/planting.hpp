@@ -211,7 +211,7 @@ struct Row {
 
 #define MISTAKE(round, query, where, what, causes)                                                                  \
   inputs::query<double>::Answer query##_##round(inputs::query<double>);                                             \
-  int answer_##query##_##round(const double* numbers, nearmiss_answer* to) {                                        \
+  int answer_##query##_##round(const double* numbers, std::size_t, nearmiss_answer* to) {                           \
     return answer_by<inputs::query<double>>(query##_##round, numbers, to);                                          \
   }                                                                                                                 \
   const Row row_of_##query##_##round(                                                                               \

@@ -72,7 +72,8 @@ struct Answer {
   }
 };
 
-/// The inputs of a query from numbers that are exact in its scalar (see representable).
+/// The inputs of a query from numbers that are exact in its scalar (see representable). A list has as many entries as
+/// the number before them says.
 template <class Inputs>
 Inputs inputs_from(const double* values) {
   Inputs q;

@@ -4,38 +4,13 @@
 
 #include <algorithm>
 
-#include <collide/checked.hpp>
-
-#include "impl/catalogue/named_leaves.hpp"
+#include "impl/catalogue/make_query.hpp"
 #include "impl/catalogue/query.hpp"
 #include "impl/catalogue/query_ids.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-template <class S>
-std::vector<Field> fields_of() {
-  std::vector<Field> fields;
-  S s{};
-  for_each_named_leaf(s, [&](const std::string& path, auto&, Role role) { fields.push_back({path, role}); });
-  return fields;
-}
-
-template <class Inputs>
-std::optional<Invalid> broken_inputs(std::span<const double> values) {
-  static const std::vector<Field> fields = fields_of<Inputs>();
-  for (std::size_t i = 0; i < fields.size(); ++i) {  // what becomes a bool or an int must be one before
-    const double x = values[i];
-    if (fields[i].role == Role::flag && x != 0 && x != 1) return Invalid{fields[i].name, x, "true or false"};
-    if (fields[i].role == Role::index && (x != std::floor(x) || std::abs(x) > 1e6)) {
-      return Invalid{fields[i].name, x, "a small integer"};
-    }
-  }
-  const auto broken = collide::broken_rule(inputs_from<Inputs>(values.data()));
-  if (!broken) return std::nullopt;
-  return Invalid{broken->field.text(), broken->value, std::string(broken->rule)};
-}
 
 constexpr QueryId all_ids[] = {
 #define NEARMISS_QUERY(query) QueryId::query,
@@ -49,19 +24,9 @@ constexpr bool links_are_queries(std::span<const Link> links) {
 }
 
 template <class Inputs>
-Query make_query(QueryId id, std::string_view name) {
+Query checked_query(QueryId id, std::string_view name) {
   static_assert(links_are_queries(Inputs::traits.links), "a link names a query that the catalogue does not have");
-  using A = typename Inputs::Answer;
-  return {id,
-          name,
-          kind_of<A>,
-          fields_of<Inputs>(),
-          fields_of<A>(),
-          operands_of<Inputs>(),
-          Layout::of<A>(),
-          broken_inputs<Inputs>,
-          Inputs::traits,
-          0};
+  return make_query<Inputs>(id, name);
 }
 
 }  // namespace
@@ -117,6 +82,7 @@ std::string_view name_of(Role role) {
     case Role::weight: return "weight";
     case Role::flag: return "flag";
     case Role::index: return "index";
+    case Role::count: return "count";
   }
   return "?";
 }
@@ -124,7 +90,7 @@ std::string_view name_of(Role role) {
 std::span<const Query> catalogue() {
   static const std::vector<Query> queries = [] {
     std::vector<Query> all = {
-#define NEARMISS_QUERY(query) make_query<inputs::query<double>>(QueryId::query, #query),
+#define NEARMISS_QUERY(query) checked_query<inputs::query<double>>(QueryId::query, #query),
 #include "impl/catalogue/catalogue.def"
 #undef NEARMISS_QUERY
     };

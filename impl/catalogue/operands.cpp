@@ -31,6 +31,7 @@ void add_member(Operand& operand, const ShapeMember& m) {
     case Role::rotation: operand.rotation = at; break;
     case Role::direction: operand.direction = at; break;
     case Role::offset: operand.offset = at; break;
+    case Role::count: break;
     case Role::size:
       (m.count == 1 ? operand.radius : operand.half) = at;
       for (const std::size_t i : numbers_from(at, m.count)) operand.sizes.push_back(i);
@@ -60,8 +61,9 @@ class Collection {
  private:
   void add_operand(const ListedInput& input) {
     Operand operand{std::string(input.name), words_of(input.name, *input.shape), *input.shape, at_, input.count};
-    for (const ShapeMember& m : operand.traits().members) {
-      const std::string name = m.name.empty() ? operand.name : operand.name + "." + std::string(m.name);
+    operand.members = input.members.empty() ? operand.traits().members : input.members;
+    for (const ShapeMember& m : operand.members) {
+      const std::string name = m.name.empty() ? operand.name : operand.name + "." + m.name;
       all_.members.push_back({name, at_ + m.begin, m.count, m.role, all_.all.size()});
       add_member(operand, m);
     }
@@ -109,7 +111,6 @@ class Collection {
 }  // namespace
 
 std::optional<std::size_t> Operand::member(std::string_view wanted) const {
-  const auto members = traits().members;
   const auto found = std::ranges::find(members, wanted, &ShapeMember::name);
   return found == members.end() ? std::nullopt : std::optional(begin + found->begin);
 }

@@ -23,7 +23,8 @@ struct Operand {
   std::string name;   ///< "sphere", "box2", "fixed"
   std::string words;  ///< for people: "the sphere", "box 2", "the fixed sphere"
   Shape shape;
-  std::size_t begin = 0, count = 0;        ///< its numbers
+  std::size_t begin = 0, count = 0;  ///< its numbers
+  std::vector<ShapeMember> members{};
   std::optional<std::size_t> velocity{};   ///< the first number of its velocity
   std::vector<std::size_t> positions{};    ///< the first number of each
   std::vector<std::size_t> sizes{};        ///< one entry per number
@@ -101,19 +102,25 @@ struct ListedInput {
   std::string_view name;
   std::optional<Shape> shape;
   Role role;
-  std::size_t count;  ///< of numbers
+  std::size_t count;                   ///< of numbers
+  std::vector<ShapeMember> members{};  ///< of a shape; empty: those of its traits
 };
 Operands operands_of(const std::vector<ListedInput>& inputs);
 
+/// Of inputs whose lists have the counts of these.
 template <class Inputs>
-Operands operands_of() {
+Operands operands_of(Inputs inputs) {
   std::vector<ListedInput> listed;
-  Inputs inputs{};
-  collide::for_each_member(inputs, [&](std::string_view name, auto& value, Role role) {
+  collide::for_each_member(inputs, [&]<class Value>(std::string_view name, Value& value, Role role) {
+    static_assert(!collide::is_counted<Value>, "a list is a member of a shape");
     std::size_t count = 0;
     collide::for_each_leaf(value, [&](auto&, Role) { ++count; });
-    const auto shape = shape_of<std::remove_cvref_t<decltype(value)>>;
-    listed.push_back({name, shape == Shape::point && role != Role::position ? std::nullopt : shape, role, count});
+    const auto shape = shape_of<Value>;
+    if (!shape || (shape == Shape::point && role != Role::position)) {
+      listed.push_back({name, std::nullopt, role, count});
+    } else if constexpr (shape_of<Value>.has_value()) {
+      listed.push_back({name, shape, role, count, members_of(value)});
+    }
   });
   return operands_of(listed);
 }
@@ -123,7 +130,7 @@ template <class F>
 decltype(auto) with_typed(const Operand& operand, const double* values, F&& f) {
   const auto filled = [&](auto shape) -> decltype(auto) {
     const double* numbers = values + operand.begin;
-    collide::for_each_leaf(shape, [&](double& leaf, Role) { leaf = *numbers++; });
+    collide::for_each_leaf(shape, [&]<class Leaf>(Leaf& leaf, Role) { leaf = Leaf(*numbers++); });
     return f(shape);
   };
   switch (operand.shape) {

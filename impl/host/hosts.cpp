@@ -161,12 +161,17 @@ Answer ask_hosted(const void* offer, std::span<const double> inputs) {
   return worker->ask(offering, inputs, inputs.size()).front();
 }
 
+/// The inputs of a query with lists are counted where each list has its fewest entries.
 void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedOffers& hosted) {
   const Members m(j, fmt::format("offer {}", position + 1),
                   {"query", "inputs", "outputs", "by_equivalence", "how", "contract", "requires", "gives"});
   const std::string name = m.text("query");
   const Query* query = find_query(name);
   if (query == nullptr) refuse("it offers the query '{}', which the catalogue does not have", name);
+  if (!query->lists.empty() && subject.host->version == wire::version_without_lengths) {
+    refuse("it offers {}, whose cases differ in their counts of numbers, and it speaks version {} of the protocol",
+           name, wire::version_without_lengths);
+  }
   const int inputs = m.whole("inputs").value_or(int(query->inputs.size()));
   const int outputs = m.whole("outputs").value_or(int(query->outputs.size()));
   if (std::size_t(inputs) != query->inputs.size() || std::size_t(outputs) != query->outputs.size()) {
@@ -233,7 +238,7 @@ Subject described(std::string_view hello, HostProgram program) {
                     {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
   const std::optional<int> version = m.whole("nearmiss");
   if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
-  if (*version != wire::version)
+  if (*version != wire::version && (may_share || *version != wire::version_without_lengths))
     refuse("it speaks version {} of the protocol, and this is version {}", *version, wire::version);
   if (const std::string why = m.text("refused"); !why.empty()) refuse("{}", why);
   if (may_share) check_layout(m.text("layout"));
@@ -245,6 +250,7 @@ Subject described(std::string_view hello, HostProgram program) {
   if (scalar != "float" && scalar != "double") refuse("its scalar is '{}': it must be \"float\" or \"double\"", scalar);
   s.scalar = scalar == "float" ? Scalar::float32 : Scalar::float64;
   program.batches = batches_in(m.text("batches"), may_share);
+  program.version = *version;
   program.hello = hello;
   s.host = std::make_shared<const HostProgram>(std::move(program));
   const Json* not_offered = m.find("not_offered");

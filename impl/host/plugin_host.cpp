@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "impl/catalogue/query.hpp"
 #include "impl/host/separation.hpp"
 #include "impl/host/serve.hpp"
 #include "impl/plugin/nearmiss_plugin.h"
@@ -36,12 +37,23 @@ constexpr std::size_t most_offers = 4096, most_text = 4096;
 
 using Entry = const nearmiss_plugin* (*)();
 
+/// The version before the functions had the count of their inputs, and such a function.
+constexpr int version_without_counts = 2;
+using FunctionWithoutCount = int (*)(const double* inputs, nearmiss_answer* answer);
+
 /// A function of the library, and the floating-point modes that loading the library left. The function runs in these
 /// modes, as it would in its user's program. No other code does. For a case that is asked in another rounding than to
 /// nearest, that rounding replaces the library's.
 struct AskedFunction {
   nearmiss_offer offer;
   FloatingPointModes modes;
+  bool takes_count;
+
+  int operator()(std::span<const double> inputs, nearmiss_answer& given) const {
+    if (takes_count) return offer.answer(inputs.data(), inputs.size(), &given);
+    const auto any = reinterpret_cast<void (*)()>(offer.answer);
+    return reinterpret_cast<FunctionWithoutCount>(any)(inputs.data(), &given);
+  }
 };
 
 int given_by(const AskedFunction& asked, std::span<const double> inputs, nearmiss_answer& given) {
@@ -50,7 +62,7 @@ int given_by(const AskedFunction& asked, std::span<const double> inputs, nearmis
   {
     const FloatingPointScope of_the_library(asked.modes);
     if (rounding != FE_TONEAREST) std::fesetround(rounding);
-    status = asked.offer.answer(inputs.data(), &given);
+    status = asked(inputs, given);
     raised = std::fetestexcept(FE_ALL_EXCEPT);
   }
   std::feraiseexcept(raised);
@@ -103,7 +115,8 @@ Subject described_by(const nearmiss_plugin& plugin, const FloatingPointModes& mo
     o.contract = contract_of(offer.contract);
     o.required = Preconditions::of_bits(offer.needs);
     o.counts = {offer.inputs, offer.outputs};
-    o.answer = AnswerFunction(ask, &functions.emplace_back(AskedFunction{offer, modes}));
+    o.answer = AnswerFunction(
+        ask, &functions.emplace_back(AskedFunction{offer, modes, plugin.version != version_without_counts}));
     s.offerings.push_back(o);
   }
   return s;
@@ -112,7 +125,7 @@ Subject described_by(const nearmiss_plugin& plugin, const FloatingPointModes& mo
 /// The error in a plugin's description; empty where it has none. Reads no other member before the version is known.
 std::string fault_of(const nearmiss_plugin* plugin) {
   if (plugin == nullptr) return "nearmiss_plugin_entry() returns no description";
-  if (plugin->version != NEARMISS_PLUGIN_VERSION) {
+  if (plugin->version != NEARMISS_PLUGIN_VERSION && plugin->version != version_without_counts) {
     return "it is made for version " + std::to_string(plugin->version) + " of nearmiss_plugin.h, and this is version " +
            std::to_string(NEARMISS_PLUGIN_VERSION);
   }
@@ -123,10 +136,15 @@ std::string fault_of(const nearmiss_plugin* plugin) {
   if (plugin->offer_count > most_offers) {
     return "it counts " + std::to_string(plugin->offer_count) + " offers, more than " + std::to_string(most_offers);
   }
+  const bool takes_counts = plugin->version != version_without_counts;
   for (std::size_t i = 0; i < plugin->offer_count; ++i) {
     const nearmiss_offer& offer = plugin->offers[i];
     const std::string query = text_or_none(offer.query);
     if (offer.answer == nullptr) return "it offers " + query + " without a function";
+    if (const Query* known = find_query(query); known != nullptr && !known->lists.empty() && !takes_counts) {
+      return "it offers " + query + ", whose cases differ in their counts of numbers, and is made for version " +
+             std::to_string(plugin->version) + " of nearmiss_plugin.h, whose functions have no count";
+    }
     if (offer.outputs < 0 || offer.outputs > NEARMISS_MAX_VALUES) {
       return "it counts " + std::to_string(offer.outputs) + " outputs of " + query;
     }

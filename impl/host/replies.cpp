@@ -219,22 +219,31 @@ std::vector<std::uint64_t> given_by_offers(std::string_view hello) {
   return given;
 }
 
-std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values,
-                           std::size_t inputs) {
-  const Request head{offer, std::uint32_t(values.size() / inputs), first, 0};
-  std::string bytes(sizeof head + values.size_bytes(), '\0');
-  std::memcpy(bytes.data(), &head, sizeof head);
-  std::memcpy(bytes.data() + sizeof head, values.data(), values.size_bytes());
+std::string binary_request(std::uint32_t offer, std::uint32_t first, const CaseNumbers& cases, int of_version) {
+  const bool has_lengths = of_version != version_without_lengths;
+  const std::uint32_t begin = cases.begins.front(), numbers = cases.begins.back() - begin;
+  const Request head{offer, std::uint32_t(cases.size()), first, has_lengths ? numbers : 0};
+  std::string bytes;
+  bytes.reserve(sizeof head + 4 * cases.size() + std::size_t{8} * numbers);
+  const auto add = [&](const void* from, std::size_t size) { bytes.append(static_cast<const char*>(from), size); };
+  add(&head, sizeof head);
+  for (std::size_t i = 0; has_lengths && i < cases.size(); ++i) {
+    const auto length = std::uint32_t(cases[i].size());
+    add(&length, sizeof length);
+  }
+  add(cases.values.data() + begin, sizeof(double) * numbers);
   return bytes;
 }
 
-std::string json_request(std::string_view query, std::uint32_t first, std::span<const double> values,
-                         std::size_t inputs) {
+std::string json_request(std::string_view query, std::uint32_t first, const CaseNumbers& cases) {
   std::string line =
       "{\"query\": \"" + std::string(query) + "\", \"first\": " + std::to_string(first) + ", \"cases\": [";
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    line += i % inputs == 0 ? i == 0 ? "[" : "], [" : ", ";
-    append(line, values[i]);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    line += i == 0 ? "[" : "], [";
+    for (const double& x : cases[i]) {
+      if (&x != cases[i].data()) line += ", ";
+      append(line, x);
+    }
   }
   return line + "]]}\n";
 }

@@ -19,11 +19,11 @@ namespace nearmiss::wire {
 std::size_t nesting(std::string_view json);
 inline constexpr std::size_t most_nested = 64;
 
-/// A batch in binary, or as one line of JSON: {"query": "...", "first": N, "cases": [[...], ...]}.
-std::string binary_request(std::uint32_t offer, std::uint32_t first, std::span<const double> values,
-                           std::size_t inputs);
-std::string json_request(std::string_view query, std::uint32_t first, std::span<const double> values,
-                         std::size_t inputs);
+/// A batch in binary for a program of that version, or as one line of JSON: {"query": "...", "first": N, "cases":
+/// [[...], ...]}.
+std::string binary_request(std::uint32_t offer, std::uint32_t first, const CaseNumbers& cases,
+                           int of_version = version);
+std::string json_request(std::string_view query, std::uint32_t first, const CaseNumbers& cases);
 
 /// The name of a member that an object of the text, which is JSON, has twice; empty where each is there once. `parsed`
 /// is the same text, parsed.

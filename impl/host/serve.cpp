@@ -120,10 +120,10 @@ class PublishedAnswers {
 };
 
 void answer_batch(const AnswerFunction& answer, const wire::SharedRequest& asked, PublishedAnswers& answered) {
-  const std::size_t count = asked.count, inputs = asked.inputs;
+  const std::size_t count = asked.count;
   answered.begin(asked);
   for (std::size_t i = asked.first; i < count; ++i) {
-    const std::span<const double> values{asked.values.data() + i * inputs, inputs};
+    const std::span<const double> values = asked.numbers(i, i + 1)[0];
     std::uint8_t raised = 0;
     Answer a = asked.rounding == Rounding::its_own ? answer_or_broke([&] { return answer(values); })
                                                    : answer_in(asked.rounding, answer, values, raised);

@@ -26,6 +26,10 @@ class LayoutHash {
     add(std::uint64_t(fields.size()));
     for (const Field& f : fields) add(f.name), add(std::uint64_t(f.role));
   }
+  void add(const CountedInput& list) {
+    add(list.name);
+    for (const std::size_t number : {list.at, list.numbers, list.least, list.most}) add(std::uint64_t(number));
+  }
   std::string text() const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
@@ -46,7 +50,6 @@ void add_memory(LayoutHash& hash) {
   using Head = SharedAnswers::Head;
   for (const std::size_t number : {sizeof(SharedRequest),
                                    offsetof(SharedRequest, offer),
-                                   offsetof(SharedRequest, inputs),
                                    offsetof(SharedRequest, first),
                                    offsetof(SharedRequest, count),
                                    offsetof(SharedRequest, batch),
@@ -54,6 +57,7 @@ void add_memory(LayoutHash& hash) {
                                    offsetof(SharedRequest, rounding),
                                    offsetof(SharedRequest, timed),
                                    offsetof(SharedRequest, answer),
+                                   offsetof(SharedRequest, begins),
                                    offsetof(SharedRequest, values),
                                    sizeof(SharedAnswers),
                                    offsetof(SharedAnswers, done),
@@ -97,7 +101,10 @@ std::string shared_layout(std::span<const Query> queries) {
   hash.add(std::uint64_t(wire::version));
   add_memory(hash);
   add_values(hash);
-  for (const Query& q : queries) hash.add(q.name), hash.add(q.inputs), hash.add(q.outputs);
+  for (const Query& q : queries) {
+    hash.add(q.name), hash.add(q.inputs), hash.add(q.outputs);
+    for (std::size_t k = 0; k < q.lists.size(); ++k) hash.add(q.lists[k]);
+  }
   return hash.text();
 }
 

@@ -103,31 +103,30 @@ double nanoseconds_of_tick() {
 }
 
 /// Times the calls of `answer`, which decodes the inputs itself.
-void time_erased(const AnswerFunction& answer, std::span<const double> values, std::size_t inputs,
-                 TimedRounds& rounds) {
+void time_erased(const AnswerFunction& answer, const CaseNumbers& numbers, TimedRounds& rounds) {
   std::vector<std::span<const double>> cases;
-  for (std::size_t at = 0; at + inputs <= values.size(); at += inputs) cases.push_back(values.subspan(at, inputs));
+  for (std::size_t i = 0; i < numbers.size(); ++i) cases.push_back(numbers[i]);
   time_calls<std::span<const double>>(cases, answer, rounds);
 }
 
-TimedRounds timed_rounds(const OfferedFunctions& offer, std::span<const double> values, std::size_t inputs) {
+TimedRounds timed_rounds(const OfferedFunctions& offer, const CaseNumbers& numbers) {
   TimedRounds rounds;
   rounds.most = rounds_of_batch;
   rounds.until = CallClock::nanoseconds(CLOCK_THREAD_CPUTIME_ID) + most_nanoseconds;
   if (offer.time != nullptr) {
-    offer.time(values, inputs, rounds);
+    offer.time(numbers, rounds);
   } else {
-    time_erased(offer.answer, values, inputs, rounds);
+    time_erased(offer.answer, numbers, rounds);
   }
   return rounds;
 }
 
 /// The stage that answers each case.
-std::vector<AnswerStage> stages_of(const OfferedFunctions& offer, std::span<const double> values, std::size_t inputs) {
+std::vector<AnswerStage> stages_of(const OfferedFunctions& offer, const CaseNumbers& numbers) {
   std::vector<AnswerStage> stages;
-  for (std::size_t at = 0; at + inputs <= values.size(); at += inputs) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
     const StageTally before = offer.stages();
-    use_value(offer.answer(values.subspan(at, inputs)));
+    use_value(offer.answer(numbers[i]));
     stages.push_back(last_stage_between(before, offer.stages()));
   }
   return stages;
@@ -149,15 +148,15 @@ std::vector<double> nanoseconds_of(const TimedRounds& rounds, std::size_t cases)
 }  // namespace
 
 void time_batch(const OfferedFunctions& offer, const wire::SharedRequest& asked, wire::SharedAnswers& answered) {
-  const std::size_t first = asked.first, count = asked.count, inputs = asked.inputs, cases = count - first;
-  const std::span<const double> values{asked.values.data() + first * inputs, cases * inputs};
+  const std::size_t first = asked.first, count = asked.count, cases = count - first;
+  const CaseNumbers numbers = asked.numbers(first, count);
   std::vector<double> times;
   std::vector<AnswerStage> stages(cases, AnswerStage::unknown);
   const Answer outcome = answer_or_broke([&] {
     const PinnedThread pinned;
-    const TimedRounds rounds = timed_rounds(offer, values, inputs);
+    const TimedRounds rounds = timed_rounds(offer, numbers);
     times = nanoseconds_of(rounds, cases);
-    if (offer.stages != nullptr) stages = stages_of(offer, values, inputs);
+    if (offer.stages != nullptr) stages = stages_of(offer, numbers);
     answered.timed = {double(median_of(rounds.processor)) / double(cases), std::uint32_t(rounds.processor.size()),
                       offer.time != nullptr, pinned.is_pinned()};
     return Answer{};

@@ -14,8 +14,10 @@
 
 namespace nearmiss::wire {
 
-/// The version of the protocol in docs/reference/protocol.md, as the hello states it.
-inline constexpr int version = 1;
+/// The version of the protocol in docs/reference/protocol.md, as the hello states it. A program may also speak the
+/// first one, in which all cases of a query have the same count of numbers. (There is no second one: the versions are
+/// those of nearmiss_plugin.h.)
+inline constexpr int version = 3, version_without_lengths = 1;
 
 /// The file descriptors of a host, beside the standard three.
 enum File : int {
@@ -39,15 +41,20 @@ inline constexpr std::size_t max_reason = 65535;
 
 /// A batch of cases. The judge's process writes it before it wakes the host; the host has it mapped read-only.
 struct SharedRequest {
-  std::uint32_t offer;  ///< index among the offers of the hello
-  std::uint32_t inputs;
+  std::uint32_t offer;         ///< index among the offers of the hello
   std::uint32_t first, count;  ///< the host answers the cases [first, count)
   std::uint32_t batch;         ///< number of this request: an answer to an earlier one is never taken for its answer
   std::uint32_t numbers_at;    ///< where the numbers of its answers begin: below most_shift
   Rounding rounding;           ///< other than its_own: the answers also have the raised exceptions
   bool timed;                  ///< each answer has two numbers: nanoseconds of the case's call, and an AnswerStage
   AnswerFunction answer;       ///< replaces `offer` for a host that is a fork of this process
+  std::array<std::uint32_t, capacity + 1> begins;  ///< where each case begins in `values`, and the end of the last one
   std::array<double, max_values> values;
+
+  /// Those of the cases [from, end).
+  CaseNumbers numbers(std::size_t from, std::size_t end) const {
+    return {values, std::span(begins).subspan(from, end - from + 1)};
+  }
 };
 
 /// How the calls of a timed batch were measured. The judge's process checks the numbers.
@@ -115,12 +122,13 @@ inline void put(SharedAnswers& into, std::size_t number_of_case, std::size_t at,
   if (a.status != Answer::Status::answered) into.reasons[number_of_case] = a.why;
 }
 
-/// The header of a binary batch; count * inputs doubles follow. Every reply names its case, so that a surplus or
-/// missing reply is never taken for the reply to another case.
+/// The header of a binary batch. As many lengths follow as there are cases, each of 32 bits, and then the numbers of
+/// all cases as doubles. Every reply names its case, so that a surplus or missing reply is never taken for the reply to
+/// another case.
 struct Request {
   std::uint32_t offer, count;
-  std::uint32_t first;  ///< number of the first case; cases count from 0 since the program's start
-  std::uint32_t zero;
+  std::uint32_t first;    ///< number of the first case; cases count from 0 since the program's start
+  std::uint32_t numbers;  ///< of all cases; version_without_lengths: 0, and no lengths follow
 };
 /// The header of the reply to one case; the outputs follow as doubles, or `reason` bytes of text without an answer.
 struct Reply {

@@ -331,19 +331,19 @@ std::string Worker::hello() {
   return line;
 }
 
-void Worker::send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case,
+void Worker::send(const Offering& offering, std::span<const double> values, const CaseLengths& lengths,
                   Rounding rounding) {
   const FloatingPointScope standard;
-  put_request(offering, values, inputs_per_case);
+  put_request(offering, values, lengths);
   asked_->rounding = rounding;
   request(0, end_of_next_request());
 }
 
 std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<const double> values,
-                                          std::size_t inputs_per_case) {
+                                          const CaseLengths& lengths) {
   if (!is_shared()) return std::nullopt;
   const FloatingPointScope standard;
-  put_request(offering, values, inputs_per_case);
+  put_request(offering, values, lengths);
   outputs_ = 2;
   asked_->timed = true;
   request(0, end_of_next_request());
@@ -361,8 +361,8 @@ std::optional<Worker::Times> Worker::time(const Offering& offering, std::span<co
 }
 
 /// Writes a batch, to be answered in the host's own rounding, into the shared memory.
-void Worker::put_request(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
-  count_ = values.size() / inputs_per_case;
+void Worker::put_request(const Offering& offering, std::span<const double> values, const CaseLengths& lengths) {
+  count_ = lengths.cases(values.size());
   got_ = late_ = 0;
   outputs_ = offering.outputs;
   if (!is_shared()) due_ = {0, offering.outputs, gives().at(offering.position), parts_of_misses(offering.query)};
@@ -371,13 +371,14 @@ void Worker::put_request(const Offering& offering, std::span<const double> value
   broken_.clear();
   answers_.resize(std::max(answers_.size(), count_));
   asked_->offer = offering.position;
-  asked_->inputs = std::uint32_t(inputs_per_case);
   asked_->rounding = Rounding::its_own;
   asked_->timed = false;
   raised_.assign(count_, 0);
   asked_->answer = program_ == nullptr ? offering.answer : AnswerFunction{};
   query_ = offering.query;
   std::copy(values.begin(), values.end(), asked_->values.begin());
+  asked_->begins[0] = 0;
+  for (std::size_t i = 0; i < count_; ++i) asked_->begins[i + 1] = asked_->begins[i] + std::uint32_t(lengths[i]);
 }
 
 /// The end of the next request, which begins at the next case without an answer. Cases that are asked again: the first
@@ -447,11 +448,10 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
     [[maybe_unused]] const ssize_t woken = write(child_->to_host, "g", 1);  // receive notices a dead host
     return;
   }
-  const std::span<const double> values{asked_->values.data() + first * asked_->inputs,
-                                       (end_of_request - first) * asked_->inputs};
+  const CaseNumbers cases = asked_->numbers(first, end_of_request);
   child_->out = program_->batches == HostProgram::Batches::binary
-                    ? wire::binary_request(asked_->offer, child_->asked, values, asked_->inputs)
-                    : wire::json_request(query_, child_->asked, values, asked_->inputs);
+                    ? wire::binary_request(asked_->offer, child_->asked, cases, program_->version)
+                    : wire::json_request(query_, child_->asked, cases);
   child_->asked += std::uint32_t(end_of_request - first);
   heard_ = false;
   child_->written = 0;
@@ -765,15 +765,18 @@ double Worker::processor_seconds() const {
   return child_ ? child_->process->processor_seconds() : 0;
 }
 
-std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case) {
+std::vector<Answer> Worker::ask(const Offering& offering, std::span<const double> values, const CaseLengths& lengths) {
   std::vector<Answer> answers;
-  const std::size_t most = std::min(capacity, max_values / inputs_per_case) * inputs_per_case;
-  for (std::size_t at = 0; at < values.size(); at += most) {
-    const std::span<const double> some = values.subspan(at, std::min(most, values.size() - at));
-    send(offering, some, inputs_per_case);
+  const std::size_t count = lengths.cases(values.size());
+  while (answers.size() < count) {
+    const std::size_t first = answers.size();
+    std::size_t end = first, numbers = 0;
+    while (end < count && end - first < capacity && numbers + lengths[end] <= max_values) numbers += lengths[end++];
+    send(offering, values.first(numbers), lengths.part(first, end));
+    values = values.subspan(numbers);
     const auto batch = receive();
     answers.insert(answers.end(), batch.begin(), batch.end());
-    if (batch.size() < some.size() / inputs_per_case) break;
+    if (batch.size() < end - first) break;
   }
   return answers;
 }

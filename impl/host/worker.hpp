@@ -39,6 +39,28 @@ struct HostFailed : std::runtime_error {
   Why why;
 };
 
+/// How many numbers each case of a batch has.
+class CaseLengths {
+ public:
+  /// All cases have the same count.
+  CaseLengths(std::size_t each) : each_(each) {}
+  /// One count for each case. The list must outlive this object.
+  CaseLengths(std::span<const std::uint32_t> of_each) : of_each_(of_each) {}
+  CaseLengths(const std::vector<std::uint32_t>& of_each) : of_each_(of_each) {}
+
+  /// How many cases so many numbers are.
+  std::size_t cases(std::size_t numbers) const { return each_ > 0 ? numbers / each_ : of_each_.size(); }
+  std::size_t operator[](std::size_t i) const { return each_ > 0 ? each_ : of_each_[i]; }
+  /// Those of the cases [from, end).
+  CaseLengths part(std::size_t from, std::size_t end) const {
+    return each_ > 0 ? *this : CaseLengths(of_each_.subspan(from, end - from));
+  }
+
+ private:
+  std::size_t each_ = 0;
+  std::span<const std::uint32_t> of_each_;
+};
+
 /// Sends batches of cases to a host process and receives its answers. The host is a program that sends a hello, or a
 /// fork of this process for a subject of this program. The host can read the cases, but no other data of this process
 /// (see supervisor.hpp). Where the host throws, aborts, crashes, hangs, exceeds a memory limit or sends a malformed
@@ -70,12 +92,12 @@ class Worker {
   /// The hello of the program, a line of at most wire::max_hello bytes. Throws HostFailed.
   std::string hello();
 
-  /// Sends values.size() / inputs_per_case cases, at most `capacity` cases and max_values numbers. The host works while
+  /// Sends the cases with these numbers, at most `capacity` cases and max_values numbers. The host works while
   /// the caller does other work; `receive` waits for the answers, in the order of the cases. Answers stay valid until
   /// the next send. `receive` returns fewer answers than cases where the callback stopped the waiting, where
   /// `most_late` cases of the batch were late, where its first `most_broken` cases all broke, and where the host is
   /// lost. A host that shares memory answers in `rounding`; any other host in its own.
-  void send(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case,
+  void send(const Offering& offering, std::span<const double> values, const CaseLengths& lengths,
             Rounding rounding = Rounding::its_own);
   std::span<const Answer> receive(std::size_t most_broken = capacity);
   /// Why no host can be started: the last `most_failed_starts` attempts failed, or it sends another hello. Empty after
@@ -97,13 +119,13 @@ class Worker {
     wire::TimedBatch how;
     std::vector<AnswerStage> stages{};
   };
-  std::optional<Times> time(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
+  std::optional<Times> time(const Offering& offering, std::span<const double> values, const CaseLengths& lengths);
 
   /// The processor time of the running host; 0 without one.
   double processor_seconds() const;
 
   /// Sends and receives any number of cases.
-  std::vector<Answer> ask(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
+  std::vector<Answer> ask(const Offering& offering, std::span<const double> values, const CaseLengths& lengths);
 
   static constexpr std::size_t most_late = 8, most_failed_starts = 3;
   static constexpr std::size_t capacity = wire::capacity;
@@ -144,7 +166,7 @@ class Worker {
   void spawn_once();
   void wait_for_resources(int error);
   std::string first_line();
-  void put_request(const Offering& offering, std::span<const double> values, std::size_t inputs_per_case);
+  void put_request(const Offering& offering, std::span<const double> values, const CaseLengths& lengths);
   void request(std::size_t first, std::size_t end);
   std::size_t end_of_next_request();
   std::optional<Event> event_between_requests();

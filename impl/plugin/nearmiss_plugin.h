@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-/* The version of this header. It changes with every change of the structs below. A plugin of another version is
- * refused. */
-#define NEARMISS_PLUGIN_VERSION 2
+/* The version of this header. It changes with every change of the structs below. A plugin of version 2, whose functions
+ * have no argument `count`, is loaded too; one of any other version is refused. */
+#define NEARMISS_PLUGIN_VERSION 3
 
 /* The scalar in which the library computes. Every input is exactly such a number. */
 enum { NEARMISS_FLOAT = 1, NEARMISS_DOUBLE = 2 };
@@ -35,9 +35,11 @@ typedef struct nearmiss_answer {
   char why[200];                   /* for NEARMISS_CANNOT_ANSWER: the reason, shown in reports */
 } nearmiss_answer;
 
-/* Answers one case. `inputs` has the query's inputs in their order; flags are 0 or 1, indices small integers. The
- * function runs in a process of its own: a crash or an endless loop costs only this case. */
-typedef int (*nearmiss_answer_function)(const double* inputs, nearmiss_answer* answer);
+/* Answers one case. `inputs` has the query's inputs in their order, `count` numbers; flags are 0 or 1, indices small
+ * integers. A list, such as the vertices of a shape, is the count of its entries and then the numbers of each entry, so
+ * that the cases of its query differ in `count`. The function runs in a process of its own: a crash or an endless loop
+ * costs only this case. */
+typedef int (*nearmiss_answer_function)(const double* inputs, size_t count, nearmiss_answer* answer);
 
 /* The library's promise for a query, with the meaning of collide/contract.hpp; INFINITY promises nothing. */
 typedef struct nearmiss_contract {
@@ -61,7 +63,8 @@ enum {
 
 typedef struct nearmiss_offer {
   const char* query;                 /* its name in the catalogue */
-  int inputs, outputs;               /* the numbers of its inputs and outputs, checked against the catalogue */
+  int inputs, outputs;               /* the numbers of its inputs and outputs, checked against the catalogue. Each list
+                                      * counts with the fewest entries that it can have */
   const char* equivalence;           /* the other operation that answers the query; NULL: this very operation */
   const nearmiss_contract* contract; /* NULL: no promise */
   nearmiss_answer_function answer;

@@ -25,8 +25,8 @@ Offering offering_of(std::string_view query) {
     o.answer = [](std::span<const double> values) {
       return erase(typed_answer<Adapter, Q>(inputs_from<Q>(values.data())));
     };
-    o.time = [](std::span<const double> values, std::size_t inputs, TimedRounds& rounds) {
-      const std::vector<Q> cases = typed_cases<Q>(values, inputs);
+    o.time = [](const CaseNumbers& numbers, TimedRounds& rounds) {
+      const std::vector<Q> cases = typed_cases<Q>(numbers);
       time_calls<Q>(cases, typed_answer<Adapter, Q>, rounds);
     };
     if constexpr (requires { Adapter::template contract<Q>(); }) o.contract = Adapter::template contract<Q>();

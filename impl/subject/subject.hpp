@@ -53,9 +53,20 @@ class AnswerFunction {
   const void* context_ = nullptr;
 };
 
+/// The numbers of some cases, one case behind the other.
+struct CaseNumbers {
+  std::span<const double> values;
+  std::span<const std::uint32_t> begins;  ///< where each case begins in `values`, and the end of the last one
+
+  std::size_t size() const { return begins.size() - 1; }
+  std::span<const double> operator[](std::size_t i) const {
+    return values.subspan(begins[i], begins[i + 1] - begins[i]);
+  }
+};
+
 struct TimedRounds;
 /// Measures calls of the subject's typed function for the cases of a batch (impl/subject/timed_calls.hpp).
-using TimeFunction = void (*)(std::span<const double> values, std::size_t inputs, TimedRounds& rounds);
+using TimeFunction = void (*)(const CaseNumbers& numbers, TimedRounds& rounds);
 
 /// What a subject offers for one query.
 struct Offering {
@@ -82,6 +93,7 @@ struct HostProgram {
 
   std::vector<std::string> arguments;  ///< the file of the program first
   Batches batches = Batches::shared;
+  int version = 0;      ///< of the protocol that it speaks; 0: not yet known
   std::string hello{};  ///< its hello from the first start; empty: not yet known
 };
 

@@ -12,6 +12,7 @@
 #endif
 
 #include "impl/catalogue/answer.hpp"
+#include "impl/subject/subject.hpp"
 
 namespace nearmiss {
 
@@ -76,13 +77,12 @@ void time_calls(std::span<const C> cases, F&& call, TimedRounds& rounds) {
   }
 }
 
-/// The typed inputs of a batch: `inputs` numbers for each case.
+/// The typed inputs of a batch.
 template <class Q>
-std::vector<Q> typed_cases(std::span<const double> values, std::size_t inputs) {
+std::vector<Q> typed_cases(const CaseNumbers& numbers) {
   std::vector<Q> cases;
-  cases.reserve(values.size() / inputs);
-  for (std::size_t at = 0; at + inputs <= values.size(); at += inputs)
-    cases.push_back(inputs_from<Q>(values.data() + at));
+  cases.reserve(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) cases.push_back(inputs_from<Q>(numbers[i].data()));
   return cases;
 }
 

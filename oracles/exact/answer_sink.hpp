@@ -364,11 +364,10 @@ class IntervalScope {
 /// Keeps arithmetic from moving across a change of the floating-point environment.
 inline void arithmetic_barrier() { asm volatile("" ::: "memory"); }
 
-/// The roles of the numbers of Q.
+/// The roles of the numbers of the inputs.
 template <class Q>
-std::vector<Role> roles_of() {
+std::vector<Role> roles_of(Q q) {
   std::vector<Role> roles;
-  Q q;
   collide::for_each_leaf(q, [&](auto&, Role role) { roles.push_back(role); });
   return roles;
 }
@@ -425,13 +424,17 @@ struct Stages {
     static const Layout l = Layout::of<A<double>>();
     return l;
   }
-  static const std::vector<Role>& roles() {
-    static const std::vector<Role> r = roles_of<Inputs<double>>();
-    return r;
+  /// The roles of the values: where the inputs have lists, those of this case.
+  static const std::vector<Role>& roles(std::span<const double> values) {
+    static const std::vector<Role> of_all = roles_of(Inputs<double>{});
+    static const bool has_lists = std::find(of_all.begin(), of_all.end(), Role::count) != of_all.end();
+    if (!has_lists) return of_all;
+    static thread_local std::vector<Role> of_case;
+    return of_case = roles_of(inputs_from<Inputs<double>>(values.data()));
   }
   static Enclosure interval(std::span<const double> values, Widening widening, const Answer& about, Scalar scalar) {
     const FloatingPointScope standard_modes;
-    const Scaling scaling = Scaling::of(roles(), values);
+    const Scaling scaling = Scaling::of(roles(values), values);
     const IntervalScope scope;
     arithmetic_barrier();
     AnswerSink<Interval, A<Interval>> out(about, scalar, layout());
@@ -481,7 +484,7 @@ struct Stages {
  private:
   static bool may_be_on_widened_surface(std::span<const double> values, Widening widening, const Answer& about,
                                         const PlaceInAnswer& place) {
-    const Scaling scaling = Scaling::of(roles(), values);
+    const Scaling scaling = Scaling::of(roles(values), values);
     const IntervalScope scope;
     arithmetic_barrier();
     const bool may = on_widened_surface(widened<Inputs<Interval>>(values, widening, scaling), place, about, scaling);

@@ -28,6 +28,7 @@ std::size_t length_of_vector(Role role) { return role == Role::direction ? 3 : r
 
 Scaling Scaling::needed(std::span<const Role> roles, std::span<const double> values) {
   Scaling s;
+  s.of_input_.resize(roles.size());
   int length = of_zero, velocity = of_zero, direction = 0;
   for (std::size_t i = 0; i < roles.size(); i += length_of_vector(roles[i])) {
     const int exponent = exponent_of(values.subspan(i, length_of_vector(roles[i])));

@@ -4,10 +4,10 @@
 /// direction or of a quaternion has no meaning. A number that underflows is enclosed like any other.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <collide/members.hpp>
 
@@ -38,8 +38,6 @@ class Scaling {
   static constexpr int moderate = 96;
 
  private:
-  static constexpr std::size_t most_inputs = 40;
-
   static bool is_moderate_or_zero(double x) {
     constexpr int bias = 1023, digits = 52;
     const auto exponent = unsigned(std::bit_cast<std::uint64_t>(x) >> digits & 0x7ff);
@@ -61,7 +59,8 @@ class Scaling {
   bool any_ = false;
   int length_ = 0,
       velocity_ = 0;  ///< exponents of the powers of two by which an answer's lengths and velocities are multiplied
-  std::array<int, most_inputs> of_input_{};
+  /// Of each number of the input; without memory while nothing is multiplied.
+  std::vector<int> of_input_;
 };
 
 }  // namespace nearmiss::oracle

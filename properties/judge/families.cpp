@@ -197,7 +197,7 @@ Case case_of(Family family, const Query& query, Scalar scalar, std::uint64_t see
   Random random(
       Random(Random(seed).bits() ^ plan.name_hash ^ std::uint64_t(scalar) ^ std::uint64_t(family) << 8).bits() ^
       Random(index).bits());
-  Case c{&query, scalar, std::vector<double>(query.inputs.size()), "family", seed, index, {}};
+  Case c{&query, scalar, query.zeros(), "family", seed, index, {}};
   constexpr int attempts = 1000;
   for (int i = 0; i < attempts; ++i) {
     CaseBuilder builder(plan, scalar, random, c.values);

@@ -141,7 +141,13 @@ std::string members_table(const Query& query) {
   };
   add("inputs", query.inputs);
   add("values", query.outputs);
-  return table_text(rows);
+  std::string text = table_text(rows);
+  for (std::size_t k = 0; k < query.lists.size(); ++k) {
+    const CountedInput& list = query.lists[k];
+    text += fmt::format("{} has {} to {} entries; with more than {}, the numbers behind it move up.\n", list.name,
+                        list.least, list.most, list.least);
+  }
+  return text;
 }
 
 class ListCommand : public Command {

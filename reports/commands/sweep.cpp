@@ -160,7 +160,7 @@ class SweepCommand : public Command {
     if (!decides(query.kind))
       throw BadInput(fmt::format("{} decides nothing: it has no yes or no to sweep", query.name));
     std::vector<std::string> names;
-    for (const Field& f : query.inputs) names.push_back(f.name);
+    for (const Field& f : std::span(query.inputs).first(query.numbers_before_lists())) names.push_back(f.name);
     const auto found = std::find(names.begin(), names.end(), number_);
     if (found != names.end()) return std::size_t(found - names.begin());
     throw BadInput(fmt::format("--number: {} has no number '{}'; it has {}", query.name, one_line(number_, 100),

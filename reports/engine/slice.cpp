@@ -58,7 +58,7 @@ void append(std::vector<TruthRange>& ranges, const TruthRange& next) {
 }
 
 Slice::Slice(Case question, std::size_t number) : question_(std::move(question)), number_(number) {
-  if (field().role == Role::flag || field().role == Role::index) {
+  if (is_discrete(field().role)) {
     throw BadInput(
         fmt::format("{} of {} is a whole number with few values; a sweep takes a number that may be any float",
                     field().name, query().name));

@@ -52,7 +52,7 @@ class Slice {
   const Case& question() const { return question_; }
   const Query& query() const { return *question_.query; }
   std::size_t number() const { return number_; }
-  const Field& field() const { return query().inputs[number_]; }
+  const Field& field() const { return question_.fields()[number_]; }
 
   /// The case with another float in the place of the number.
   Case at(std::uint64_t index) const;

@@ -37,7 +37,8 @@ std::optional<double> forward_share(const Case& c, const Finding& f, const Membe
       return extent > 0 ? std::optional(covered / extent) : std::nullopt;
     }
     case Role::flag:
-    case Role::index: return std::nullopt;
+    case Role::index:
+    case Role::count: return std::nullopt;
     case Role::normal: return std::max(m.forward_absolute, std::abs(f.unit_error) * unit_roundoff(c.scalar));
     default: return m.forward_absolute;  // of weights and parts of unit vectors
   }

@@ -16,7 +16,7 @@ Workers::Asked& Workers::of(const Subject& subject) {
 }
 
 std::size_t Workers::capacity_for(const Query& query) {
-  return std::min(Worker::capacity, Worker::max_values / query.inputs.size());
+  return std::min(Worker::capacity, Worker::max_values / query.most_numbers());
 }
 
 Answer Workers::ask(const Subject& subject, const Case& question) {
@@ -28,21 +28,27 @@ Answer Workers::ask(const Subject& subject, const Case& question) {
 
 Answer answer_of_given_up() { return Answer::without(Answer::Status::cannot_answer, "not asked: interrupted"); }
 
+/// Adds a case to those that are sent next.
+void Workers::add(const Case& c) {
+  flat_.insert(flat_.end(), c.values.begin(), c.values.end());
+  lengths_.push_back(std::uint32_t(c.values.size()));
+}
+
 void Workers::send(const Subject& subject, std::span<const Case> cases, Rounding rounding) {
   const Offering& offering = subject.offering(cases.front().query->name);
   Asked& asked = of(subject);
   asked.all = offering.required.empty();
   asked.inside.clear();
   asked.answers.clear();
-  flat_.clear();
+  flat_.clear(), lengths_.clear();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Preconditions unmet = unmet_by(cases[i], offering.required);
     if (!asked.all) asked.answers.push_back(unmet.empty() ? Answer{} : answer_of_unasked(unmet));
     if (!unmet.empty()) continue;
     if (!asked.all) asked.inside.push_back(i);
-    flat_.insert(flat_.end(), cases[i].values.begin(), cases[i].values.end());
+    add(cases[i]);
   }
-  if (!flat_.empty()) asked.worker->send(offering, flat_, cases.front().values.size(), rounding);
+  if (!flat_.empty()) asked.worker->send(offering, flat_, lengths_, rounding);
 }
 
 std::span<const Answer> Workers::receive(const Subject& subject, std::size_t most_broken) {
@@ -93,10 +99,10 @@ std::uint8_t Workers::raised(const Subject& subject, std::size_t case_of_batch) 
 }
 
 std::optional<Worker::Times> Workers::time(const Subject& subject, std::span<const Case> cases) {
-  flat_.clear();
-  for (const Case& c : cases) flat_.insert(flat_.end(), c.values.begin(), c.values.end());
+  flat_.clear(), lengths_.clear();
+  for (const Case& c : cases) add(c);
   const Offering& offering = subject.offering(cases.front().query->name);
-  return of(subject).worker->time(offering, flat_, cases.front().values.size());
+  return of(subject).worker->time(offering, flat_, lengths_);
 }
 
 double Workers::processor_seconds(const Subject& subject) const {

@@ -59,13 +59,15 @@ class Workers {
     std::vector<Answer> answers;      ///< and the answers to the whole batch
   };
   Asked& of(const Subject& subject);
+  void add(const Case& c);
   std::span<const Answer> received(Asked& asked, std::size_t most_broken);
   /// The position of this case among the cases that were sent; empty where it was not sent.
   std::optional<std::size_t> sent_at(const Asked& asked, std::size_t case_of_batch) const;
 
   Worker::WaitCallback on_wait_;
   std::map<const Subject*, Asked> workers_;
-  std::vector<double> flat_;
+  std::vector<double> flat_;            ///< the numbers of the cases that are sent next
+  std::vector<std::uint32_t> lengths_;  ///< of each of these cases
 };
 
 /// The answer to a case that was not asked because the waiting was stopped.

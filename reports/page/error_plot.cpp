@@ -64,7 +64,7 @@ nlohmann::ordered_json error_plots(const Case& question, const Subject& subject,
   Json plots = Json::array();
   for (std::size_t i = 0; i < question.values.size(); ++i) {
     const Field& field = question.fields()[i];
-    if (field.role == Role::flag || field.role == Role::index) continue;
+    if (is_discrete(field.role)) continue;
     Json plot{{"number", field.name}, {"value", question.values[i]}, {"scale", scale_of_group(question, i)}};
     Case moved = question;
     for (const auto& [value, change] : values_around(question, i)) {

@@ -19,7 +19,8 @@ __attribute__((constructor)) static void set_modes(void) {
 
 /* The first input decides: an abort, an endless loop (for what is far away, too), an unknown return value, an answer.
  */
-static int misbehave(const double* inputs, nearmiss_answer* answer) {
+static int misbehave(const double* inputs, size_t count, nearmiss_answer* answer) {
+  (void)count;
   const double x = inputs[0];
   if (x == 1) abort();
   for (volatile int forever = x == 2 || x > 1e9; forever;) {
@@ -44,6 +45,10 @@ static int misbehave(const double* inputs, nearmiss_answer* answer) {
 #endif
 #ifdef OTHER_VERSION
 #define VERSION (NEARMISS_PLUGIN_VERSION + 1)
+#elif defined(FIRST_VERSION)
+#define VERSION 1
+#elif defined(SECOND_VERSION)
+#define VERSION 2
 #else
 #define VERSION NEARMISS_PLUGIN_VERSION
 #endif
@@ -71,7 +76,19 @@ static const nearmiss_contract contract = {1, 1, 1, 0, 20, -20};
 #define NEEDS 0
 #endif
 
-static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, CONTRACT, misbehave, NEEDS}};
+#ifdef SECOND_VERSION
+/* Two balls meet; the functions of that version have no count. */
+static int meet(const double* q, nearmiss_answer* answer) {
+  const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
+  answer->yes = x * x + y * y + z * z <= reach * reach;
+  return NEARMISS_ANSWERED;
+}
+#define ANSWER (nearmiss_answer_function)(void (*)(void)) meet
+#else
+#define ANSWER misbehave
+#endif
+
+static const nearmiss_offer offers[] = {{QUERY, INPUTS, 0, NULL, CONTRACT, ANSWER, NEEDS}};
 static const nearmiss_plugin plugin = {VERSION, NAME, "1", NEARMISS_DOUBLE, 1, offers};
 
 #ifdef NO_ENTRY

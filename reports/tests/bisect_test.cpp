@@ -16,11 +16,12 @@ namespace {
 std::string plugin_source(const std::string& decide) {
   return R"c(#include <math.h>
 #include "nearmiss_plugin.h"
-static int overlap(const double* in, nearmiss_answer* answer) {
+static int overlap(const double* in, size_t count, nearmiss_answer* answer) {
   double x = in[0] - in[4], y = in[1] - in[5], z = in[2] - in[6], reach = in[3] + in[7];
   answer->yes = x * x + y * y + z * z <= )c" +
          decide + R"c(;
   (void)reach;
+  (void)count;
   return NEARMISS_ANSWERED;
 }
 static const nearmiss_contract promised = {

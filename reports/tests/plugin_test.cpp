@@ -108,6 +108,15 @@ TEST(Plugin, IsAskedInTheModesThatItSets) {
   EXPECT_EQ(json::parse(ran.out).at(0).at("answer").at("yes"), true) << ran.out;
 }
 
+/// Its functions have no count of the inputs.
+TEST(Plugin, OfTheVersionBeforeAnswersAsBefore) {
+  const TemporaryFolder folder;
+  const Ran ran = nearmiss({"run", "--plugin", plugin_file("second_version"), "--subject", "misbehaves", "--cases",
+                            "400", "--seed", "1", "--out", (folder / "r").string(), "--measure", "0.001"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  EXPECT_NE(ran.out.find("nothing violated"), std::string::npos) << ran.out;
+}
+
 struct Refused {
   const char *name, *says;
 };
@@ -128,7 +137,8 @@ INSTANTIATE_TEST_SUITE_P(Faults, BadPluginFile,
                          testing::Values(Refused{"nowhere", "there is no such file"},
                                          Refused{"not_a_library", "it cannot be loaded"},
                                          Refused{"no_entry", "no function nearmiss_plugin_entry"},
-                                         Refused{"other_version", "made for version 3"},
+                                         Refused{"other_version", "made for version 4"},
+                                         Refused{"first_version", "made for version 1 of nearmiss_plugin.h"},
                                          Refused{"miscounts", "sphere_sphere_overlap has 8 inputs"},
                                          Refused{"unknown_query", "'sphere_sphere_overlaps'"},
                                          Refused{"taken_name", "there is a subject 'collide-fast-double' already"},

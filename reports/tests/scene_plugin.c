@@ -16,7 +16,8 @@ static int is_planted(char mistake) {
 }
 
 /* sphere1.center, sphere1.radius, sphere2.center, sphere2.radius */
-static int depth(const double* q, nearmiss_answer* answer) {
+static int depth(const double* q, size_t count, nearmiss_answer* answer) {
+  (void)count;
   const long double x = (long double)q[0] - q[4], y = (long double)q[1] - q[5], z = (long double)q[2] - q[6];
   double deep = (double)((long double)q[3] + q[7] - sqrtl(x * x + y * y + z * z));
   answer->yes = deep >= 0;

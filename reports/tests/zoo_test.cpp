@@ -272,7 +272,7 @@ const Misdeed of_programs[] = {
     {"hello-deep", End::refused, "nested more than 64 deep"},
     {"hello-deep-requirement", End::refused, "nested more than 64 deep"},
     {"hello-endless", End::refused, "more than 1,048,576 bytes"},
-    {"hello-version", End::refused, "speaks version 2"},
+    {"hello-version", End::refused, "speaks version 4"},
     {"hello-no-version", End::refused, "no \"nearmiss\""},
     {"hello-refused", End::refused, "no license \\x1b[31m found"},
     {"hello-typo", End::refused, "'nmae'"},

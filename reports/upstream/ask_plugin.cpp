@@ -16,6 +16,13 @@ static nearmiss_answer_function function_for(const char* query) {
   }
   return NULL;
 }
+
+/* The functions of a plugin of version 2 have no count. */
+static int answer_by(nearmiss_answer_function function, const double* inputs, size_t count, nearmiss_answer* answer) {
+  typedef int (*without_count)(const double* inputs, nearmiss_answer* answer);
+  if (nearmiss_plugin_entry()->version == 2) return ((without_count)(void (*)(void))function)(inputs, answer);
+  return function(inputs, count, answer);
+}
 )";
 
 }  // namespace
@@ -32,15 +39,16 @@ Asking ask_plugin(const Case& question, const Subject& subject) {
   asking.style = Asking::Style::c;
   asking.includes = "#include <string.h>\n\n#include \"nearmiss_plugin.h\"\n";
   asking.helpers = helper;
-  asking.statements = fmt::format("const double inputs[] = {{\n{}}};\n", inputs) +
-                      fmt::format("const nearmiss_answer_function ask = function_for(\"{}\");\n", query.name) +
-                      "nearmiss_answer answer;\n"
-                      "memset(&answer, 0, sizeof answer);\n"
-                      "answer.given = ~(uint64_t)0;\n"
-                      "if (ask == NULL || ask(inputs, &answer) != NEARMISS_ANSWERED) {\n"
-                      "  printf(\"FAILED: no answer: %.200s\\n\", answer.why);\n"
-                      "  return 1;\n"
-                      "}\n";
+  asking.statements =
+      fmt::format("const double inputs[] = {{\n{}}};\n", inputs) +
+      fmt::format("const nearmiss_answer_function ask = function_for(\"{}\");\n", query.name) +
+      "nearmiss_answer answer;\n"
+      "memset(&answer, 0, sizeof answer);\n"
+      "answer.given = ~(uint64_t)0;\n"
+      "if (ask == NULL || answer_by(ask, inputs, sizeof inputs / sizeof *inputs, &answer) != NEARMISS_ANSWERED) {\n"
+      "  printf(\"FAILED: no answer: %.200s\\n\", answer.why);\n"
+      "  return 1;\n"
+      "}\n";
   if (decides(query.kind)) asking.statements += "got_yes = answer.yes;\n";
   for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
     const Layout::Part& part = query.layout.parts[m];

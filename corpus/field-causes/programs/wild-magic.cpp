@@ -62,17 +62,17 @@ int ray(const double* in, const Shape& shape, nearmiss_answer* answer) {
   return hit(answer, (place - r.Origin).Length() / speed, &place);
 }
 
-int moving_point_sphere(const double* in, nearmiss_answer* answer) {
+int moving_point_sphere(const double* in, std::size_t, nearmiss_answer* answer) {
   return ray<Wm5::IntrRay3Sphere3<double>>(in, sphere(in + 6), answer);
 }
-int moving_point_box(const double* in, nearmiss_answer* answer) {
+int moving_point_box(const double* in, std::size_t, nearmiss_answer* answer) {
   return ray<Wm5::IntrRay3Box3<double>>(in, box(in + 6), answer);
 }
-int moving_point_capsule(const double* in, nearmiss_answer* answer) {
+int moving_point_capsule(const double* in, std::size_t, nearmiss_answer* answer) {
   const Wm5::Segment3<double> axis(vector(in + 6), vector(in + 9));
   return ray<Wm5::IntrRay3Capsule3<double>>(in, Wm5::Capsule3<double>(axis, in[12]), answer);
 }
-int moving_point_triangle(const double* in, nearmiss_answer* answer) {
+int moving_point_triangle(const double* in, std::size_t, nearmiss_answer* answer) {
   const double speed = std::hypot(in[3], in[4], in[5]);
   if (!(speed > 0)) return cannot(answer, "a ray has a direction");
   const Wm5::Ray3<double> r(vector(in), vector(in + 3) / speed);
@@ -88,16 +88,16 @@ int moved(Intersection i, const double* velocity, bool sphere_is_first, nearmiss
   const Vector place = i.GetContactPoint();
   return i.GetContactTime() > 0 ? hit(answer, i.GetContactTime(), &place) : hit(answer, 0, nullptr);
 }
-int moving_sphere_sphere(const double* in, nearmiss_answer* answer) {
+int moving_sphere_sphere(const double* in, std::size_t, nearmiss_answer* answer) {
   const Wm5::Sphere3<double> moving = sphere(in), fixed = sphere(in + 7);
   return moved(Wm5::IntrSphere3Sphere3<double>(moving, fixed), in + 4, true, answer);
 }
-int moving_sphere_box(const double* in, nearmiss_answer* answer) {
+int moving_sphere_box(const double* in, std::size_t, nearmiss_answer* answer) {
   const Wm5::Sphere3<double> moving = sphere(in);
   const Wm5::Box3<double> fixed = box(in + 7);
   return moved(Wm5::IntrBox3Sphere3<double>(fixed, moving), in + 4, false, answer);
 }
-int closest_points_lines(const double* in, nearmiss_answer* answer) {
+int closest_points_lines(const double* in, std::size_t, nearmiss_answer* answer) {
   const double l1 = std::hypot(in[3], in[4], in[5]), l2 = std::hypot(in[9], in[10], in[11]);
   const Wm5::Line3<double> a(vector(in), vector(in + 3) / l1), b(vector(in + 6), vector(in + 9) / l2);
   Wm5::DistLine3Line3<double> distance(a, b);

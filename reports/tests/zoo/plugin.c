@@ -22,7 +22,8 @@ __attribute__((constructor)) static void load(void) {
 }
 
 /* Every 40th case of a process does the deed: the others are answered as balls meet. */
-static int ball_ball(const double* q, nearmiss_answer* answer) {
+static int ball_ball(const double* q, size_t count, nearmiss_answer* answer) {
+  (void)count;
   static unsigned asked;
   const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
   answer->yes = x * x + y * y + z * z <= reach * reach;

@@ -18,7 +18,7 @@ static const struct {
     {"hello-deep-requirement", NULL},
     {"hello-deep", NULL},
     {"hello-endless", NULL},
-    {"hello-version", "{\"nearmiss\": 2}\n"},
+    {"hello-version", "{\"nearmiss\": 4}\n"},
     {"hello-no-version", "{\"name\": \"zoo\"}\n"},
     {"hello-refused", "{\"nearmiss\": 1, \"refused\": \"no license \\u001b[31m found\"}\n"},
     {"hello-typo", "{\"nearmiss\": 1, \"nmae\": \"zoo\"}\n"},

@@ -63,7 +63,7 @@ double largest_of_role(const Case& c, Role role) {
   return largest;
 }
 
-bool is_counted(Role role) { return role != Role::flag && role != Role::index; }
+bool is_counted(Role role) { return !is_discrete(role); }
 
 /// Too small to change the largest number of its role.
 bool is_lost(const Case& c, std::size_t i) {

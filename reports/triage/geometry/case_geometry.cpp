@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 
@@ -125,11 +126,10 @@ class GeometryReader {
   /// The first place at the time of the contact, or at the given time.
   void add_moved_place(bool known) {
     if (!g_.velocity || g_.places.empty()) return;
-    const auto given =
-        std::find_if(q_.inputs.begin(), q_.inputs.end(), [](const Field& f) { return f.role == Role::time; });
-    const bool is_given = given != q_.inputs.end() && q_.kind == Kind::direction;
+    const auto given = index_of_role(c_.fields(), Role::time);
+    const bool is_given = given && q_.kind == Kind::direction;
     if (!is_given && q_.kind != Kind::impact) return;
-    const long double time = is_given ? c_.values[std::size_t(given - q_.inputs.begin())] : g_.time;
+    const long double time = is_given ? c_.values[*given] : g_.time;
     const CaseGeometry::Place& start = g_.places.front();
     g_.places.push_back(
         {start.name + " at the time", start.operand, start.at + *g_.velocity * time, is_given || known});

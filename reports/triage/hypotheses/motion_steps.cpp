@@ -167,7 +167,7 @@ class MotionSteps : public TestOfCause {
   std::optional<std::size_t> limit_of_time() const {
     const Query& q = trials().query();
     if (q.kind != Kind::decision || q.operands.velocities.empty()) return std::nullopt;
-    return index_of_role(q.inputs, Role::time);
+    return index_of_role(question().fields(), Role::time);
   }
   /// The case with a limit in place of any time.
   Case with_limit(std::size_t limit, double time) const {

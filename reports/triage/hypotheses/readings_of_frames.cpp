@@ -51,9 +51,9 @@ Answer without_weights(const Case& c, Answer a) {
 }
 
 /// Where the center of the last sphere or box begins in the inputs.
-std::optional<std::size_t> last_center(const Query& q) {
+std::optional<std::size_t> last_center(const Case& c) {
   std::optional<std::size_t> center;
-  for (const Operand& o : q.operands) {
+  for (const Operand& o : c.operands()) {
     if (o.shape == Shape::sphere || o.shape == Shape::box) center = o.positions[0];
   }
   return center;
@@ -61,7 +61,7 @@ std::optional<std::size_t> last_center(const Query& q) {
 
 /// Whether the center of a sphere or box lies behind the plane of the case.
 bool is_behind_plane(const Case& c) {
-  const auto center = last_center(*c.query);
+  const auto center = last_center(c);
   const Operand* plane = c.operands().find(Shape::plane);
   if (!center || plane == nullptr) return false;
   double height = 0;
@@ -117,7 +117,7 @@ Fits normal_in_frame(const Case& c, const Answer& a, const IsRight& is_right) {
 template <bool in_frame>
 Fits place_from_center(const Case& c, const Answer& a, const IsRight& is_right) {
   const Layout::Part* p = given_part(c, a, Role::position);
-  const auto center = last_center(*c.query);
+  const auto center = last_center(c);
   if (p == nullptr || !center) return std::nullopt;
   std::optional<std::array<double, 3>> from{{a.values[p->begin], a.values[p->begin + 1], a.values[p->begin + 2]}};
   if (in_frame) from = turned_as_box(c, &a.values[p->begin]);

@@ -28,8 +28,8 @@ struct Motion {
   std::size_t start, velocity;
 };
 
-std::optional<Motion> motion_of(const Query& q) {
-  const Operands& parts = q.operands;
+std::optional<Motion> motion_of(const Case& c) {
+  const Operands& parts = c.operands();
   if (!parts.start) return std::nullopt;
   if (!parts.velocities.empty()) return Motion{parts.start->place, parts.velocities[0]};
   if (!parts.directions.empty()) return Motion{parts.start->place, parts.directions[0]};
@@ -58,7 +58,7 @@ Case later(const Case& c, const Motion& m, double time) {
 
 /// A contact before the start, judged as that of a motion which starts earlier.
 Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto motion = motion_of(*c.query);
+  const auto motion = motion_of(c);
   if (!motion || !answers_yes(a)) return std::nullopt;
   const Layout::Part* place = given_part(c, a, Role::position);
   const Layout::Part* time = given_part(c, a, Role::time);
@@ -80,7 +80,7 @@ Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// The place and the time, judged as those of the reversed motion that comes from beyond everything.
 Fits where_it_leaves(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto motion = motion_of(*c.query);
+  const auto motion = motion_of(c);
   if (!motion || !answers_yes(a) || c.query->traits.one_sided) return std::nullopt;
   const Layout::Part* place = given_part(c, a, Role::position);
   const Layout::Part* time = given_part(c, a, Role::time);

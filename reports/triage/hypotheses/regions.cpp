@@ -31,6 +31,9 @@ bool are_equal(const Case& c, std::size_t a, std::size_t b) {
   return std::equal(&c.values[a], &c.values[a] + 3, &c.values[b]);
 }
 
+/// Whether the number has the same meaning in every case of the query.
+bool is_fixed(const Query& q, std::size_t number) { return number < q.numbers_before_lists(); }
+
 /// Pairs of positions of different operands.
 std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Query& q) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -38,7 +41,9 @@ std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Qu
     for (const std::size_t b : second.positions) {
       for (const Operand& first : q.operands) {
         if (first.begin >= second.begin) break;
-        for (const std::size_t a : first.positions) pairs.emplace_back(a, b);
+        for (const std::size_t a : first.positions) {
+          if (is_fixed(q, a) && is_fixed(q, b)) pairs.emplace_back(a, b);
+        }
       }
     }
   }
@@ -49,6 +54,7 @@ std::vector<std::pair<std::size_t, std::size_t>> places_of_two_operands(const Qu
 std::vector<std::size_t> ways_of(const Query& q) {
   std::vector<std::size_t> ways = q.operands.velocities;
   ways.insert(ways.end(), q.operands.directions.begin(), q.operands.directions.end());
+  std::erase_if(ways, [&](std::size_t way) { return !is_fixed(q, way); });
   return ways;
 }
 
@@ -100,7 +106,7 @@ bool is_turned(const Case& c) {
 
 std::vector<Region> regions_of(const Query& query) {
   std::vector<Region> regions;
-  for (std::size_t i = 0; i < query.inputs.size(); ++i) {
+  for (std::size_t i = 0; i < query.numbers_before_lists(); ++i) {
     const Field& f = query.inputs[i];
     if (f.role == Role::size)
       regions.push_back({fmt::format("{} of zero", f.name), [i](const Case& c) { return c.values[i] == 0; }});

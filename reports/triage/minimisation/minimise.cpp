@@ -144,7 +144,7 @@ class Range {
   std::int64_t last_;
 };
 
-bool has_range(const Field& f) { return f.role != Role::flag && f.role != Role::index; }
+bool has_range(const Field& f) { return !is_discrete(f.role); }
 
 /// The ranges of the numbers, in order, as far as the time suffices.
 std::vector<SameFinding> ranges_of(const Case& c, const MinimiseLimits& limits, SameFault& fault) {

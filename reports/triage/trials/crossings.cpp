@@ -38,7 +38,7 @@ class CrossingSearch {
   bool may_move(std::size_t i) const {
     const Role role = wrong_.role(i);
     const bool is_named = numbers_.empty() || std::find(numbers_.begin(), numbers_.end(), i) != numbers_.end();
-    return is_named && role != Role::flag && role != Role::index;
+    return is_named && !is_discrete(role);
   }
   /// The largest number of the same role; 1 where all are zero.
   double scale_of(std::size_t number) const {

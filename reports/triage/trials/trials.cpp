@@ -13,7 +13,7 @@ namespace nearmiss {
 
 namespace {
 
-bool may_move(Role role) { return role != Role::flag && role != Role::index; }
+bool may_move(Role role) { return !is_discrete(role); }
 
 /// Cases in which each part, at random, is as it is or multiplied by a power of two.
 std::vector<Case> with_parts_scaled(const Case& c, std::size_t count, std::uint64_t seed) {

@@ -95,7 +95,22 @@ constexpr bool finite(T x) noexcept {
   return x >= std::numeric_limits<T>::lowest() && x <= std::numeric_limits<T>::max();
 }
 
-constexpr std::array<std::string_view, 10> index_names = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
+/// "0" to "99".
+class IndexNames {
+ public:
+  static constexpr std::size_t most = 100;
+
+  constexpr IndexNames() noexcept {
+    for (std::size_t i = 0; i < most; ++i) digits_[i] = {char('0' + i / 10), char('0' + i % 10)};
+  }
+  constexpr std::string_view operator[](std::size_t i) const noexcept {
+    return i < 10 ? std::string_view(&digits_[i][1], 1) : std::string_view(digits_[i].data(), 2);
+  }
+
+ private:
+  std::array<std::array<char, 2>, most> digits_{};
+};
+inline constexpr IndexNames index_names;
 
 /// The number of names in the longest path within S.
 template <class S>
@@ -136,7 +151,13 @@ constexpr std::optional<BrokenRule> broken_within(const S& s, const FieldPath& p
       if (!found) found = broken_within(value, path.below(name), own == Role::inherited ? role : own);
     });
   } else if constexpr (requires { s.begin(); }) {
-    static_assert(std::tuple_size_v<S> <= index_names.size());
+    if constexpr (is_counted<S>) {
+      if (s.count < S::least || s.count > S::most) {
+        return BrokenRule{path.below("count"), double(s.count), "a number of entries that the list can have"};
+      }
+    } else {
+      static_assert(std::tuple_size_v<S> <= IndexNames::most);
+    }
     for (std::size_t i = 0; i < s.size() && !found; ++i) found = broken_within(s[i], path.below(index_names[i]), role);
   }
   return found ? found : broken_own_rule(s, path, role);
@@ -145,7 +166,8 @@ constexpr std::optional<BrokenRule> broken_within(const S& s, const FieldPath& p
 }  // namespace detail
 
 /// The first rule that a shape, or a struct of inputs, breaks; nullopt if there is none. The rules: every number is
-/// finite, sizes are not negative, directions and quaternions are not zero, and min <= max in an axis-aligned box.
+/// finite, sizes are not negative, directions and quaternions are not zero, min <= max in an axis-aligned box, and a
+/// count is within the bounds of its list.
 /// Members are checked before the shape that contains them.
 ///
 /// `name` is the first part of the field's path.

@@ -5,6 +5,8 @@
 /// contains it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
@@ -28,6 +30,7 @@ enum class Role {
   weight,     ///< dimensionless, barycentric
   flag,       ///< true or false
   index,      ///< a small integer
+  count,      ///< of the entries of a list that follow
 };
 
 template <class Owner, class Value>
@@ -45,18 +48,48 @@ constexpr Member<Owner, Value> member(const char* name, Value Owner::*pointer, R
 template <class S>
 concept Listed = requires { std::remove_cvref_t<S>::members(); };
 
+/// A list in place of `least_count` to `most_count` entries. The first `count` ones exist; what is stored behind them
+/// is part of no value.
+template <class X, int most_count, int least_count = 1>
+struct Counted {
+  using value_type = X;
+  static constexpr int least = least_count, most = most_count;
+  static_assert(0 <= least && least <= most && most < 100);
+
+  int count = least;
+  std::array<X, std::size_t(most)> entries{};
+
+  /// The count; its nearest bound where the count is beyond the bounds.
+  constexpr std::size_t size() const noexcept { return std::size_t(std::clamp(count, least, most)); }
+  constexpr X* begin() noexcept { return entries.data(); }
+  constexpr X* end() noexcept { return begin() + size(); }
+  constexpr const X* begin() const noexcept { return entries.data(); }
+  constexpr const X* end() const noexcept { return begin() + size(); }
+  constexpr X& operator[](std::size_t i) noexcept { return entries[i]; }
+  constexpr const X& operator[](std::size_t i) const noexcept { return entries[i]; }
+};
+
+template <class S>
+inline constexpr bool is_counted = false;
+template <class X, int most, int least>
+inline constexpr bool is_counted<Counted<X, most, least>> = true;
+
 /// Calls f(name, value, role) for each direct member of s, in order.
 template <Listed S, class F>
 constexpr void for_each_member(S& s, F&& f) {
   std::apply([&](const auto&... m) { (f(m.name, s.*(m.pointer), m.role), ...); }, std::remove_const_t<S>::members());
 }
 
-/// Calls f(value, role) for each leaf (number, bool, int) of a listed struct, depth first, in order.
+/// Calls f(value, role) for each leaf (number, bool, int) of a listed struct, depth first, in order. A list of counted
+/// entries has its count as its first leaf: where f sets it, the entries that it now counts follow.
 template <class S, class F>
 constexpr void for_each_leaf(S& s, F&& f, Role role = Role::inherited) {
   if constexpr (Listed<S>) {
     for_each_member(
         s, [&](const char*, auto& value, Role own) { for_each_leaf(value, f, own == Role::inherited ? role : own); });
+  } else if constexpr (is_counted<std::remove_const_t<S>>) {
+    f(s.count, Role::count);
+    for (auto& entry : s) for_each_leaf(entry, f, role);
   } else if constexpr (requires { s.begin(); }) {
     for (auto& item : s) for_each_leaf(item, f, role);
   } else {

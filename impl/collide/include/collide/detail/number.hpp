@@ -95,6 +95,10 @@ template <class X, std::size_t n, class N>
 struct Rebind<std::array<X, n>, N> {
   using type = std::array<typename Rebind<X, N>::type, n>;
 };
+template <class X, int most, int least, class N>
+struct Rebind<Counted<X, most, least>, N> {
+  using type = Counted<typename Rebind<X, N>::type, most, least>;
+};
 
 }  // namespace detail
 
@@ -103,7 +107,7 @@ template <class S, class N>
 using Rebound = typename detail::Rebind<S, N>::type;
 
 /// Copies a number, a listed struct or an answer into one with another number type, each number by `number(from, to)`.
-/// Flags and indices are copied unchanged.
+/// Flags, indices and counts are copied unchanged.
 template <class From, class To, class F>
 constexpr void convert(const From& from, To& to, F&& number) {
   if constexpr (Listed<From>) {
@@ -112,6 +116,7 @@ constexpr void convert(const From& from, To& to, F&& number) {
     }(std::make_index_sequence<std::tuple_size_v<decltype(From::members())>>());
     if constexpr (requires { From::decision_member(); }) to.*To::decision_member() = from.*From::decision_member();
   } else if constexpr (requires { from.begin(); }) {
+    if constexpr (is_counted<From>) to.count = from.count;
     for (std::size_t i = 0; i < from.size(); ++i) convert(from[i], to[i], number);
   } else if constexpr (std::same_as<From, bool> || std::same_as<From, int>) {
     to = from;
