@@ -14,7 +14,7 @@ fail() {
   exit 1
 }
 compile() { # OPTION ...
-  "$compiler" -std=c++20 -I "$include_folder" "$@"
+  "$compiler" -std=c++20 -I "$include_folder" -I "$include_folder/../source" "$@"
 }
 # The program ends by SIGABRT and says this line alone.
 aborts_with() { # PROGRAM ARGUMENT LINE
@@ -26,11 +26,12 @@ aborts_with() { # PROGRAM ARGUMENT LINE
 }
 
 # Every header, every query in every tier, and the sources of the library. Headers alone are compiled by check_headers.sh.
-library=$include_folder/../source
+library=$(cd "$include_folder/.." && pwd)
+cmake -S "$library" -B "$scratch/library" -DCMAKE_CXX_COMPILER="$compiler" >"$scratch/said" || fail "the sources of the library cannot be written"
 {
   for header in "$include_folder"/collide/*.hpp; do echo "#include <collide/${header##*/}>"; done
   bash "$here/every_query.sh" "$include_folder" "Fast Accurate Decisive Certified" "$@"
-  for source in "$library"/*.cpp; do echo "#include \"$source\""; done
+  for source in "$library"/source/*.cpp "$scratch"/library/source/*.cpp; do echo "#include \"$source\""; done
 } >"$scratch/all.cpp"
 compile -fsyntax-only -fno-exceptions -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Werror "$scratch/all.cpp" ||
   fail "the queries do not compile without exceptions, or not without a warning"
@@ -41,8 +42,9 @@ if compile -fsyntax-only -Wsign-conversion -Werror "$scratch/caller.cpp" 2>"$scr
   fail "a conversion in the calling program is not reported"
 fi
 
-asked=(certified.cpp real.cpp sphere_sphere_overlap.cpp sphere_sphere_penetration.cpp moving_point_triangle.cpp)
-compile -fno-exceptions "$here/without_exceptions.cpp" "${asked[@]/#/$library/}" -o "$scratch/without" -lmpfr -lgmp ||
+asked=(sphere_sphere_overlap.cpp sphere_sphere_penetration.cpp moving_point_triangle.cpp)
+compile -fno-exceptions "$here/without_exceptions.cpp" "$library"/source/{certified,real}.cpp \
+  "${asked[@]/#/$scratch/library/source/}" -o "$scratch/without" -lmpfr -lgmp ||
   fail "a program does not compile"
 "$scratch/without" answers || fail "the answers without exceptions are wrong"
 aborts_with "$scratch/without" batch "collide: a batch has arguments and answers of different sizes"
