@@ -55,6 +55,54 @@ TEST(Shrink, CopiesANumberWhereNoSimplerOneIsLeft) {
   EXPECT_EQ(shrink(c, twins).values[1], 0.75);
 }
 
+Case with_values(const std::vector<double>& values) {
+  Case c = generate(*find_query("sphere_sphere_overlap"), Scalar::float64, 1, 0);
+  c.values = values;
+  return c;
+}
+
+/// Of the inputs of sphere_sphere_overlap.
+TEST(Shrink, HasAnOrderWithFewerElementsFirst) {
+  const std::vector<std::vector<double>> from_the_simplest = {
+      {0, 0, 0, 0, 0, 0, 0, 0},          // no number but 0
+      {-0.0, 0, 0, 0, 0, 0, 0, 0},       // one sign more
+      {0, 0, 0, 1, 0, 0, 0, 0},          // one number that is not 0
+      {0, 0, 0, 4, 0, 0, 0, 0},          // one bit, an exponent
+      {0, 0, 0, 3, 0, 0, 0, 0},          // two bits
+      {0, 0, 0, 1e300 / 3, 0, 0, 0, 0},  // the longest number is simpler than two numbers
+      {1, 0, 0, 1, 0, 0, 0, 0},          // two numbers
+      {-1, 0, 0, 1, 0, 0, 0, 0},         // and a sign
+      {4, 0, 0, 4, 0, 0, 0, 0},          // two numbers of one magnitude
+      {2, 0, 0, 8, 0, 0, 0, 0},          // as long, of two magnitudes
+      {1, 1, 1, 0, 0, 0, 0, 0},          // three numbers
+  };
+  for (std::size_t i = 1; i < from_the_simplest.size(); ++i) {
+    EXPECT_LT(simplicity_of(with_values(from_the_simplest[i - 1])), simplicity_of(with_values(from_the_simplest[i])))
+        << "row " << i;
+  }
+}
+
+TEST(Shrink, PrefersALongNumberToTwoShortOnes) {
+  const auto keeps = [](const Case& c) { return c.values[4] - c.values[0] == 1 - 0x1p-30; };
+  const Case small = shrink(with_values({0x1p-30, 0, 0, 0, 1, 0, 0, 0}), keeps);
+  EXPECT_EQ(simplicity_of(small).not_zero, 1u);
+}
+
+TEST(Shrink, GivesAMemberItsSimplestValueInOneStep) {
+  const Query& query = *find_query("box_box_overlap");
+  const std::size_t rotation = *query.operands[0].rotation;
+  const auto upright_or_as_it_was = [&](const Case& c) {
+    const double* q = &c.values[rotation];
+    const bool upright = q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 1;
+    return upright || (q[0] == 0.1 && q[1] == 0.2 && q[2] == 0.3 && q[3] == 0.4);
+  };
+  Case c = generate(query, Scalar::float64, 1, 0);
+  for (std::size_t k = 0; k < 4; ++k) c.values[rotation + k] = 0.1 * double(k + 1);
+  c.values[rotation + 2] = 0.3;
+  ASSERT_TRUE(upright_or_as_it_was(c));
+  EXPECT_EQ(shrink(c, upright_or_as_it_was).values[rotation + 3], 1);
+}
+
 class Shrinking : public testing::TestWithParam<NamedQuery> {};
 
 TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
@@ -89,6 +137,33 @@ TEST_P(Shrinking, KeepsTheTruthAndStaysValidAndExact) {
     }
   }
   EXPECT_GE(looked_at, 1);
+}
+
+/// The finding is the decision, and one number of half its magnitude or more.
+TEST_P(Shrinking, LeavesNoSimplerCaseOneStepAway) {
+  const Query& query = *GetParam().query;
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const Case c = generate(query, scalars[i % 2], 2, i);
+    const bool truth = truth_is_yes(c);
+    int questions = 0;
+    const auto keeps = [&](const Case& simpler) {
+      ++questions;
+      return truth_is_yes(simpler) == truth && std::abs(simpler.values[i]) >= std::abs(c.values[i]) / 2;
+    };
+    const Case small = shrink(c, keeps);
+    ASSERT_LT(questions, 20000);
+    EXPECT_LE(simplicity_of(small), simplicity_of(c));
+    for (const Case& simpler : simpler_by_one_step(small)) {
+      EXPECT_LT(simplicity_of(simpler), simplicity_of(small));
+      EXPECT_FALSE(keeps(simpler)) << query.name << " case " << i;
+    }
+    for (std::size_t k = 0; k < small.values.size(); ++k) {  // without the list of steps
+      Case simpler = small;
+      simpler.values[k] = 0;
+      const bool is_simpler = small.values[k] != 0 && !query.broken(simpler.values);
+      EXPECT_FALSE(is_simpler && keeps(simpler)) << query.name << " case " << i << ", number " << k;
+    }
+  }
 }
 
 INSTANTIATE_FOR_EVERY_QUERY(Every, Shrinking, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
