@@ -18,7 +18,7 @@ namespace collide {
 /// 2. normal points from location to the center; for a center on the rectangle it is an outward normal
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
-/// moving_sphere_triangle, twice.
+/// moving_sphere_triangle, twice; a parallelogram has one plane and one border, so once.
 template <class Tier = Fast, class T>
 [[nodiscard]] inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                                        const Rectangle<T>& rectangle) noexcept(Tier::never_throws) {
@@ -28,7 +28,8 @@ template <class Tier = Fast, class T>
 namespace contracts {
 
 /// As moving_sphere_triangle. The same changes of the sphere's numbers account for the errors of both triangles, as do
-/// changes of each triangle's own corner. The two common corners are moved for both triangles, by twice as much.
+/// changes of each triangle's own corner. The two common corners are moved for both triangles, by twice as much. A
+/// rectangle that `Fast` takes as one parallelogram moves its last corner by 16 eps of G more.
 template <class Tier = Fast, class T = double>
 constexpr Contract moving_sphere_rectangle() {
   return Tier::template contract<T>(

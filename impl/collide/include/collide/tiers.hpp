@@ -51,14 +51,20 @@ constexpr auto not_finite_bit(T x) {
   return Bits((std::bit_cast<Bits>(x) & exponent) + one);
 }
 
-/// Whether every number in the arguments is finite. An argument that is itself a number, such as a time limit, may be
-/// +infinity.
+/// False for a number that is NaN or -infinity.
+template <class A>
+constexpr bool is_limit(const A& argument) {
+  if constexpr (MachineNumber<A>) return argument >= -std::numeric_limits<A>::max();
+  return true;
+}
+
+/// all_finite() by the bits of each number.
 template <class... Args>
-constexpr bool all_finite(const Args&... args) {
+COLLIDE_COLD constexpr bool each_is_finite(const Args&... args) {
   std::uint64_t bits = 0;  // in the sign bit of double, and in that of float
   const auto check = [&](const auto& argument) {
     if constexpr (MachineNumber<std::remove_cvref_t<decltype(argument)>>) {
-      if (!(argument >= -std::numeric_limits<std::remove_cvref_t<decltype(argument)>>::max())) bits = ~std::uint64_t{0};
+      if (!is_limit(argument)) bits = ~std::uint64_t{0};
     } else {
       for_each_leaf(argument, [&](const auto& leaf, Role) {
         if constexpr (MachineNumber<std::remove_cvref_t<decltype(leaf)>>) bits |= not_finite_bit(leaf);
@@ -68,6 +74,30 @@ constexpr bool all_finite(const Args&... args) {
   (check(args), ...);
   constexpr bool only_floats = (std::same_as<Rebound<Args, float>, Args> && ...);
   return (bits & (only_floats ? std::uint64_t{1} << 31 : std::uint64_t{1} << 63)) == 0;
+}
+
+/// The sum of the numbers in an argument; 0 for an argument that is itself a number.
+template <class T, class A>
+constexpr T sum_of_numbers(const A& argument) {
+  T sum(-0.0);  // which compilers leave out
+  if constexpr (!MachineNumber<A>) {
+    for_each_leaf(argument, [&](const auto& leaf, Role) {
+      if constexpr (MachineNumber<std::remove_cvref_t<decltype(leaf)>>) sum += T(leaf);
+    });
+  }
+  return sum;
+}
+
+/// Whether every number in the arguments is finite. An argument that is itself a number, such as a time limit, may be
+/// +infinity.
+template <class... Args>
+constexpr bool all_finite(const Args&... args) {
+  using T = std::conditional_t<(std::same_as<Rebound<Args, float>, Args> && ...), float, double>;
+  // A sum is finite only if every term is. One that is not may have overflowed.
+  const T sum = (sum_of_numbers<T>(args) + ...);
+  if (sum - sum == T(0)) [[likely]]
+    return (... && is_limit(args));
+  return each_is_finite(args...);
 }
 
 /// The answer for input that is not finite: no, a miss, or a depth of NaN.
@@ -90,6 +120,21 @@ constexpr void reject_nonfinite(A& answer, const Args&... args) {
   }
 }
 
+/// A kernel that says yes only if every number in its arguments is finite, so that lifting needs no test of them: for
+/// kernels so short that the test would cost as much as the answer.
+template <class Kernel>
+struct YesIfFinite : Kernel {
+  static constexpr bool yes_if_finite = true;
+};
+template <class Kernel>
+YesIfFinite(Kernel) -> YesIfFinite<Kernel>;
+
+/// Replaces a yes by the answer for non-finite input when any argument is not finite, unless the kernel does so.
+template <class Kernel, class A, class... Args>
+constexpr void reject_nonfinite_of(A& answer, const Args&... args) {
+  if constexpr (!requires { std::remove_cvref_t<Kernel>::yes_if_finite; }) reject_nonfinite(answer, args...);
+}
+
 /// Plain arithmetic in the caller's scalar. The fastest tier.
 struct Fast : Plain {
   /// True if a query in this tier never throws.
@@ -107,7 +152,7 @@ struct Fast : Plain {
   template <class F, class... Args>
   static constexpr auto lift(F&& kernel, const Args&... args) {
     auto answer = kernel(Plain{}, args...);
-    reject_nonfinite(answer, args...);
+    reject_nonfinite_of<F>(answer, args...);
     return answer;
   }
   /// The contract of a query in T, given its contract in the tier `Fast`.
@@ -136,9 +181,10 @@ inline constexpr bool is_compiled = MachineNumber<T> && requires { requires Tier
   } else                                                                                    \
     return kernels::query<tier>(__VA_ARGS__)
 
-/// The answer of a kernel that `Tier` lifts.
-#define COLLIDE_LIFTED(query, ...) \
-  Tier::lift([](auto arithmetic, const auto&... a) { return kernels::query<decltype(arithmetic)>(a...); }, __VA_ARGS__)
+/// The kernel of a query as a function of the arithmetic, and its answer as `Tier` lifts it.
+#define COLLIDE_KERNEL(query) \
+  [](auto arithmetic, const auto&... a) { return kernels::query<decltype(arithmetic)>(a...); }
+#define COLLIDE_LIFTED(query, ...) Tier::lift(COLLIDE_KERNEL(query), __VA_ARGS__)
 
 /// True if the tier uses the kernel in SIMD lanes of queries that have one.
 template <class Tier, class T>
@@ -220,7 +266,7 @@ struct Accurate : Compensated {
         return wide;
       };
       auto wide = kernel(Plain{}, widened(args)...);
-      reject_nonfinite(wide, args...);
+      reject_nonfinite_of<F>(wide, args...);
       A answer{};
       convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
       keep_sign_of_depth(wide.yes(), answer);
@@ -233,7 +279,7 @@ struct Accurate : Compensated {
       return answer;
     } else {
       auto answer = kernel(Compensated{}, args...);
-      reject_nonfinite(answer, args...);
+      reject_nonfinite_of<F>(answer, args...);
       return answer;
     }
   }

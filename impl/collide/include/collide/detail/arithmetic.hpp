@@ -91,15 +91,20 @@ struct Compensated : WithCross<Compensated> {
   }
 };
 
+/// Whether the square of a length that unit() divides by neither overflows nor loses digits.
+template <MachineNumber T>
+constexpr bool needs_no_scaling(T length2) {
+  constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+  return length2 >= least && length2 <= std::numeric_limits<T>::max() / T(16);
+}
+
 /// a / |a|. Zero for zero; NaN if a number of a is not finite.
 template <class Tier, class T>
 Vec3<T> unit(const Vec3<T>& a) {
   using detail::abs, detail::sqrt;
   const T length2 = Tier::dot(a, a);
   if constexpr (MachineNumber<T>) {
-    constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
-    constexpr T most = std::numeric_limits<T>::max() / T(16);
-    if (!(length2 >= least && length2 <= most)) {
+    if (!needs_no_scaling(length2)) {
       const T largest = larger(larger(abs(a.x), abs(a.y)), abs(a.z));
       if (largest == T(0)) return a;
       const Vec3<T> scaled = a / largest;

@@ -2,7 +2,6 @@
 /// valid, and filters that decide.
 #pragma once
 
-#include <cstddef>
 #include <limits>
 
 #include <collide/answers.hpp>
@@ -20,28 +19,28 @@ inline Impact<T> contact(const T& time, const Vec3<T>& location, const Vec3<T>& 
 }
 
 #if defined(COLLIDE_LANES)
-/// Stores an impact from registers, which is faster than shuffling lanes into its members.
-inline Impact<float> impact_from_lanes(Lanes<float> time, Lanes<float> location, Lanes<float> normal) {
-  using A = Impact<float>;
-  static_assert(offsetof(A, normal) == offsetof(A, location) + sizeof(Vec3<float>));
-  Impact<float> answer;
-  char* const numbers = reinterpret_cast<char*>(&answer);
-  _mm_store_ss(&answer.time, time.v);
-  _mm_storeu_ps(reinterpret_cast<float*>(numbers + offsetof(A, location)),
-                location.v);  // and a fourth number, overwritten by the next
-  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + offsetof(A, normal)), normal.v);
-  _mm_store_ss(&answer.normal.z, _mm_movehl_ps(normal.v, normal.v));
+/// Stores an answer that consists of a number and two vectors from registers, which is faster than shuffling lanes into
+/// its members.
+template <class A>
+A answer_from_lanes(Lanes<float> number, Lanes<float> first, Lanes<float> second) {
+  static_assert(sizeof(A) == 7 * sizeof(float));
+  A answer;
+  float* const numbers = reinterpret_cast<float*>(&answer);
+  _mm_store_ss(numbers, number.v);
+  first.store(numbers + 1);  // and a fourth number, overwritten by the next
+  _mm_storel_pi(reinterpret_cast<__m64*>(numbers + 4), second.v);
+  _mm_store_ss(numbers + 6, _mm_movehl_ps(second.v, second.v));
   return answer;
 }
-inline Impact<double> impact_from_lanes(TwoDoubles time, Lanes<double> location, Lanes<double> normal) {
-  using A = Impact<double>;
-  Impact<double> answer;
-  char* const numbers = reinterpret_cast<char*>(&answer);
-  _mm_store_sd(&answer.time, time.v);
-  _mm_storeu_pd(reinterpret_cast<double*>(numbers + offsetof(A, location)), location.low.v);
-  _mm_store_sd(&answer.location.z, location.high.v);
-  _mm_storeu_pd(reinterpret_cast<double*>(numbers + offsetof(A, normal)), normal.low.v);
-  _mm_store_sd(&answer.normal.z, normal.high.v);
+template <class A>
+A answer_from_lanes(TwoDoubles number, Lanes<double> first, Lanes<double> second) {
+  static_assert(sizeof(A) == 7 * sizeof(double));
+  A answer;
+  double* const numbers = reinterpret_cast<double*>(&answer);
+  _mm_store_sd(numbers, number.v);
+  first.store(numbers + 1);
+  _mm_storeu_pd(numbers + 4, second.low.v);
+  _mm_store_sd(numbers + 6, second.high.v);
   return answer;
 }
 
@@ -52,7 +51,7 @@ auto impact_where(const P& hit, const P& time, const L& location, const L& norma
   using T = decltype(time.first());
   const P none = and_not(P::first_lane(std::numeric_limits<T>::infinity()), hit);
   const L hits = broadcast_first(hit);
-  return impact_from_lanes(larger(none, time), location & hits, normal & hits);
+  return answer_from_lanes<Impact<T>>(larger(none, time), location & hits, normal & hits);
 }
 #endif
 
@@ -87,11 +86,19 @@ Vec3<T> against(const Vec3<T>& velocity) {
   return Tier::dot(n, n) > T(0) ? n : Vec3<T>{T(1), T(0), T(0)};
 }
 
-/// `away` as a unit vector; if it is zero, the unit vector opposite to the velocity.
 template <class Tier, class T>
-Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) {
+COLLIDE_COLD Vec3<T> outward_of_any_length(const Vec3<T>& away, const Vec3<T>& velocity) {
   const Vec3<T> n = unit<Tier>(away);
   return Tier::dot(n, n) > T(0) ? n : against<Tier>(velocity);
+}
+/// `away` as a unit vector; if it is zero, the unit vector opposite to the velocity.
+template <class Tier, class T>
+inline Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) {
+  using detail::sqrt;
+  if constexpr (MachineNumber<T>) {
+    if (const T length2 = Tier::dot(away, away); needs_no_scaling(length2)) return away / sqrt(length2);
+  }
+  return outward_of_any_length<Tier>(away, velocity);
 }
 
 /// The time at which a point outside a ball reaches its surface; negative if it never does. `from` is the vector from

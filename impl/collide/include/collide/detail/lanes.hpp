@@ -16,10 +16,8 @@
 #define COLLIDE_LANES 1
 #if defined(__GNUC__)  // for lambdas: a call would pass lanes through memory
 #define COLLIDE_INLINE __attribute__((always_inline))
-#define COLLIDE_OUT_OF_LINE __attribute__((noinline, cold))  // for rare cases, which would occupy registers if inlined
 #else
 #define COLLIDE_INLINE
-#define COLLIDE_OUT_OF_LINE
 #endif
 #endif
 
@@ -32,7 +30,7 @@ namespace collide::detail {
 /// Wraps `kernel` so that calls of it are not inlined.
 template <class Kernel>
 auto out_of_line(Kernel kernel) noexcept {
-  return [kernel](const auto&... arguments) COLLIDE_OUT_OF_LINE { return kernel(arguments...); };
+  return [kernel](const auto&... arguments) COLLIDE_COLD { return kernel(arguments...); };
 }
 
 /// a / b in each lane. Clang compiles an intrinsic with the options of the program, which may allow products with a
@@ -117,6 +115,7 @@ struct TwoDoubles {
   static TwoDoubles splat(double x) noexcept { return {_mm_set1_pd(x)}; }
   static TwoDoubles first_lane(double x) noexcept { return {_mm_set_sd(x)}; }
   static TwoDoubles two(double x, double y) noexcept { return {_mm_setr_pd(x, y)}; }
+  static TwoDoubles mask(bool yes) noexcept { return {_mm_castsi128_pd(_mm_set1_epi32(-int(yes)))}; }
 
   friend TwoDoubles operator+(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_add_pd(a.v, b.v)}; }
   friend TwoDoubles operator-(TwoDoubles a, TwoDoubles b) noexcept { return {_mm_sub_pd(a.v, b.v)}; }
@@ -154,10 +153,7 @@ struct Lanes<double> {
     const double* const first = reinterpret_cast<const double*>(there);
     return {{_mm_loadu_pd(first)}, {_mm_loadu_pd(first + 2)}};
   }
-  static Lanes mask(bool yes) noexcept {
-    const TwoDoubles bits{_mm_castsi128_pd(_mm_set1_epi32(-int(yes)))};
-    return {bits, bits};
-  }
+  static Lanes mask(bool yes) noexcept { return {TwoDoubles::mask(yes), TwoDoubles::mask(yes)}; }
 
   static Lanes mask_of_three() noexcept {
     return {{_mm_castsi128_pd(_mm_set1_epi32(-1))}, {_mm_castsi128_pd(_mm_setr_epi32(-1, -1, 0, 0))}};
@@ -313,6 +309,17 @@ Lanes<T> absolute(const Lanes<T>& a) noexcept {
 template <class T, class... More>
 Lanes<T> are_finite(const Lanes<T>& a, const More&... more) noexcept {
   return ((a - a) + ... + (more - more)) == Lanes<T>::splat(T(0));
+}
+/// -a, also of zero.
+template <class L>
+L negated(const L& a) noexcept {
+  return a ^ L::splat(-0.0);
+}
+
+/// Whether a mask is set in all four lanes.
+template <class T>
+bool all_four(const Lanes<T>& mask) noexcept {
+  return mask.bits() == 15;
 }
 /// Whether a mask is set in all of the first three lanes.
 template <class T>

@@ -8,14 +8,67 @@
 #include <cmath>
 #endif
 
+/// For what a hot function calls rarely: inlined, it would occupy registers.
+#if defined(__GNUC__)
+#define COLLIDE_COLD __attribute__((noinline, cold))
+#else
+#define COLLIDE_COLD
+#endif
+
+/// One instruction on scalars in SSE registers, where GCC moves the operands of an intrinsic through integer registers,
+/// tests the argument of a root for its sign, and often compiles a selection to a branch.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+#define COLLIDE_SCALAR_INSTRUCTIONS 1
+#if defined(__AVX__)
+#define COLLIDE_SCALAR_INSTRUCTION(name, result, a, b) asm("v" name " %2, %1, %0" : "=x"(result) : "x"(a), "x"(b))
+#else
+#define COLLIDE_SCALAR_INSTRUCTION(name, result, a, b) asm(name " %2, %0" : "=x"(result) : "0"(a), "x"(b))
+#endif
+#endif
+
 #include <collide/detail/strict_begin.hpp>
 
 namespace collide::detail {
 
-#if defined(__GNUC__)
+#if defined(COLLIDE_SCALAR_INSTRUCTIONS)
+
+inline float sqrt(float x) noexcept {
+  COLLIDE_SCALAR_INSTRUCTION("sqrtss", x, x, x);
+  return x;
+}
+inline double sqrt(double x) noexcept {
+  COLLIDE_SCALAR_INSTRUCTION("sqrtsd", x, x, x);
+  return x;
+}
+
+/// The larger, or smaller, number. A NaN in the first argument is returned.
+inline float larger_at_run_time(float a, float b) noexcept {
+  COLLIDE_SCALAR_INSTRUCTION("maxss", b, b, a);
+  return b;
+}
+inline double larger_at_run_time(double a, double b) noexcept {
+  COLLIDE_SCALAR_INSTRUCTION("maxsd", b, b, a);
+  return b;
+}
+inline float smaller_at_run_time(float a, float b) noexcept {
+  COLLIDE_SCALAR_INSTRUCTION("minss", b, b, a);
+  return b;
+}
+inline double smaller_at_run_time(double a, double b) noexcept {
+  COLLIDE_SCALAR_INSTRUCTION("minsd", b, b, a);
+  return b;
+}
+#undef COLLIDE_SCALAR_INSTRUCTION
+
+#elif defined(__GNUC__)
 
 inline float sqrt(float x) noexcept { return __builtin_sqrtf(x); }
 inline double sqrt(double x) noexcept { return __builtin_sqrt(x); }
+
+#endif
+
+#if defined(__GNUC__)
+
 inline long double sqrt(long double x) noexcept { return __builtin_sqrtl(x); }
 
 constexpr float abs(float x) noexcept { return __builtin_fabsf(x); }

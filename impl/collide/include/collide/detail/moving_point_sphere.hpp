@@ -11,6 +11,37 @@
 
 namespace collide {
 
+namespace detail {
+
+/// The contact of a moving point with a sphere's surface at `time`.
+template <class Tier, class T>
+inline Impact<T> contact_on_sphere(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
+                                   const T& time) {
+  const Vec3<T> displacement = velocity * time;
+  const Vec3<T> away = sphere.radius > T(0) ? (point - sphere.center) + displacement : Vec3<T>{};
+  return contact(time, point + displacement, outward<Tier>(away, velocity));
+}
+
+/// The contact of a point that starts inside the sphere or on it.
+template <class Tier, class T>
+COLLIDE_COLD Impact<T> moving_point_from_inside(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
+                                                bool solid) {
+  using detail::sqrt;
+  if constexpr (MachineNumber<T>) {  // outside, a number that is not finite makes the chord infinite or NaN
+    if (!all_finite(point, velocity, sphere)) return Impact<T>::miss();
+  }
+  const Vec3<T> m = point - sphere.center;
+  if (solid) return contact(T(0), point, outward<Tier>(m, velocity));
+  const T speed2 = Tier::dot(velocity, velocity);
+  if (!(speed2 > T(0))) return Impact<T>::miss();
+  const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
+  const T chord2 = -Tier::beyond_radius(m + velocity * nearest, sphere.radius);
+  const T time = positive_part(nearest + sqrt(positive_part(chord2)) / sqrt(speed2));
+  return contact_on_sphere<Tier>(point, velocity, sphere, time);
+}
+
+}  // namespace detail
+
 COLLIDE_COMPILED(moving_point_sphere)
 
 namespace kernels {
@@ -23,27 +54,13 @@ inline Impact<T> moving_point_sphere(const Vec3<T>& point, const Vec3<T>& veloci
       return Tier::decided_by_filter(*answer);
   }
   if constexpr (Tier::template lifts<T>) {
-    return COLLIDE_LIFTED(moving_point_sphere, point, velocity, sphere, solid);
+    return Tier::lift(YesIfFinite{COLLIDE_KERNEL(moving_point_sphere)}, point, velocity, sphere, solid);
   } else {
-    using detail::sqrt;
     const Vec3<T> m = point - sphere.center;
-    const T outside = Tier::beyond_radius(m, sphere.radius);
-    const bool starts_in = outside <= T(0);
-    if (starts_in && solid) return detail::contact(T(0), point, detail::outward<Tier>(m, velocity));
-    const T speed2 = Tier::dot(velocity, velocity);
-    if (!(speed2 > T(0))) return Impact<T>::miss();
-    const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
-    if (!starts_in && !(nearest > T(0))) return Impact<T>::miss();
-    const Vec3<T> offset = m + velocity * nearest;
-    const T chord2 = -Tier::beyond_radius(offset, sphere.radius);
-    if (!(chord2 >= T(0)) && !starts_in) return Impact<T>::miss();
-    const T half_chord = sqrt(positive_part(chord2)) / sqrt(speed2);  // in units of time
-    // Near a tangent, the textbook quotient outside / (nearest + half_chord) loses the digits that the square of the
-    // radius loses. This difference has an error of 1 eps of the distance to the closest approach.
-    const T time = positive_part(starts_in ? nearest + half_chord : nearest - half_chord);
-    const Vec3<T> displacement = velocity * time;
-    const Vec3<T> away = sphere.radius > T(0) ? m + displacement : Vec3<T>{};
-    return detail::contact(time, point + displacement, detail::outward<Tier>(away, velocity));
+    if (Tier::beyond_radius(m, sphere.radius) <= T(0))
+      return detail::moving_point_from_inside<Tier>(point, velocity, sphere, solid);
+    const T time = detail::time_to_ball<Tier>(m, velocity, sphere.radius);
+    return time >= T(0) ? detail::contact_on_sphere<Tier>(point, velocity, sphere, time) : Impact<T>::miss();
   }
 }
 

@@ -102,8 +102,8 @@ T time_in_triangle(const T& time, const Vec3<T>& velocity, const Vec3<T>& n, con
 /// The rest of moving_point_triangle_in_lanes for a thin triangle, whose normal needs a correction. The edge tests are
 /// certain.
 template <class T, class Fallback>
-COLLIDE_OUT_OF_LINE Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
-                                                        const Triangle<T>& triangle, const Fallback& fallback) {
+COLLIDE_COLD Impact<T> impact_with_thin_triangle(const Vec3<T>& point, const Vec3<T>& velocity,
+                                                 const Triangle<T>& triangle, const Fallback& fallback) {
   using limits = std::numeric_limits<T>;
   const Vec3<T> n = normal_of<Plain>(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
   const T n2 = Plain::dot(n, n);

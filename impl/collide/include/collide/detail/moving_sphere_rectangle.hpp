@@ -18,7 +18,18 @@ template <class Tier, class T>
 inline Impact<T> moving_sphere_rectangle(const Sphere<T>& sphere, const Vec3<T>& velocity,
                                          const Rectangle<T>& rectangle) {
   if constexpr (Tier::template lifts<T>) {
-    return COLLIDE_LIFTED(moving_sphere_rectangle, sphere, velocity, rectangle);
+    const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(moving_sphere_rectangle, inputs...); };
+#if defined(COLLIDE_LANES)
+    if constexpr (in_lanes<Tier, T>) {
+      using detail::lanes;
+      const auto first = lanes(rectangle.v0);
+      return detail::moving_sphere_polygon_in_lanes<Impact<T>, 4>(
+          sphere, velocity,
+          detail::CornersInLanes<T, 4>{first, lanes(rectangle.v1), lanes(rectangle.v2), lanes(rectangle.v3), first},
+          [&]() COLLIDE_COLD { return fallback(sphere, velocity, rectangle); });
+    }
+#endif
+    return fallback(sphere, velocity, rectangle);
   } else {
     const TriangleImpact<T> one =
         kernels::moving_sphere_triangle<Tier>(sphere, velocity, Triangle<T>{rectangle.v0, rectangle.v1, rectangle.v2});

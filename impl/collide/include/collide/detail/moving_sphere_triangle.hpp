@@ -1,6 +1,7 @@
 /// The kernel of moving_sphere_triangle (collide/moving_sphere_triangle.hpp).
 #pragma once
 
+#include <bit>
 #include <limits>
 
 #include <collide/answers.hpp>
@@ -386,9 +387,41 @@ Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const L
   return and_not(select((zero < closing) & (zero <= chord2), time, never), at_start);
 }
 
-/// The kernel of `Fast` in lanes. Calls `fallback` for extreme inputs, and where rounding leaves the closest feature
-/// undecided. Lane i holds edge i, from corner i to the next, or corner i. The side of an edge on which the center
-/// lies, and its position along the edge, are linear functions of time, so the values of the start serve for all times.
+/// A list of numbers for the corners, or the edges, of a polygon with `count` corners in their order: three or four.
+template <class T, int count>
+struct AroundPolygon {
+  using L = Lanes<T>;
+  /// The number of the following corner, or the preceding one, in each lane.
+  static L next(const L& a) noexcept {
+    if constexpr (count == 3) return yzx(a);
+    return a.template shuffled<1, 2, 3, 0>();
+  }
+  static L previous(const L& a) noexcept {
+    if constexpr (count == 3) return zxy(a);
+    return a.template shuffled<3, 0, 1, 2>();
+  }
+  static Columns<T> next(const Columns<T>& a) noexcept { return {next(a.x), next(a.y), next(a.z)}; }
+  static int bits(const L& mask) noexcept { return mask.bits() & ((1 << count) - 1); }
+  static bool all(const L& mask) noexcept { return bits(mask) == (1 << count) - 1; }
+  static bool any(const L& mask) noexcept { return bits(mask) != 0; }
+  static T smallest(const L& a) noexcept {
+    const Pair<T> two = count == 3 ? second_pair(a) : smaller(second_pair(a), swapped(second_pair(a)));
+    return smaller(smaller(first_pair(a), swapped(first_pair(a))), two).first();
+  }
+  static T sum(const L& a) noexcept {
+    if constexpr (count == 3) return sum_of_three(a).first();
+    return sum_of_four(a).first();
+  }
+};
+
+/// The corners of a polygon, the first of which also follows the last.
+template <class T, int count>
+using CornersInLanes = std::array<Lanes<T>, count + 1>;
+
+/// The kernel of `Fast` in lanes for a triangle, or for a parallelogram up to rounding. Calls `fallback` for extreme
+/// inputs, and where rounding leaves the closest feature undecided. Lane i holds edge i, from corner i to the next, or
+/// corner i. The side of an edge on which the center lies, and its position along the edge, are linear functions of
+/// time, so the values of the start serve for all times.
 ///
 /// Rounding errors, with u the unit roundoff. The error of the normal is that of moving_point_triangle: moving corners
 /// by 30 u of G, the largest position, accounts for it. Let w be a corner relative to the center at the start, d the
@@ -401,10 +434,14 @@ Lanes<T> touching_times(const Lanes<T>& closing, const Lanes<T>& speed2, const L
 /// along the edge that is up to 16 times as much of the component; a motion closer to the edge's direction goes to
 /// `fallback`. An edge or a corner counts only if the center is beyond it by 7 times the rounding error, so the
 /// direction from there to the center is never rounding error alone.
-template <class T, class Fallback>
-inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
-                                                         const Triangle<T>& triangle, const Fallback& fallback) {
+///
+/// A parallelogram is one up to 16 u of G, by which its last corner moves; then its two triangles have one plane and
+/// one border, and their common edge is not on it.
+template <class A, int count, class T, class Fallback>
+inline A moving_sphere_polygon_in_lanes(const Sphere<T>& sphere, const Vec3<T>& velocity,
+                                        const CornersInLanes<T, count>& v, const Fallback& fallback) {
   using L = Lanes<T>;
+  using Around = AroundPolygon<T, count>;
   using limits = std::numeric_limits<T>;
   // `least` and `most` bound lengths: products of eight of them stay in range. `shortest` bounds the squared length of
   // the normal, relative to the squared edges: below it the normal is rounding error.
@@ -413,91 +450,109 @@ inline TriangleImpact<T> moving_sphere_triangle_in_lanes(const Sphere<T>& sphere
   constexpr T shortest = limits::epsilon() * limits::epsilon();
   constexpr T least2 = least * least, most2 = most * most, error_bound = T(64) * limits::epsilon();
   const L center = lanes(sphere), along = lanes(velocity), zero = L::splat(T(0));
-  const CornerLanes<T> t = corner_lanes(triangle);
   const T radius = sphere.radius, radius2 = radius * radius;
   const auto sums_with = [&](const L& n) {
-    return sums_of_three(n * along, n * (center - t.v0), n * n, along * along);
+    return sums_of_three(n * along, n * (center - v[0]), n * n, along * along);
   };
-  L n = cross(t.v1 - t.v0, t.v2 - t.v0), sums = sums_with(n);
-  const Columns<T> corner = columns(t.v0, t.v1, t.v2, t.v0), edge = yzx(corner) - corner,
+  L n = cross(v[1] - v[0], v[count - 1] - v[0]), sums = sums_with(n);
+  const Columns<T> corner = columns(v[0], v[1], v[2], v[3]), edge = Around::next(corner) - corner,
                    from = splat_columns(center) - corner;
   const L edge2 = dot(edge, edge), from2 = dot(from, from);
-  if (!all_three((L::splat(least2) <= edge2) & (edge2 <= L::splat(most2)) & (from2 <= L::splat(most2)))) {
-    return fallback(sphere, velocity, triangle);
+  if (!Around::all((L::splat(least2) <= edge2) & (edge2 <= L::splat(most2)) & (from2 <= L::splat(most2)))) {
+    return fallback();
   }
-  const bool thin = is_thin(second_pair(sums).first(), edge2.first(), edge2.template broadcast<2>().first());
-  if (thin) {
-    n = lanes(out_of_line([](const Triangle<T>& x) { return normal_of<Plain>(x.v1 - x.v0, x.v2 - x.v0); })(triangle));
-    sums = sums_with(n);
+  const L largest = largest_of_three(
+      larger(absolute(center), larger(larger(absolute(v[0]), absolute(v[1])), larger(absolute(v[2]), absolute(v[3])))));
+  const T first2 = edge2.first(), last2 = edge2.template broadcast<count - 1>().first();
+  const T size2_of_n = second_pair(sums).first();
+  bool thin = false;
+  if constexpr (count == 3) {
+    thin = is_thin(size2_of_n, first2, last2);
+    if (thin) {
+      n = lanes(out_of_line([](const Vec3<T>& a, const Vec3<T>& b) { return normal_of<Plain>(a, b); })(
+          to_vec3(v[1] - v[0]), to_vec3(v[2] - v[0])));
+      sums = sums_with(n);
+    }
+  } else {
+    const L open = absolute((v[1] - v[0]) - (v[2] - v[3])), closed = L::splat(T(8) * limits::epsilon()) * largest;
+    if (!(all_three(open <= closed) && T(4) * size2_of_n >= first2 * last2)) return fallback();
   }
   const auto [receding, height, n2, speed2] = to_array(sums);
-  const T both2 = edge2.first() + edge2.template broadcast<2>().first();
+  const T both2 = first2 + last2;
   const bool in_range =
       n2 >= shortest * (both2 * both2) && speed2 >= least2 && speed2 <= most2 && radius >= least && radius <= most;
-  if (!in_range) return fallback(sphere, velocity, triangle);
+  if (!in_range) return fallback();
   // A center behind the plane passes if the sphere overlaps the plane, or touches it and does not leave.
   const T height2 = height * height, reach2 = radius2 * n2;
   const bool passes = height >= T(0) || height2 < reach2 || (height2 == reach2 && receding == T(0));
-  if (!(receding <= T(0) && passes)) return TriangleImpact<T>::miss();
+  if (!(receding <= T(0) && passes)) return A::miss();
   const T n_length = detail::sqrt(n2), reach = radius * n_length;
-  if (height > reach && receding == T(0)) return TriangleImpact<T>::miss();
+  if (height > reach && receding == T(0)) return A::miss();
 
   const Columns<T> u = splat_columns(along), inward = cross(splat_columns(n), edge);
   const L beside = dot(inward, from), moves_in = dot(inward, u);
   const T face_time = height > reach ? (reach - height) / receding : T(0);
-  if (const L weights = beside + moves_in * L::splat(face_time); all_three(zero <= weights)) {
+  if (const L sides = beside + moves_in * L::splat(face_time); Around::all(zero <= sides)) {
     const L at = center + along * L::splat(face_time), location = at - n * L::splat(smaller(height, reach) / n2);
-    const L corners = larger(absolute(t.v0), larger(absolute(t.v1), absolute(t.v2)));
-    const L rounding = L::splat(T(16) * limits::epsilon()) * largest_of_three(larger(absolute(center), corners));
-    const L low = smaller(t.v0, smaller(t.v1, t.v2)) - rounding, high = larger(t.v0, larger(t.v1, t.v2)) + rounding;
-    const L weight_sum = sum_of_three(weights);  // |n|^2, unless it is rounding error
-    const bool is_sum = n2 <= T(2) * weight_sum.first() && weight_sum.first() <= T(2) * n2;
-    if (thin || !is_sum || !all_three((low <= location) & (location <= high))) {
-      return fallback(sphere, velocity, triangle);
+    const L rounding = L::splat(T(16) * limits::epsilon()) * largest;
+    const L low = smaller(smaller(v[0], v[1]), smaller(v[2], v[3])) - rounding,
+            high = larger(larger(v[0], v[1]), larger(v[2], v[3])) + rounding;
+    // Each pair of neighbouring sides of the parallelogram adds |n|^2, as the three of a triangle do.
+    const T side_sum = Around::sum(sides), due = T(count - 2) * n2;
+    const bool is_sum = due <= T(2) * side_sum && side_sum <= T(2) * due;  // unless it is rounding error
+    if (thin || !is_sum || !all_three((low <= location) & (location <= high))) return fallback();
+    const L normal = n / L::splat(height < T(0) ? -n_length : n_length);
+    if constexpr (count == 3) {
+      return impact_from_lanes(face_time, location, normal, yzx(sides) / L::splat(side_sum));
+    } else {
+      return answer_from_lanes<A>(Pair<T>::splat(face_time), location, normal);
     }
-    return impact_from_lanes(face_time, location, n / L::splat(height < T(0) ? -n_length : n_length),
-                             yzx(weights) / weight_sum);
   }
 
   // The distances from each line are multiplied by the length of its edge.
   const Columns<T> w = cross(from, edge), across = cross(u, edge), line_moment = cross(w, across),
                    moment = cross(from, u);
   const L r2 = L::splat(radius2), u2 = L::splat(speed2), across2 = dot(across, across), line_r2 = r2 * edge2;
-  if (any_of_three(across2 * L::splat(T(256)) < edge2 * u2)) return fallback(sphere, velocity, triangle);
+  if (Around::any(across2 * L::splat(T(256)) < edge2 * u2)) return fallback();
   const L corner_chord2 = r2 * u2 - dot(moment, moment),
           line_chord2 = line_r2 * across2 - dot(line_moment, line_moment);
   // A sphere that hits a corner also hits the lines of its edges, no later: a negative chord is rounding error.
-  const L at_ends = (zero <= corner_chord2) | (zero <= yzx(corner_chord2));
+  const L at_ends = (zero <= corner_chord2) | (zero <= Around::next(corner_chord2));
   const L line_times = touching_times(zero - dot(w, across), across2, dot(w, w) - line_r2,
                                       select(at_ends, larger(line_chord2, zero), line_chord2));
   const L corner_times = touching_times(zero - dot(from, u), u2, from2 - r2, corner_chord2);
   const L along_edge = dot(from, edge), moves_along = dot(u, edge);
   const L reached = along_edge + moves_along * line_times;
   const L on_line = (zero <= reached) & (reached <= edge2);
-  const T time = smallest_of(smaller(corner_times, select(on_line, line_times, corner_times))).first();
-  if (time == limits::infinity()) return TriangleImpact<T>::miss();
+  const T time = Around::smallest(smaller(corner_times, select(on_line, line_times, corner_times)));
+  if (time == limits::infinity()) return A::miss();
 
   // The closest feature at that time: the times of two features may differ by less than their squares show.
   const T speed = detail::sqrt(speed2), displacement_error = error_bound * speed * time;
   const L passed = L::splat(time), moved_along = moves_along * passed, scale = L::splat(error_bound * n_length);
   const L doubt = scale * (from2 + edge2) + scale * sqrt(edge2) * L::splat(speed * time);
-  const L after_start = along_edge + moved_along, after_end = dot(yzx(from), edge) + moved_along;
-  const L at_corner = (after_start <= zero) & (zero <= zxy(after_end));
+  const L after_start = along_edge + moved_along, after_end = dot(Around::next(from), edge) + moved_along;
+  const L at_corner = (after_start <= zero) & (zero <= Around::previous(after_end));
   const L at_edge = (zero < after_start) & (after_end < zero) & (beside + moves_in * passed < zero - doubt);
-  const int features = (at_corner | at_edge).bits() & 7, i = features >> 1;
-  if (!(features == 1 || features == 2 || features == 4)) return fallback(sphere, velocity, triangle);
-  static constexpr std::array<std::array<T, 4>, 4> unit{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}}};
-  const auto unit_at = [](int k) { return L::load(reinterpret_cast<const char*>(&unit[k])); };
-  const std::array<L, 4> v{t.v0, t.v1, t.v2, t.v0};
+  const auto features = unsigned(Around::bits(at_corner | at_edge));
+  if (!std::has_single_bit(features)) return fallback();
+  const int i = std::countr_zero(features);
   const T per_edge2 = to_array((L::splat(T(1)) / edge2) & at_edge)[i],
           share = smaller(to_array(after_start)[i] * per_edge2, T(1));
   const L e = v[i + 1] - v[i], foot = e * L::splat(share), seen = (center + along * passed - v[i]) - foot;
   // Removes the component along the edge that rounding left, which matters if the rest is small.
   const L away = seen - e * (sum_of_three(seen * e) * L::splat(per_edge2)), away2 = sum_of_three(away * away);
   const T away2_least = limits::min() / limits::epsilon() + displacement_error * displacement_error;
-  if (!(away2.first() >= away2_least)) return fallback(sphere, velocity, triangle);
-  return impact_from_lanes(time, v[i] + foot, away / sqrt(away2),
-                           unit_at(i) * L::splat(T(1) - share) + unit_at(i + 1) * L::splat(share));
+  if (!(away2.first() >= away2_least)) return fallback();
+  const L location = v[i] + foot, normal = away / sqrt(away2);
+  if constexpr (count == 3) {
+    static constexpr std::array<std::array<T, 4>, 4> unit{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}}};
+    const auto unit_at = [](int k) { return L::load(reinterpret_cast<const char*>(&unit[k])); };
+    return impact_from_lanes(time, location, normal,
+                             unit_at(i) * L::splat(T(1) - share) + unit_at(i + 1) * L::splat(share));
+  } else {
+    return answer_from_lanes<A>(Pair<T>::splat(time), location, normal);
+  }
 }
 
 #endif
@@ -515,7 +570,10 @@ inline TriangleImpact<T> moving_sphere_triangle(const Sphere<T>& sphere, const V
     const auto fallback = [](const auto&... inputs) { return COLLIDE_LIFTED(moving_sphere_triangle, inputs...); };
 #if defined(COLLIDE_LANES)
     if constexpr (in_lanes<Tier, T>) {
-      return detail::moving_sphere_triangle_in_lanes(sphere, velocity, triangle, detail::out_of_line(fallback));
+      const auto [v0, v1, v2] = detail::corner_lanes(triangle);
+      return detail::moving_sphere_polygon_in_lanes<TriangleImpact<T>, 3>(
+          sphere, velocity, detail::CornersInLanes<T, 3>{v0, v1, v2, v0},
+          [&]() COLLIDE_COLD { return fallback(sphere, velocity, triangle); });
     }
 #endif
     if constexpr (uses_filter<Tier, T>) {

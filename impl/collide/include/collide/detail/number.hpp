@@ -36,7 +36,11 @@ inline constexpr bool has_wider = std::numeric_limits<Wider<T>>::digits >= std::
 
 template <MachineNumber T>
 constexpr T larger(T a, T b) {
-#if defined(__SSE2__)  // one instruction, where compilers often emit an unpredictable branch
+#if defined(COLLIDE_SCALAR_INSTRUCTIONS)
+  if constexpr (!std::same_as<T, long double>) {
+    if (!std::is_constant_evaluated()) return detail::larger_at_run_time(a, b);
+  }
+#elif defined(__SSE2__)  // one instruction, where compilers often emit an unpredictable branch
   if (!std::is_constant_evaluated()) {
     if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(b), _mm_set_sd(a)));
     if constexpr (std::same_as<T, float>) return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(b), _mm_set_ss(a)));
@@ -46,7 +50,11 @@ constexpr T larger(T a, T b) {
 }
 template <MachineNumber T>
 constexpr T smaller(T a, T b) {
-#if defined(__SSE2__)
+#if defined(COLLIDE_SCALAR_INSTRUCTIONS)
+  if constexpr (!std::same_as<T, long double>) {
+    if (!std::is_constant_evaluated()) return detail::smaller_at_run_time(a, b);
+  }
+#elif defined(__SSE2__)
   if (!std::is_constant_evaluated()) {
     if constexpr (std::same_as<T, double>) return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(b), _mm_set_sd(a)));
     if constexpr (std::same_as<T, float>) return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(b), _mm_set_ss(a)));

@@ -16,14 +16,16 @@ namespace kernels {
 template <class Tier, class T>
 inline Decision<T> sphere_sphere_overlap(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
   if constexpr (Tier::template lifts<T>) {
-    return COLLIDE_LIFTED(sphere_sphere_overlap, sphere1, sphere2);
+    return Tier::lift(YesIfFinite{COLLIDE_KERNEL(sphere_sphere_overlap)}, sphere1, sphere2);
   } else {
     const Vec3<T> between = sphere2.center - sphere1.center;
     const T reach = sphere1.radius + sphere2.radius;
-    if constexpr (MachineNumber<T>) {
-      if (!(reach <= std::numeric_limits<T>::max())) return {false};
+    const bool meet = Tier::beyond_radius(between, reach) <= T(0);
+    if constexpr (MachineNumber<T>) {  // a center that is not finite makes the distance infinite or NaN
+      return {bool(unsigned(meet) & unsigned(detail::abs(reach) <= std::numeric_limits<T>::max()))};
+    } else {
+      return {meet};
     }
-    return {Tier::beyond_radius(between, reach) <= T(0)};
   }
 }
 
