@@ -82,11 +82,11 @@ for query in $queries; do
     { cat "$copy/log"; fail "the fuzz target does not replay the seed"; }
 done
 
-# The tests that run for the queries, and those that compare the sources and pages with the catalogue.
+# The tests that run for the query of fixed length, and those that compare the sources and pages with the catalogue.
 "$build/properties/nearmiss_properties" \
-  --gtest_filter="*sphere_contains_po*:Structure.*:ReferenceTable.*:HandDerivedCases.*:Streams.*:Catalogue.*:Shapes.*:Operands.*" \
-  >"$copy/log" 2>&1 || { grep -A 12 -E "Failure|FAILED" "$copy/log" | tail -n 60; fail "a test fails"; }
-for query in $queries; do grep -q "$query" "$copy/log" || fail "no test ran for $query"; done
+  --gtest_filter="*sphere_contains_point*:Structure.*:ReferenceTable.*:HandDerivedCases.*:Streams.*:Catalogue.*" >"$copy/log" 2>&1 ||
+  { grep -A 12 -E "Failure|FAILED" "$copy/log" | tail -n 60; fail "a test fails"; }
+grep -q sphere_contains_point "$copy/log" || fail "no test ran for the query"
 
 # Programs and plugins get each case with its length. What was made before there were lengths is refused in one line.
 ask=(run --query sphere_contains_polyline --cases 2000 --seed 1)
