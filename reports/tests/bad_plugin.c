@@ -77,9 +77,10 @@ static const nearmiss_contract contract = {1, 1, 1, 0, 20, -20};
 #endif
 
 #ifdef SECOND_VERSION
-/* Two balls meet; the functions of that version have no count. */
+/* Two balls meet; the range of long double holds every square. The functions of that version have no count. */
 static int meet(const double* q, nearmiss_answer* answer) {
-  const double x = q[0] - q[4], y = q[1] - q[5], z = q[2] - q[6], reach = q[3] + q[7];
+  const long double x = (long double)q[0] - q[4], y = (long double)q[1] - q[5], z = (long double)q[2] - q[6];
+  const long double reach = (long double)q[3] + q[7];
   answer->yes = x * x + y * y + z * z <= reach * reach;
   return NEARMISS_ANSWERED;
 }
