@@ -5,7 +5,6 @@
 /// contains it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <tuple>
@@ -60,7 +59,9 @@ struct Counted {
   std::array<X, std::size_t(most)> entries{};
 
   /// The count; its nearest bound where the count is beyond the bounds.
-  constexpr std::size_t size() const noexcept { return std::size_t(std::clamp(count, least, most)); }
+  constexpr std::size_t size() const noexcept {
+    return std::size_t(count < least ? least : count > most ? most : count);
+  }
   constexpr X* begin() noexcept { return entries.data(); }
   constexpr X* end() noexcept { return begin() + size(); }
   constexpr const X* begin() const noexcept { return entries.data(); }
