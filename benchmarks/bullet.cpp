@@ -205,7 +205,8 @@ void enter_query(const char* name) {
     } else if constexpr (is_box<First<Q>> && is_box<Second<Q>>) {
       enter(std::type_identity<BoxBoxDetector>(), "detector");
     } else if constexpr (BulletKnows<First<Q>> && BulletKnows<Second<Q>>) {
-      if constexpr (is_sphere<First<Q>> && is_box<Second<Q>>) enter(std::type_identity<SphereBoxDistance>(), "distance");
+      if constexpr (is_sphere<First<Q>> && is_box<Second<Q>>)
+        enter(std::type_identity<SphereBoxDistance>(), "distance");
       enter(std::type_identity<Algorithm<Q>>(), "algorithm");
     } else if constexpr (requires(const Q& q) { q.ray; }) {
       enter(std::type_identity<AABoxSlabs>(), "slabs");
