@@ -121,7 +121,7 @@ for query in $queries; do
 done
 
 # The simplest case has one vertex: the others do not matter.
-report=$(find "$copy/mutant-sphere_contains_polyline/findings" -name "*.json" | sort | head -n 1)
+report=$(find "$copy/mutant-sphere_contains_polyline/findings" -name "*.json" | sort | sed -n 1p)
 "$nearmiss" minimise "$report" --json --out "$copy/simplest" >"$copy/minimised.json" 2>"$copy/log" || status=$?
 python3 - "$copy/minimised.json" <<'EOF' || { cat "$copy/minimised.json" "$copy/log"; fail "minimise keeps vertices that do not matter"; }
 import json, sys
