@@ -17,7 +17,8 @@ std::size_t length_of(double x) {
   const double fraction = std::frexp(std::abs(x), &exponent);
   const auto bits = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
   const int significant = 53 - std::countr_zero(bits);
-  return std::size_t(6 * significant + 2 * std::abs(exponent - significant) + (x < 0 ? 1 : 0));
+  const int length = 6 * significant + 2 * std::abs(exponent - significant) + (x < 0 ? 1 : 0);
+  return std::size_t(length);
 }
 
 /// Simpler numbers than x, the simplest first. Rounding may lead beyond the range of the scalar.
