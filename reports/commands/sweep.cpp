@@ -8,9 +8,11 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <thread>
 
 #include "corpus/files/errors.hpp"
+#include "corpus/files/files.hpp"
 #include "corpus/generator/generator.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/commands/command.hpp"
