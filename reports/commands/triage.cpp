@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "corpus/storage/codec.hpp"
@@ -12,6 +13,7 @@
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/comparison/baseline.hpp"
+#include "reports/triage/comparison/check.hpp"
 #include "reports/triage/triage.hpp"
 #include "reports/triage/triage_json.hpp"
 #include "reports/triage/triage_text.hpp"
@@ -41,7 +43,11 @@ class TriageCommand : public Command {
          "same cases), known, unproved (too rare to be proved new), or fixed: the subject, asked the cases of the "
          "baseline again, is right. A line 'ID accepted|upstream|reported URL|fixed VERSION "
          "[at N %]  # why' in the file of --decisions takes a row out of the exit status until its proved size is "
-         "at least twice N % of the scene, or until it is found in that version."},
+         "at least twice N % of the scene, or until it is found in that version.",
+         "With --check and without a SOURCE, triage itself asks: first the cases that the baseline keeps, then those "
+         "of "
+         "its run, which are the same in every check, then fresh ones for what is left of --minutes. Only what may be "
+         "new is examined. The fresh run is in the folder of --out, with its triage."},
         {{"0", "Nothing is new or worse, or decisions about it hold."},
          {"1", "A row is new, worse or open again. Without --baseline every row is new."},
          {"2",
@@ -50,56 +56,97 @@ class TriageCommand : public Command {
          internal_error_status()},
         {{"nearmiss triage reports/runs/tuesday", "How many bugs is that?"},
          {"nearmiss triage reports/runs/tuesday --baseline reports/runs/monday", "What has changed since?"},
+         {"nearmiss triage --check --baseline known.json --minutes 2",
+          "A step of continuous integration: is anything new or worse?"},
          {"nearmiss triage run --baseline known.json --decisions decisions.txt --junit triage.xml",
-          "A step of continuous integration."}}};
+          "The same for a run."}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("SOURCE", sources_, "A run folder, a folder of reports, or a report")->required()->type_name("");
+    CLI::Option* source =
+        app.add_option("SOURCE", sources_, "A run folder, a folder of reports, or a report")->type_name("");
     declare_foreign_subjects(app);
-    app.add_option("--baseline", baseline_, "An earlier triage.json, or an earlier run folder")->type_name("FILE|DIR");
+    CLI::Option* baseline = app.add_option("--baseline", baseline_, "An earlier triage.json, or an earlier run folder")
+                                ->type_name("FILE|DIR");
+    CLI::Option* check =
+        app.add_flag("--check", check_, "Ask what the baseline asked, and fresh cases, in place of a SOURCE")
+            ->needs(baseline)
+            ->excludes(source);
+    add_whole_number(app, "--seed", seed_, "The seed of the fresh cases. Default: a random one, which is printed", 0,
+                     std::numeric_limits<std::uint64_t>::max());
+    app.get_option("--seed")->needs(check);
     app.add_option("--decisions", decisions_, "The file of what was decided about signatures")->type_name("FILE");
-    add_positive_number(app, "--minutes", minutes_, "The most time to examine findings. Default: 5", "M", 1e5);
+    add_positive_number(app, "--minutes", minutes_,
+                        "The most time to examine findings, with --check of all. Default: 5, with --check 1", "M", 1e5);
     add_whole_number(app, "--rows", rows_, "How many rows are printed. Default: 8", 0, 1'000'000);
     app.add_flag("--ordinary", ordinary_, "Leave out findings that vanish at ordinary magnitude");
     app.add_flag("--all-magnitudes", all_magnitudes_, "Let these findings change the exit status, too")
         ->excludes("--ordinary");
-    add_output_folder(app, out_, "The folder. Default: SOURCE/triage of the first folder");
+    add_output_folder(app, out_, "The folder. Default: SOURCE/triage of the first folder; with --check that of a run");
     app.add_option("--json", json_, "Also write the result to this file as JSON")->type_name("FILE");
     app.add_option("--sarif", sarif_, "Also write it as SARIF 2.1.0")->type_name("FILE");
     app.add_option("--junit", junit_, "Also write it as JUnit XML")->type_name("FILE");
   }
   int run(const CLI::App&) override {
-    const std::vector<SignatureDecision> decisions =
+    decisions_now_ =
         decisions_.empty() ? std::vector<SignatureDecision>() : decisions_in(read_file(decisions_), decisions_);
+    return check_ ? check() : triage_sources();
+  }
+
+ private:
+  static constexpr double default_minutes = 5, default_check_minutes = 1;
+  static constexpr std::uint64_t default_rows = 8;
+
+  int triage_sources() {
+    if (sources_.empty()) throw BadInput("SOURCE is required, or --check");
     const Sources sources = read_sources(sources_);
     name_skipped(sources);
     if (sources.reports.empty() && !sources.skipped.empty())
       throw BadInput(fmt::format("no report could be read; {} skipped", plural_text(sources.skipped.size(), "file")));
-    check_outputs();
+    check_outputs(folder());
     catch_interrupts();
-    const TriageSettings settings{folder(), std::chrono::duration<double>(60 * minutes_.value_or(default_minutes)),
-                                  [this](const std::string& what, std::uint64_t done, std::uint64_t of) {
-                                    progress_.set_activity(what);
-                                    progress_.show(done, of, std::nullopt, std::nullopt);
-                                  }};
+    const TriageSettings settings = settings_for(folder(), default_minutes);
     std::optional<Baseline> before;
     if (!baseline_.empty()) before = read_baseline(baseline_, settings, workers_);
     Triage t = triage(sources, settings, workers_);
-    if (before && !interrupted()) compare(*before, settings, t);
+    if (before && !interrupted()) name_not_asked(compare_with(*before, t, settings, workers_));
+    finish(settings.folder, t);
+    say("{}", triage_text(t, rows_.value_or(default_rows)));
+    return exit_status(t);
+  }
+  int check() {
+    const std::uint64_t seed = seed_or_random(seed_);
+    const fs::path run_folder = out_.empty() ? new_run_folder(seed) : fs::path(out_);
+    check_outputs(run_folder / "triage");
+    catch_interrupts();
+    const TriageSettings settings = settings_for(run_folder / "triage", default_check_minutes);
+    const Baseline before = read_baseline(baseline_, settings, workers_);
+    Check checked =
+        check_against(before, {typed_command_line(), run_folder, seed, settings.time, settings.tick}, workers_);
+    name_not_asked(checked.not_asked);
+    finish(settings.folder, checked.triage);
+    say("{}", check_text(checked));
+    return exit_status(checked.triage);
+  }
+  TriageSettings settings_for(const fs::path& folder, double usual_minutes) {
+    return {folder, std::chrono::duration<double>(60 * minutes_.value_or(usual_minutes)),
+            [this](const std::string& what, std::uint64_t done, std::uint64_t of) {
+              progress_.set_activity(what);
+              progress_.show(done, of, std::nullopt, std::nullopt);
+            }};
+  }
+  /// Chooses the magnitudes, applies the decisions, and writes the files.
+  void finish(const fs::path& folder, Triage& t) const {
     choose_magnitudes(t);
-    for (const std::string& id : apply(decisions, t)) {
+    for (const std::string& id : apply(decisions_now_, t)) {
       say_on_stderr(fmt::format("nearmiss: {}: no signature has the id {}\n", decisions_, id));
     }
-    write(settings.folder, t);
-    say("{}", triage_text(t, rows_.value_or(default_rows)));
+    write(folder, t);
+  }
+  static int exit_status(const Triage& t) {
     const bool stands = std::any_of(t.signatures.begin(), t.signatures.end(), [](const auto& s) { return s.stands(); });
     if (interrupted()) say_on_stderr("nearmiss: interrupted\n");
     return stands ? 1 : interrupted() ? 2 : 0;
   }
-
- private:
-  static constexpr double default_minutes = 5;
-  static constexpr std::uint64_t default_rows = 8;
 
   fs::path folder() const {
     if (!out_.empty()) return out_;
@@ -110,8 +157,8 @@ class TriageCommand : public Command {
     return runs_folder() / "triage";
   }
   /// Before the work.
-  void check_outputs() const {
-    make_writable_folder(folder());
+  void check_outputs(const fs::path& folder) const {
+    make_writable_folder(folder);
     for (const std::string& file : {json_, sarif_, junit_}) {
       if (!file.empty()) check_can_write(file);
     }
@@ -123,9 +170,8 @@ class TriageCommand : public Command {
     }
     if (ordinary_) std::erase_if(t.signatures, [](const TriagedSignature& s) { return s.range.has_value(); });
   }
-  void compare(const Baseline& before, const TriageSettings& settings, Triage& t) {
-    const std::vector<std::string> unasked = compare_with(before, t, settings, workers_);
-    for (const std::string& subject : unasked) {
+  void name_not_asked(const std::vector<std::string>& subjects) const {
+    for (const std::string& subject : subjects) {
       say_on_stderr(
           fmt::format("nearmiss: {}: findings of {} are left out, which cannot be asked here\n", baseline_, subject));
     }
@@ -141,7 +187,9 @@ class TriageCommand : public Command {
 
   std::vector<std::string> sources_;
   std::string baseline_, decisions_, out_, json_, sarif_, junit_;
-  bool ordinary_ = false, all_magnitudes_ = false;
+  bool ordinary_ = false, all_magnitudes_ = false, check_ = false;
+  std::optional<std::uint64_t> seed_;
+  std::vector<SignatureDecision> decisions_now_;
   std::optional<double> minutes_;
   std::optional<std::uint64_t> rows_;
   Workers workers_{[] { return !interrupted(); }};

@@ -100,6 +100,7 @@ void Counts::take(const Examined& e) {
   t.late += e.answer.late();
   ++cases_;
   bad_ += is_bad(e.finding);
+  if (is_bad(e.finding) && WrongCases::may_have(e.question)) t.wrong_cases.add(e.question);
   if (has_classes_) count_by_class(e);
   if (e.of_batch < touching_.size()) {  // only for batches: stored cases touch on purpose
     touch_counts_.count(e.question, e.subject, e.answer, e.finding, touching_[e.of_batch]);

@@ -220,13 +220,22 @@ std::shared_ptr<const SceneLimits> limits_from(const nlohmann::json& j, const st
 
 SceneMeasure measure_of(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || !j.contains("finding") || !j.contains("measure") || j["measure"].is_null()) return {};
-  const nlohmann::json& m = j["measure"];
+  return measure_in(j["measure"], file);
+}
+
+SceneMeasure measure_in(const nlohmann::json& m, const std::string& file) {
   const bool whole = m.is_object() && m.contains("error") && m["error"].is_number() && m["error"] > 0 &&
                      m.contains("for_all") && m["for_all"].is_boolean();
   if (!whole)
     throw BadInput(
         fmt::format("{}: measure is {}; it must have an error above 0 and for_all", file, one_line(m.dump(), 60)));
   return {{m["error"], m["for_all"]}, m.contains("scene") ? limits_from(m["scene"], file) : nullptr};
+}
+
+nlohmann::ordered_json measure_to_json(const SceneMeasure& m) {
+  nlohmann::ordered_json j{{"error", m.measure.error}, {"for_all", m.measure.for_all}};
+  if (m.scene != nullptr) j["scene"] = limits_to_json(*m.scene);
+  return j;
 }
 
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file) {

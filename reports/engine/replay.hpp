@@ -19,6 +19,9 @@ Case case_of(const nlohmann::json& j, const std::string& file);
 /// The measure of the report's subject, with what its scene required; the usual measure where the file has none. Throws
 /// BadInput.
 SceneMeasure measure_of(const nlohmann::json& j, const std::string& file);
+/// The same of the member "measure" of a file: {"error", "for_all", "scene"}. Throws BadInput.
+SceneMeasure measure_in(const nlohmann::json& measure, const std::string& file);
+nlohmann::ordered_json measure_to_json(const SceneMeasure& m);
 
 /// The subject of a report; empty for JSON that is no report. Throws BadInput where no such subject is loaded.
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file);

@@ -113,7 +113,11 @@ nlohmann::ordered_json tally_to_json(const Tally& t) {
          {"worst_forward_ulps", t.worst_forward},
          {"decided_by", {{"interval", t.decided_by_interval}, {"exact", t.decided_by_exact}}},
          {"yes_share", t.decided() == 0 ? Json(nullptr) : Json(double(t.truth_yes) / double(t.decided()))}};
-  if (t.gave_up > 0) j["given_up"] = t.given_up();
+  if (t.gave_up > 0) {
+    j["given_up"] = t.given_up();
+  } else {
+    j["wrong_cases"] = t.wrong_cases.text();
+  }
   return j;
 }
 

@@ -11,6 +11,7 @@
 #include "impl/subject/subject.hpp"
 #include "oracles/judge.hpp"
 #include "reports/engine/retention.hpp"
+#include "reports/engine/wrong_cases.hpp"
 #include "reports/findings/finding_kind.hpp"
 
 namespace nearmiss {
@@ -40,6 +41,7 @@ struct Tally {
   std::uint64_t not_judged = 0;  ///< answers that were not judged because too many were wrong; not among `cases`
   std::uint64_t decided_by_interval = 0, decided_by_exact = 0;
   std::uint64_t truth_yes = 0;  ///< decided cases whose exact answer is yes
+  WrongCases wrong_cases{};     ///< of the generated cases; not added by add()
   double worst_backward = -1;   ///< the largest proved bound, in epsilon; negative: none
   double worst_forward = 0;     ///< in ulps, where the decision is right
 

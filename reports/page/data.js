@@ -3,7 +3,7 @@
 nearmiss.data = (() => {
   const raw = JSON.parse(document.getElementById("data").textContent);
   const wordColumns = new Set(["query", "subject", "version", "scalar", "fault", "member", "clause", "change",
-                               "severity_text", "headline", "cause", "cause_text", "decision"]);
+                               "severity_text", "asked_as", "headline", "cause", "cause_text", "decision"]);
   const column = new Map(raw.columns.map((name, i) => [name, i]));
 
   /// The value of a row in a column; "" for a missing word, null for a missing number.

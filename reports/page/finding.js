@@ -36,6 +36,7 @@ nearmiss.finding = (() => {
       `found ${count(data.value(row, "findings") ?? data.value(row, "count"))} times, in ${reports}`,
       share === null ? null : `${percent(share)} ordinary scenes`];
     facts.push(
+      data.value(row, "asked_as") ? `asked as: ${data.value(row, "asked_as")}` : null,
       r ? `${r.report.subject.version}, ${r.report.scalar}` : data.value(row, "version") || null);
     return [
       element("p", {class: "tags"}, element("b", {class: "fault"}, fault), change ? element("span", {class: `change ${change}`}, change) : null,

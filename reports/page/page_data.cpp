@@ -215,8 +215,8 @@ class PageWords {
   Json words_ = Json::array();
 };
 
-constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",       "fault",
-                                        "member", "clause",  "change",  "severity_text"};
+constexpr const char* word_columns[] = {"query",  "subject", "version", "scalar",        "fault",
+                                        "member", "clause",  "change",  "severity_text", "asked_as"};
 constexpr const char* plain_columns[] = {"id",      "severity", "count", "findings", "ordinary_share", "above_epsilon",
                                          "relative"};
 
@@ -252,7 +252,10 @@ int rank_of(const Json& s, bool ours) {
   if (member_of(member_of(s, "decision"), "reopened") == true) return 0;
   const std::string change = text_of_member(s, "change");
   const int other = ours ? 0 : 2;
-  return change == "worse" ? 1 + other : change == "new" ? 2 + other : change == "fixed" ? 6 : 5;
+  return change == "worse"                                ? 1 + other
+         : change == "new"                                ? 2 + other
+         : change == "fixed" ? 6
+                                                          : 5;
 }
 
 }  // namespace

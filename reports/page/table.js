@@ -59,7 +59,10 @@ nearmiss.table = (() => {
     sort = sort.name !== name ? {name, down: true} : sort.down ? {name, down: false} : {name: null, down: true};
     update();
   }
-  const severest = Math.max(1, ...Array.from({length: Math.min(data.count, 1000)}, (_, r) => data.value(r, "severity") || 0));
+  // The bar is empty for the least severe row and full for the most severe one: most severities of a library are alike.
+  const severities = Array.from({length: Math.min(data.count, 1000)}, (_, r) => data.value(r, "severity") || 0);
+  const severest = Math.max(...severities), mildest = Math.min(...severities);
+  const meter = severity => severest > mildest ? Math.max(3, 100 * Math.min(1, (severity - mildest) / (severest - mildest))) : 100;
 
   function rowElement(at) {
     const row = rows[at], fault = data.value(row, "fault"), changed = data.value(row, "change"), severity = data.value(row, "severity") || 0;
@@ -75,7 +78,7 @@ nearmiss.table = (() => {
       cell("above_epsilon", epsilons(data.value(row, "above_epsilon"))),
       cell("count", count(data.value(row, "findings") ?? data.value(row, "count"))),
       cell("severity", element("span", {title: data.value(row, "severity_text") || about(severity)},
-        element("i", {class: "meter"}, element("i", {style: `width:${Math.max(3, 100 * Math.min(1, severity / severest))}%`})))));
+        element("i", {class: "meter"}, element("i", {style: `width:${meter(severity)}%`})))));
   }
   const wrongs = new Set(["wrong time", "negative time", "wrong place", "wrong normal", "wrong depth", "wrong distance", "wrong size", "wrong direction",
     "wrong weight", "wrong flag", "wrong index", "wrong combination", "off the surface", "not unit"]);
@@ -114,7 +117,7 @@ nearmiss.table = (() => {
     const button = (value, text) => element("button", {type: "button", "aria-pressed": String(change === value),
       onclick: () => { change = value; changes(); update(); }}, text);
     document.getElementById("changes").replaceChildren(button(null, "all"),
-      ...["new", "worse", "known", "unproved", "fixed"].filter(n => names.has(n)).map(n => button(n, `${n} ${count(names.get(n))}`)));
+      ...["new", "worse", "known", "unproved", "fixed in part", "fixed"].filter(n => names.has(n)).map(n => button(n, `${n} ${count(names.get(n))}`)));
   }
 
   function begin(listener) {

@@ -191,7 +191,12 @@ TEST(EmitTest, ItsCommandLineNamesFilesThatExist) {
       nearmiss({"emit-test", "--plugin", plugin_file("skim_plugin"), "--for", "skim", ball, "--out", bug});
   ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
   const std::string text = read_file(bug);
-  EXPECT_NE(text.find("cc '" + bug + "' " + plugin_file("skim_plugin") + " -lm\n"), std::string::npos) << text;
+  const std::string header = (fs::path(source_folder()) / "impl/plugin").string();
+  EXPECT_NE(text.find("cc '" + bug + "' -I " + header + " " + plugin_file("skim_plugin") + " -lm\n"), std::string::npos)
+      << text;
+  const std::size_t at = text.find("cc '");
+  const std::string build = text.substr(at, text.find('\n', at) - at) + " -o " + (folder / "bug").string();
+  EXPECT_EQ(run_program("sh", {"-c", build}).exit_code, 0) << text;
 }
 
 TEST(EmitTest, RefusesInOneLine) {

@@ -26,6 +26,9 @@ static int ball_ball(const double* q, size_t count, nearmiss_answer* answer) {
   if (is_planted('c') && square == 0 && q[3] > 0 && q[7] > 0) answer->yes = 0;
   /* o: the range of a float: large balls meet nothing */
   if (is_planted('o') && reach * reach > 3e38L) answer->yes = 0;
+  /* x, y: half of the directions in which balls meet nothing */
+  if (is_planted('x') && x > 0) answer->yes = 0;
+  if (is_planted('y') && x < 0) answer->yes = 0;
   /* w: always wrong */
   if (is_planted('w')) answer->yes = !answer->yes;
   return NEARMISS_ANSWERED;

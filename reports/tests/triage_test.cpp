@@ -189,6 +189,52 @@ TEST_F(Triaged, AFewFindingsAreNewWhereTheCasesOfTheBaselineShowThem) {
   EXPECT_EQ(signature_in(result(after), "false-miss", {same_place})["change"], "unproved") << unproved.out;
 }
 
+/// Two mistakes of one kind that need no regions are one row.
+TEST_F(Triaged, AFixBesideAKnownMistakeOfOneRowIsFixedInPartAndOneMoreIsNew) {
+  const std::string both = run("both", "xy", "4000"), one = run("one", "x", "4000", "2");
+  triage("xy", {both});
+  ASSERT_EQ(with_change(result(both), "new") + result(both)["signatures"].size(), 1u);
+  const Ran mended = triage("x", {one, "--baseline", both});
+  EXPECT_EQ(mended.exit_code, 0) << mended.out;
+  EXPECT_EQ(complaints(result(one), "triage.schema.json"), "");
+  EXPECT_EQ(with_change(result(one), "fixed in part"), 1u) << mended.out;
+  EXPECT_EQ(with_change(result(one), "fixed"), 0u) << mended.out;
+  const json& row = signature_in(result(one), "false-miss", {});
+  EXPECT_NE(row["why"].get<std::string>().find("kept cases of the baseline: gone"), std::string::npos) << row["why"];
+  const std::string more = run("more", "xy", "4000", "3");
+  const Ran worse = triage("xy", {more, "--baseline", one});
+  EXPECT_EQ(worse.exit_code, 1) << worse.out;
+  EXPECT_EQ(complaints(result(more), "triage.schema.json"), "");
+  EXPECT_EQ(with_change(result(more), "new"), 1u) << worse.out;
+  EXPECT_NE(worse.out.find("were right then and are wrong now"), std::string::npos) << worse.out;
+  EXPECT_NE(worse.out.find("1 known"), std::string::npos) << "the row of the known mistake is as it was\n" << worse.out;
+}
+
+/// What is asked first is the same in every check.
+TEST_F(Triaged, ACheckAsksTheBaselineAndThenFreshCases) {
+  const std::string before = run("before", "ab", "2000");
+  triage("ab", {before, "--json", path("known.json")});
+  fs::remove_all(before);
+  const auto check = [&](const std::string& mistakes, const std::string& name) {
+    return triage(mistakes, {"--check", "--baseline", path("known.json"), "--minutes", "0.1", "--seed", "7", "--out",
+                             path(name)});
+  };
+  const Ran same = check("ab", "same");
+  EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+  EXPECT_EQ(with_change(result(path("same")), "new") + with_change(result(path("same")), "worse"), 0u) << same.out;
+  EXPECT_NE(same.out.find(" still wrong, 0 gone\n"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("2,000 cases asked again\n"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find(" with seed 7, "), std::string::npos) << same.out;
+  const Ran changed = check("bc", "changed");
+  EXPECT_EQ(changed.exit_code, 1) << changed.out << changed.err;
+  EXPECT_EQ(complaints(result(path("changed")), "triage.schema.json"), "");
+  EXPECT_GE(with_change(result(path("changed")), "new"), 1u) << changed.out;
+  EXPECT_EQ(with_change(result(path("changed")), "fixed"), 1u) << changed.out;
+  constexpr std::ptrdiff_t lines_of_a_screen = 50;
+  EXPECT_LT(std::count(changed.out.begin(), changed.out.end(), '\n'), lines_of_a_screen) << changed.out;
+  EXPECT_EQ(check("", "mended").exit_code, 0);
+}
+
 TEST_F(Triaged, FindingsOfExtremeMagnitudeAreOneRowThatMakesNoBuildRed) {
   const std::string of = run("r", "o");
   const Ran ran = triage("o", {of});
@@ -337,6 +383,10 @@ TEST_F(Triaged, SaysWhyItCannotRun) {
     EXPECT_NE(ran.err.find(what), std::string::npos) << ran.err;
   };
   expect({path("nothing")}, "no such file or folder");
+  expect({}, "SOURCE is required, or --check");
+  expect({"--check"}, "--baseline");
+  expect({"--check", "--baseline", folder_.file("z.json", "[]"), "--out", path("z")}, "z.json");
+  expect({of, "--seed", "1"}, "--check");
   expect({folder_.file("x.json", "{}")}, "no report could be read; 1 file skipped");
   expect({of, "--baseline", folder_.file("y.json", "{\"schema\": 7}")}, "schema is 7: it must be 1");
   expect({of, "--decisions", path("nothing")}, "nothing");

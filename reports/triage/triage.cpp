@@ -68,6 +68,7 @@ class RowOfBug {
     const ExaminedFinding& main = main_part();
     s.kind = main.kind();
     s.version = main.examined->filed->subject->version;
+    s.asked_as = main.examined->filed->subject->offering(s.kind.query).how;
     s.examined = main.has_cause();
     s.cause = cause_part().has_cause() ? cause_part().cause() : unknown_cause();
     name_parts(s);
@@ -147,6 +148,7 @@ class Work {
     triage_.sources = sources_.names;
     triage_.skipped = sources_.skipped;
     triage_.sample = sources_.sample;
+    triage_.measure = measure_of_sources();
     ask_again();
     for (CandidatesOfKind& g : groups_) choose(g);
     examine_groups();
@@ -164,6 +166,13 @@ class Work {
  private:
   using Of = std::pair<std::string, std::string>;  ///< query and subject
 
+  /// That of a report whose subject promises nothing; the usual measure where there is none.
+  SceneMeasure measure_of_sources() const {
+    for (const FiledReport& r : sources_.reports) {
+      if (!r.subject->standard_for(r.question.query->name).promised) return r.measure;
+    }
+    return sources_.reports.empty() ? SceneMeasure() : sources_.reports.front().measure;
+  }
   Seconds time_left() const { return settings_.time - Seconds(Clock::now() - begin_); }
 
   void ask_again() {
@@ -204,7 +213,9 @@ class Work {
     tick(0);
     use_measure(c.filed->measure);
     c.examined = examined_.earlier(*c.filed);
-    if (!c.examined) c.examined = examined_.examine(*c.filed, c.plain, std::min(most_for_one, time_left()), tick);
+    const bool is_wanted = !settings_.is_examined || settings_.is_examined(c.kind, c.variant.regions);
+    if (!c.examined && is_wanted)
+      c.examined = examined_.examine(*c.filed, c.plain, std::min(most_for_one, time_left()), tick);
   }
 
   /// The examined findings of a kind, each with the reports that are most like it. Where none was examined, the first
@@ -273,6 +284,7 @@ class Work {
     s.names = {id};
     s.kind = c.kind;
     s.version = c.filed->subject->version;
+    s.asked_as = c.filed->subject->offering(s.kind.query).how;
     s.examined = true;
     s.range.emplace();
     s.may_stand = false;
@@ -287,6 +299,7 @@ class Work {
     TriagedSignature& s = triage_.signatures[row_of_.at(&c)];
     s.reports.push_back(c.filed->file.string());
     s.ids.push_back(c.filed->id);
+    s.cases.push_back(c.filed->question);
     ordinary_[s.id] += c.variant.ordinary;
     if (s.range) add_to_range(s, c);
     const auto worst = finding_of_.find(s.id);
@@ -392,6 +405,7 @@ std::string_view name_of(SignatureChange c) {
     case SignatureChange::worse: return "worse";
     case SignatureChange::known: return "known";
     case SignatureChange::unproved: return "unproved";
+    case SignatureChange::part_fixed: return "fixed in part";
     case SignatureChange::fixed: return "fixed";
   }
   return "?";
@@ -410,7 +424,7 @@ std::string_view name_of(SignatureDecision::Kind k) {
 bool TriagedSignature::stands() const {
   if (change == SignatureChange::fixed || !may_stand) return false;
   if (decision) return decision->reopened;
-  return change != SignatureChange::known && change != SignatureChange::unproved;
+  return !change || change == SignatureChange::fresh || change == SignatureChange::worse;
 }
 
 Triage triage(const Sources& sources, const TriageSettings& settings, Workers& workers) {
@@ -421,6 +435,10 @@ std::set<std::string> names_of_finding(const FindingPart& part, const Cause& cau
   std::set<std::string> names{name_of_class(part)};
   if (const std::string of_cause = name_of_cause(part.kind, cause); !of_cause.empty()) names.insert(of_cause);
   return names;
+}
+
+std::string name_of_wrong_now(const std::string& query, const std::string& subject) {
+  return hash_of({"wrong now", query, subject});
 }
 
 std::string name_of_range(const std::string& query, const std::string& subject) {
@@ -435,7 +453,7 @@ void rank(std::vector<TriagedSignature>& signatures) {
   std::stable_sort(signatures.begin(), signatures.end(), [](const TriagedSignature& a, const TriagedSignature& b) {
     const auto key = [](const TriagedSignature& s) {
       const bool is_regression = s.change && s.stands() && is_ours(s.kind.subject);
-      return std::tuple(!s.range, is_regression, s.change != SignatureChange::fixed, s.severity);
+      return std::tuple(!s.range, is_regression, s.change != SignatureChange::fixed, s.severity, s.findings);
     };
     return key(a) > key(b);
   });

@@ -20,15 +20,17 @@ namespace nearmiss {
 
 /// What became of a signature since the baseline.
 enum class SignatureChange {
-  fresh,     ///< the baseline does not have it, and its findings are proved to be more frequent than before
+  fresh,     ///< the baseline does not have it, and its findings are proved to be more frequent than before; or
+             ///< findings in cases that the subject of the baseline answered right
   worse,     ///< the baseline has it, and its findings are proved to be more frequent, or the error of its case larger
   known,     ///< the baseline has it, or has findings of its kind in such cases
   unproved,  ///< the baseline does not have it, but at its rate the baseline's run may have missed it
-  fixed,     ///< the baseline has it, and the subject, asked its cases again, is right now
+  part_fixed,  ///< the baseline has it, and the subject, asked its cases again, is right now in some of them
+  fixed,       ///< the baseline has it, and the subject, asked its cases again, is right now in all of them
 };
-inline constexpr SignatureChange all_signature_changes[] = {SignatureChange::fresh, SignatureChange::worse,
-                                                            SignatureChange::known, SignatureChange::unproved,
-                                                            SignatureChange::fixed};
+inline constexpr SignatureChange all_signature_changes[] = {SignatureChange::fresh,      SignatureChange::worse,
+                                                            SignatureChange::known,      SignatureChange::unproved,
+                                                            SignatureChange::part_fixed, SignatureChange::fixed};
 std::string_view name_of(SignatureChange c);
 
 /// What was decided about a signature, in a line of a decisions file.
@@ -69,6 +71,7 @@ struct TriagedSignature {
   bool may_stand = true;
 
   std::string version;    ///< of the subject
+  std::string asked_as;   ///< the library's own operation, where the offer names it (Offering::how)
   bool examined = false;  ///< false: the time was over, and the cause is not known
   ErrorSize size;         ///< of the worst
   double severity = 0;
@@ -78,6 +81,7 @@ struct TriagedSignature {
   std::string worst, simplest;  ///< files; empty for what the baseline alone has
   Case case_of_simplest;
   std::optional<Case> case_of_worst;  ///< empty in a row of an older triage
+  std::vector<Case> cases;            ///< of the reports; empty in a row of an older triage
   std::vector<std::string> reports;   ///< files
   std::vector<std::string> ids;       ///< of the reports
 
@@ -96,6 +100,7 @@ struct Triage {
   std::vector<std::pair<std::string, std::string>> skipped;
   std::vector<TriagedSignature> signatures;  ///< in the order of severity
   Sample sample;                             ///< what the runs asked and found
+  SceneMeasure measure;                      ///< by which the subjects are judged that promise nothing
   std::vector<FiledReport> right_now;        ///< reports whose subject, asked again, is right
   std::uint64_t findings_right_now = 0;      ///< counted by the runs, of such reports and of their kinds
   std::uint64_t left_out = 0;                ///< findings of rows that were taken out, as --ordinary does
@@ -107,6 +112,8 @@ struct TriageSettings {
   std::chrono::duration<double> time = std::chrono::minutes(5);
   /// Called often: what is done now, how much of it, and of how many.
   std::function<void(const std::string& activity, std::uint64_t done, std::uint64_t of)> tick;
+  /// False for findings whose causes are not looked for. Without a function all are examined.
+  std::function<bool(const FindingKind& kind, FeatureRegions regions)> is_examined{};
 };
 
 /// Asks the subject of every report again. Minimises a few reports of each kind (the worst, the simplest, and one of
@@ -120,6 +127,8 @@ Triage triage(const Sources& sources, const TriageSettings& settings, Workers& w
 
 /// The names of a part of a row with this cause. None depends on a case.
 std::set<std::string> names_of_finding(const FindingPart& part, const Cause& cause);
+/// The name of the row of the cases of a baseline that were right and are wrong now.
+std::string name_of_wrong_now(const std::string& query, const std::string& subject);
 /// The name of the row of a query's findings of extreme scenes.
 std::string name_of_range(const std::string& query, const std::string& subject);
 /// True where both have a name in common.

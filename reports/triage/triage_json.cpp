@@ -8,6 +8,7 @@
 
 #include "corpus/files/file_value.hpp"
 #include "corpus/storage/codec.hpp"
+#include "reports/engine/replay.hpp"
 #include "reports/findings/encoded.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/causes/cause_json.hpp"
@@ -41,6 +42,12 @@ Json case_of_signature(const Case& c) {
   return j;
 }
 
+Json cases_of_signature(const std::vector<Case>& cases) {
+  Json all = Json::array();
+  for (const Case& c : cases) all.push_back(case_of_signature(c));
+  return all;
+}
+
 Json part_to_json(const FindingPart& p) {
   return {{"query", p.kind.query},
           {"fault", p.kind.fault},
@@ -70,6 +77,7 @@ Json signature_to_json(const TriagedSignature& s) {
           {"query", s.kind.query},
           {"subject", s.kind.subject},
           {"version", s.version},
+          {"asked_as", s.asked_as},
           {"scalar", name_of(s.case_of_simplest.scalar)},
           {"fault", s.kind.fault},
           {"member", s.kind.member},
@@ -98,6 +106,7 @@ Json signature_to_json(const TriagedSignature& s) {
           {"simplest", s.simplest},
           {"case", case_of_signature(s.case_of_simplest)},
           {"worst_case", s.case_of_worst ? case_of_signature(*s.case_of_worst) : Json(nullptr)},
+          {"cases", cases_of_signature(s.cases)},
           {"reports", s.reports},
           {"ids", s.ids}};
 }
@@ -118,6 +127,7 @@ Json totals(const Triage& t) {
           {"worse", of(SignatureChange::worse)},
           {"known", of(SignatureChange::known)},
           {"unproved", of(SignatureChange::unproved)},
+          {"fixed in part", of(SignatureChange::part_fixed)},
           {"fixed", of(SignatureChange::fixed)},
           {"reopened", reopened},
           {"right_now", t.right_now.size()},
@@ -144,7 +154,7 @@ std::optional<SignatureChange> change_in(const FileValue& word) {
   for (const SignatureChange c : all_signature_changes) {
     if (word.json() == name_of(c)) return c;
   }
-  word.fail("\"new\", \"worse\", \"known\", \"unproved\", \"fixed\" or null");
+  word.fail("\"new\", \"worse\", \"known\", \"unproved\", \"fixed in part\", \"fixed\" or null");
 }
 
 FindingPart part_in(const FileValue& j, const std::string& subject) {
@@ -175,6 +185,10 @@ void read_what_identifies(const FileValue& j, TriagedSignature& s) {
   s.names.insert(s.id);
   const auto worst = j.find("worst_case");
   if (worst && !worst->is_null()) s.case_of_worst = case_in(*worst);
+  if (const auto asked_as = j.find("asked_as")) s.asked_as = asked_as->text();
+  if (const auto cases = j.find("cases")) {
+    for (const FileValue& c : cases->items()) s.cases.push_back(case_in(c));
+  }
 }
 
 TriagedSignature signature_from_json(const FileValue& j) {
@@ -216,6 +230,7 @@ std::string_view baseline_state(SignatureChange c) {
     case SignatureChange::worse: return "updated";
     case SignatureChange::known: return "unchanged";
     case SignatureChange::unproved: return "new";
+    case SignatureChange::part_fixed: return "updated";
     case SignatureChange::fixed: return "absent";
   }
   return "none";
@@ -278,6 +293,7 @@ Json triage_to_json(const Triage& t) {
           {"sources", t.sources},
           {"skipped", skipped},
           {"sample", sample_to_json(t.sample)},
+          {"measure", measure_to_json(t.measure)},
           {"signatures", signatures},
           {"totals", totals(t)}};
 }
@@ -293,6 +309,11 @@ std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, cons
 Sample sample_in_triage(const nlohmann::json& j, const std::string& where) {
   const std::optional<FileValue> sample = FileValue(j, where).find("sample");
   return sample ? sample_from_json(*sample) : Sample();
+}
+
+std::optional<SceneMeasure> measure_in_triage(const nlohmann::json& j, const std::string& where) {
+  if (!j.contains("measure")) return std::nullopt;
+  return measure_in(j["measure"], where);
 }
 
 Json triage_to_sarif(const Triage& t) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ nlohmann::ordered_json triage_to_json(const Triage& t);
 std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, const std::string& where);
 /// What its runs asked and found; empty in a file of an older version. Throws BadInput.
 Sample sample_in_triage(const nlohmann::json& j, const std::string& where);
+/// How its subjects were judged that promise nothing; empty in a file of an older version. Throws BadInput.
+std::optional<SceneMeasure> measure_in_triage(const nlohmann::json& j, const std::string& where);
 
 /// SARIF 2.1.0 (OASIS): one result per signature. What does not make the command exit with 1 is a note, and suppressed
 /// where a decision is the reason.

@@ -55,7 +55,9 @@ std::string needs_text(const TriagedSignature& s) {
   return names.empty() ? "" : fmt::format(" Only with {}.", list_text(names));
 }
 
-std::string counts_text(const Triage& t) {
+}  // namespace
+
+std::string triage_counts_text(const Triage& t) {
   std::uint64_t reports = 0, findings = 0, reopened = 0;
   std::size_t here = 0;
   for (const TriagedSignature& s : t.signatures) {
@@ -68,14 +70,12 @@ std::string counts_text(const Triage& t) {
   for (const SignatureChange c : all_signature_changes) {
     const auto n =
         std::count_if(t.signatures.begin(), t.signatures.end(), [&](const auto& s) { return s.change == c; });
-    if (c == SignatureChange::unproved && n == 0) continue;
+    if ((c == SignatureChange::unproved || c == SignatureChange::part_fixed) && n == 0) continue;
     if (compared) text += fmt::format("{} {} {}", c == SignatureChange::fresh ? ":" : ",", n, name_of(c));
   }
   if (reopened > 0) text += fmt::format("; {} re-opened", plural_text(reopened, "decision"));
   return text + "\n";
 }
-
-}  // namespace
 
 std::string severity_text(const TriagedSignature& s) {
   std::string fault = s.kind.fault;
@@ -96,6 +96,7 @@ std::string signature_text(const TriagedSignature& s) {
   const std::string findings = findings_text(s);
   text += wrapped_text(size_text(s.size) + (findings.empty() ? "" : "; " + findings), "     ");
   if (!s.why.empty()) text += wrapped_text(s.why, "     ");
+  if (!s.asked_as.empty()) text += wrapped_text("asked as: " + s.asked_as, "     ");
   if (const std::string queries = queries_text(s); !queries.empty()) text += wrapped_text(queries, "     ");
   text += wrapped_text(s.cause.text + (s.range ? "" : needs_text(s)), "     ");
   if (!s.simplest.empty()) text += fmt::format("     {}\n", path_text(s.simplest));
@@ -103,7 +104,7 @@ std::string signature_text(const TriagedSignature& s) {
 }
 
 std::string triage_text(const Triage& t, std::size_t rows) {
-  std::string text = counts_text(t);
+  std::string text = triage_counts_text(t);
   const std::size_t shown = std::min(rows, t.signatures.size());
   for (std::size_t i = 0; i < shown; ++i) text += fmt::format("\n{}", signature_text(t.signatures[i]));
   if (shown < t.signatures.size()) {

@@ -161,8 +161,8 @@ Asking ask_collide(const Case& question, const Subject& subject) {
                                        expression_of(query.outputs[i].name));
     }
   }
-  asking.build = std::string("g++ -std=c++20 test.cpp -lgtest -lgtest_main -lpthread") +
-                 (header.empty() ? "" : " -lcollide_certified -lmpfr -lgmp");
+  asking.build = "g++ -std=c++20 test.cpp" + include_option("impl/collide/include") +
+                 " -lgtest -lgtest_main -lpthread" + (header.empty() ? "" : " -lcollide_certified -lmpfr -lgmp");
   return asking;
 }
 

@@ -61,7 +61,7 @@ Asking ask_plugin(const Case& question, const Subject& subject) {
                                        variable_of(query.member_name(m)), index, i);
     }
   }
-  asking.build = fmt::format("cc test.c {} -lm", shell_quoted(subject.plugin));
+  asking.build = fmt::format("cc test.c{} {} -lm", include_option("impl/plugin"), shell_quoted(subject.plugin));
   return asking;
 }
 

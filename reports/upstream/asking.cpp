@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <stdexcept>
 
 #include "corpus/files/errors.hpp"
+#include "corpus/files/source_folder.hpp"
 #include "impl/adapters/motion.hpp"
+#include "reports/findings/encoded.hpp"
 
 namespace nearmiss {
 
@@ -33,6 +36,12 @@ std::string filled_in(std::string_view text, const Words& values) {
     at = end;
   }
   return filled;
+}
+
+std::string include_option(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(source_folder()) / folder;
+  std::error_code error;
+  return std::filesystem::is_directory(path, error) ? " -I " + shell_quoted(path.string()) : "";
 }
 
 std::string literal(double x) {

@@ -57,6 +57,8 @@ Words names_of(const NamedShape& a, const NamedShape& b);
 /// A library's statements for the sides of one operation, with the words of names_of() and `more`.
 std::string call(std::string_view text, const NamedShape& a, const NamedShape& b, const Words& more = {});
 
+/// " -I FOLDER" of the source tree, for a compiler's command line; empty where the folder is not there.
+std::string include_option(const std::string& folder);
 /// A number that reads back exactly, as a literal of double: "0.5", "1.0".
 std::string literal(double x);
 /// "1.0, 2.0, 0.5".

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -13,7 +14,11 @@
 #include "corpus/storage/codec.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/requirements.hpp"
+#include "oracles/scene_limits.hpp"
 #include "reports/engine/replay.hpp"
+#include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/comparison/rates.hpp"
 #include "reports/triage/triage_json.hpp"
@@ -32,18 +37,27 @@ std::optional<Finding> finding_now(const Case& question, const FindingKind& kind
   return confirmed(*c, workers.ask(*subject, *c), subject->standard_for(question.query->name), Detail::full);
 }
 
-/// Whether it is a finding of this row.
-bool is_of(const Finding& f, const Case& question, const TriagedSignature& s) {
-  if (!is_bad(f)) return false;
-  const FindingClass now = class_of(kind_of_finding(*question.query, s.kind.subject, f), {});
-  return std::any_of(s.parts.begin(), s.parts.end(), [&](const FindingPart& p) { return class_of(p.kind, {}) == now; });
+/// The class of what is wrong now, without its regions; empty where nothing is.
+std::optional<FindingClass> class_now(const std::optional<Finding>& f, const Case& question, const FindingKind& kind) {
+  if (!f || !is_bad(*f)) return std::nullopt;
+  return class_of(kind_of_finding(*question.query, kind.subject, *f), {});
 }
 
-/// The case of the simplest report, and those of the others that can still be read.
+bool has_part_of(const TriagedSignature& s, const FindingClass& c) {
+  return std::any_of(s.parts.begin(), s.parts.end(), [&](const FindingPart& p) { return class_of(p.kind, {}) == c; });
+}
+
+bool has_part_of(const TriagedSignature& s, const std::string& query, const std::string& subject) {
+  return std::any_of(s.parts.begin(), s.parts.end(),
+                     [&](const FindingPart& p) { return p.kind.query == query && p.kind.subject == subject; });
+}
+
+/// The cases that a row keeps, or those of its reports that can still be read; with the simplest and the worst.
 std::vector<Case> cases_of(const TriagedSignature& s) {
-  std::vector<Case> all{s.case_of_simplest};
+  std::vector<Case> all = s.cases;
+  all.push_back(s.case_of_simplest);
   if (s.case_of_worst) all.push_back(*s.case_of_worst);
-  for (const std::string& file : s.reports) {
+  for (const std::string& file : s.cases.empty() ? s.reports : std::vector<std::string>()) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) continue;
     try {
@@ -54,21 +68,41 @@ std::vector<Case> cases_of(const TriagedSignature& s) {
   return all;
 }
 
-/// Whether the subject still errs in a case of a row of the baseline; empty where it cannot be asked.
-std::optional<bool> is_still_wrong(const TriagedSignature& earlier, Workers& workers) {
-  bool wrong = false;
-  for (const Case& c : cases_of(earlier)) {
-    const std::optional<Finding> f = finding_now(c, earlier.kind, workers);
-    if (!f) return std::nullopt;
-    wrong = wrong || is_of(*f, c, earlier);
+/// Asks several times: right is what is right each time.
+std::optional<Finding> worst_finding_now(const Case& question, const FindingKind& kind, Workers& workers) {
+  constexpr int times = 3;
+  std::optional<Finding> f;
+  for (int i = 0; i < times && (!f || !is_bad(*f)); ++i) {
+    f = finding_now(question, kind, workers);
+    if (!f) return f;
   }
-  return wrong;
+  return f;
+}
+
+/// Asks the subject the cases of a row of the baseline; empty where it cannot be asked.
+std::optional<CasesNow> cases_now(const TriagedSignature& earlier, const std::vector<TriagedSignature>& all,
+                                  Workers& workers) {
+  CasesNow now;
+  for (const Case& c : cases_of(earlier)) {
+    const std::optional<Finding> f = worst_finding_now(c, earlier.kind, workers);
+    if (!f) return std::nullopt;
+    ++now.asked;
+    const std::optional<FindingClass> wrong = class_now(f, c, earlier.kind);
+    const auto has_it = [&](const TriagedSignature& s) { return has_part_of(s, *wrong); };
+    if (wrong && has_it(earlier)) {
+      ++now.wrong;
+    } else if (!wrong || std::any_of(all.begin(), all.end(), has_it)) {
+      ++now.gone;
+    }
+  }
+  return now;
 }
 
 /// A row of the baseline that has no signature now.
-void add_absent(const TriagedSignature& earlier, bool wrong, Triage& now) {
+void add_absent(const TriagedSignature& earlier, const CasesNow& cases, Triage& now) {
   TriagedSignature s = earlier;
-  s.change = wrong ? SignatureChange::known : SignatureChange::fixed;
+  s.change = cases.is_fixed() ? SignatureChange::fixed : SignatureChange::known;
+  s.why.clear();
   s.decision.reset();
   s.findings = 0;
   s.reports.clear(), s.ids.clear(), s.worst.clear();
@@ -100,8 +134,10 @@ struct Rise {
 /// One comparison. Rows of now are given by their index.
 class Comparison {
  public:
-  Comparison(const Baseline& before, Triage& now, const TriageSettings& settings, Workers& workers)
+  Comparison(const Baseline& before, const BaselineNow& asked, Triage& now, const TriageSettings& settings,
+             Workers& workers)
       : before_(before),
+        asked_(asked),
         now_(now),
         settings_(settings),
         workers_(workers),
@@ -111,19 +147,18 @@ class Comparison {
   }
 
   std::vector<std::string> result() {
-    ask_again();
     match();
     for (std::size_t i = 0; i < here_; ++i) set_change(i);
+    add_wrong_now();
     for (std::size_t i = 0; i < here_; ++i) set_rise(i);
     std::set<std::string> cannot_be_asked;
     for (std::size_t k = 0; k < before_.rows.size(); ++k) {
       const TriagedSignature& earlier = before_.rows[k];
       const bool here = is_here(earlier);
-      if (!wrong_[k] && !here) cannot_be_asked.insert(earlier.kind.subject);
-      if (wrong_[k] && (!*wrong_[k] || !here)) {
-        add_absent(earlier, *wrong_[k], now_);
-      }
+      if (!asked_.rows[k] && !here) cannot_be_asked.insert(earlier.kind.subject);
+      if (asked_.rows[k] && (asked_.rows[k]->is_fixed() || !here)) add_absent(earlier, *asked_.rows[k], now_);
     }
+    set_part_fixed();
     rank(now_.signatures);
     return {cannot_be_asked.begin(), cannot_be_asked.end()};
   }
@@ -131,27 +166,7 @@ class Comparison {
  private:
   TriagedSignature& row(std::size_t i) { return now_.signatures[i]; }
 
-  /// The cases of the rows of the baseline, and of its run.
-  void ask_again() {
-    for (const TriagedSignature& earlier : before_.rows) {
-      settings_.tick("asking the baseline again", wrong_.size(), before_.rows.size());
-      wrong_.push_back(is_still_wrong(earlier, workers_));
-    }
-    if (!can_be_drawn_again(before_.sample)) return;
-    const auto until = std::chrono::steady_clock::now() +
-                       std::chrono::duration_cast<std::chrono::steady_clock::duration>(settings_.time);
-    std::size_t done = 0;
-    for (const auto& [of, asked] : before_.sample.asked) {
-      const Subject* subject = find_subject(of.second);
-      if (subject == nullptr || now_.sample.asked_of(of.first, of.second) == 0) continue;
-      const auto tick = [&] { settings_.tick("asking the baseline again", done, before_.sample.asked.size()); };
-      std::optional<Sample> again = nearmiss::asked_again(before_.sample, of.first, *subject, until, tick);
-      ++done;
-      if (!again) continue;
-      again_.asked.merge(again->asked);
-      again_.findings.merge(again->findings);
-    }
-  }
+  using Of = BaselineNow::Of;
 
   /// The better two rows fit, the larger; 0: they share no name.
   static std::size_t fit(const TriagedSignature& a, const TriagedSignature& b) {
@@ -164,7 +179,7 @@ class Comparison {
     std::vector<std::tuple<std::size_t, std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < here_; ++i) {
       for (std::size_t k = 0; k < before_.rows.size(); ++k) {
-        const std::size_t f = wrong_[k].value_or(true) ? fit(row(i), before_.rows[k]) : 0;
+        const std::size_t f = asked_.rows[k] && asked_.rows[k]->is_fixed() ? 0 : fit(row(i), before_.rows[k]);
         if (f > 0) pairs.emplace_back(f, i, k);
       }
     }
@@ -186,7 +201,7 @@ class Comparison {
   Rise rise_of(const FindingPart& part) const {
     Rise r{before_.sample.rate_of(part.kind, part.regions), now_.sample.rate_of(part.kind, part.regions)};
     if (r.before.cases == 0 || r.now.cases == 0) return r;
-    const FindingRate again = again_.rate_of(part.kind, part.regions);
+    const FindingRate again = asked_.again.rate_of(part.kind, part.regions);
     if (again.cases > 0 && again.findings > r.before.findings && !depends_on_time(part.kind))
       return {r.before, again, 0, true, true};
     r.chance = chance_without_rise(r.before, r.now);
@@ -206,7 +221,7 @@ class Comparison {
   /// More answers to the query are wrong than before. An answer that is wrong in two ways has one fault, its worst: so
   /// the mend of one mistake may show more findings of another.
   bool has_more_findings(const FindingKind& kind, const Rise& rise) const {
-    const Sample& later = rise.is_of_same_cases ? again_ : now_.sample;
+    const Sample& later = rise.is_of_same_cases ? asked_.again : now_.sample;
     const FindingRate before = before_.sample.rate_of(kind.query, kind.subject),
                       now = later.rate_of(kind.query, kind.subject);
     return double(now.findings) * double(before.cases) > double(before.findings) * double(now.cases);
@@ -255,16 +270,137 @@ class Comparison {
   }
   bool is_explained_by_new_row(const FindingPart& part) {
     return std::any_of(now_.signatures.begin(), now_.signatures.end(), [&](const TriagedSignature& s) {
-      return s.change == SignatureChange::fresh && std::any_of(s.parts.begin(), s.parts.end(), [&](const auto& p) {
-               return class_of(p.kind, {}) == class_of(part.kind, {});
-             });
+      return s.change == SignatureChange::fresh && has_part_of(s, class_of(part.kind, {}));
     });
+  }
+
+  /// A row for the cases of the baseline's run that were right and are wrong now, of a query and a subject without a
+  /// new row. They lie in a row that the baseline has: two mistakes of one kind may need the same regions.
+  void add_wrong_now() {
+    for (const auto& [of, cases] : asked_.wrong_now) {
+      const bool is_told = std::any_of(now_.signatures.begin(), now_.signatures.end(), [&](const auto& s) {
+        return s.change == SignatureChange::fresh && !s.range && has_part_of(s, of.first, of.second);
+      });
+      if (is_told) continue;
+      std::optional<TriagedSignature> row = row_of_wrong_now(of, ordinary_among(cases));
+      if (row) now_.signatures.push_back(std::move(*row));
+    }
+  }
+  /// Those of no extreme scene, the plainest first.
+  static std::vector<Case> ordinary_among(std::vector<Case> cases) {
+    std::erase_if(cases, is_extreme_scene);
+    std::stable_sort(cases.begin(), cases.end(),
+                     [](const Case& a, const Case& b) { return plainness_of(a) < plainness_of(b); });
+    return cases;
+  }
+  /// Empty where no case is wrong each time.
+  std::optional<TriagedSignature> row_of_wrong_now(const Of& of, const std::vector<Case>& cases) {
+    constexpr std::size_t most_kept = 64;
+    TriagedSignature s;
+    s.kind.subject = of.second;
+    for (const Case& c : cases) {
+      const FindingKind of_query{of.first, of.second, "", "", ""};
+      const std::optional<Finding> f = finding_now(c, of_query, workers_), second = finding_now(c, of_query, workers_);
+      if (!f || !second || !is_bad(*f) || !is_bad(*second)) continue;
+      if (s.cases.empty()) describe_wrong_now(c, s);
+      s.cases.push_back(c);
+      const FindingPart part{kind_of_finding(*c.query, of.second, *f), {}};
+      if (std::find(s.parts.begin(), s.parts.end(), part) == s.parts.end()) s.parts.push_back(part);
+      if (s.cases.size() == most_kept) break;
+    }
+    if (s.cases.empty()) return std::nullopt;
+    s.id = name_of_wrong_now(of.first, of.second);
+    s.names = {s.id};
+    s.change = SignatureChange::fresh;
+    const std::uint64_t asked = asked_.again.asked_of(of.first, of.second);
+    s.why = fmt::format("of the {} of the baseline, {}{} were right then and are wrong now", plural_text(asked, "case"),
+                        cases.size() < AskedAgain::most_kept ? "" : "more than ", count_text(cases.size()));
+    return s;
+  }
+  /// The plainest case, its error and its cause.
+  void describe_wrong_now(const Case& c, TriagedSignature& s) {
+    const Subject& subject = *find_subject(s.kind.subject);
+    Report r = examine(c, subject, workers_);
+    s.kind = kind_of_finding(*c.query, subject.name, r.finding);
+    s.version = subject.version;
+    s.asked_as = subject.offering(c.query->name).how;
+    s.size = error_size(c, r.finding);
+    s.severity = severity_of(r.finding, s.size, 1);
+    s.headline = headline(r);
+    s.branches = r.finding.branches;
+    s.case_of_simplest = c;
+    s.cause.text =
+        "It was not looked for: the baseline has such findings in other cases, and those near by may be among them.";
+    if (settings_.folder.empty()) return;
+    const fs::path file = settings_.folder / "simplest" / c.query->name /
+                          fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
+    r.replay = replay_command(subject, file.string());
+    make_folder(file.parent_path());
+    write_file(file, pretty_json(report_to_json(r)));
+    s.simplest = file.string();
+  }
+
+  /// What was fixed beside a mistake that is there still: rows of the baseline with cases that are right now.
+  void set_part_fixed() {
+    for (std::size_t k = 0; k < before_.rows.size(); ++k) {
+      const TriagedSignature& earlier = before_.rows[k];
+      if (!asked_.rows[k] || !asked_.rows[k]->is_part_fixed() || earlier.range || depends_on_time(earlier.kind))
+        continue;
+      const CasesNow& c = *asked_.rows[k];
+      set_part_fixed(earlier, fmt::format("{} of the {} of the baseline: gone", count_text(c.gone),
+                                          plural_text(c.asked, "kept case")));
+    }
+    for (const auto& [of, cases] : asked_.right_now) {
+      if (cases == 0 || has_breakages(of) || is_fixed_in_part(of)) continue;
+      if (const TriagedSignature* earlier = most_reduced(of))
+        set_part_fixed(*earlier, fmt::format("{} of the run of the baseline: right now", plural_text(cases, "case")));
+    }
+  }
+  /// The known row of now that is this row of the baseline.
+  void set_part_fixed(const TriagedSignature& earlier, const std::string& why) {
+    const auto is_same = [&](const TriagedSignature& s) {
+      return s.change == SignatureChange::known && share_a_name(s, earlier);
+    };
+    const auto found = std::find_if(now_.signatures.begin(), now_.signatures.end(), is_same);
+    if (found == now_.signatures.end()) return;
+    found->change = SignatureChange::part_fixed;
+    found->why = why;
+  }
+  /// Breakages may come and go with the state of a process.
+  bool has_breakages(const Of& of) const {
+    const auto& all = before_.sample.findings;
+    return std::any_of(all.begin(), all.end(), [&](const auto& found) {
+      return Of(found.first.query, found.first.subject) == of && !found.first.breakage.empty();
+    });
+  }
+  bool is_fixed_in_part(const Of& of) const {
+    const auto& all = now_.signatures;
+    return std::any_of(all.begin(), all.end(), [&](const TriagedSignature& s) {
+      const bool is_fixed = s.change == SignatureChange::part_fixed || s.change == SignatureChange::fixed;
+      return is_fixed && has_part_of(s, of.first, of.second);
+    });
+  }
+  /// The row of the baseline with the part that has lost the most findings.
+  const TriagedSignature* most_reduced(const Of& of) const {
+    const TriagedSignature* most = nullptr;
+    double largest = 0;
+    for (const TriagedSignature& s : before_.rows) {
+      if (s.range || !has_part_of(s, of.first, of.second)) continue;
+      for (const FindingPart& p : s.parts) {
+        const double lost = double(before_.sample.rate_of(p.kind, p.regions).findings) -
+                            double(asked_.again.rate_of(p.kind, p.regions).findings);
+        if (most != nullptr && lost <= largest) continue;
+        most = &s, largest = lost;
+      }
+    }
+    return most;
   }
   /// The subject, asked the worst case of the baseline again, errs by much more than then.
   bool errs_more(const TriagedSignature& earlier, TriagedSignature& now) {
     if (!earlier.case_of_worst || earlier.size.relative == 0 || earlier.range) return false;
     const std::optional<Finding> f = finding_now(*earlier.case_of_worst, earlier.kind, workers_);
-    if (!f || !is_of(*f, *earlier.case_of_worst, earlier)) return false;
+    const std::optional<FindingClass> wrong = class_now(f, *earlier.case_of_worst, earlier.kind);
+    if (!wrong || !has_part_of(earlier, *wrong)) return false;
     const double size = error_size(*earlier.case_of_worst, *f).relative;
     if (size < much_worse * earlier.size.relative) return false;
     now.why = fmt::format("the worst case of the baseline errs by {}, then by {}", share_text(size),
@@ -273,11 +409,10 @@ class Comparison {
   }
 
   const Baseline& before_;
+  const BaselineNow& asked_;
   Triage& now_;
   const TriageSettings& settings_;
   Workers& workers_;
-  Sample again_;                            ///< the subject's answers of now to the cases of the baseline
-  std::vector<std::optional<bool>> wrong_;  ///< is_still_wrong(), by the index of the baseline's row
   std::size_t here_;
   std::vector<const TriagedSignature*> match_;  ///< rows of the baseline, by the index of the row
   std::size_t tests_ = 0;
@@ -296,12 +431,14 @@ void add_right_now(const Triage& t, std::vector<TriagedSignature>& rows) {
     const auto same = std::find_if(rows.begin(), rows.end(), [&](const auto& o) { return o.id == s.id; });
     if (same != rows.end()) {
       same->reports.push_back(r.file.string());
+      same->cases.push_back(r.question);
       continue;
     }
     s.version = report.at("subject").at("version").text();
     s.headline = report.at("headline").text();
     s.cause.text = "It was not looked for: the subject is right now.";
     s.case_of_simplest = r.question;
+    s.cases = {r.question};
     s.reports = {r.file.string()};
     rows.push_back(std::move(s));
   }
@@ -380,27 +517,71 @@ SignatureDecision decision_in(const std::string& line, const std::string& where)
 
 }  // namespace
 
+bool Baseline::has_asked(const std::string& query, const std::string& subject) const {
+  if (!sample.empty()) return sample.asked_of(query, subject) > 0;
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const TriagedSignature& s) { return has_part_of(s, query, subject); });
+}
+
 Baseline read_baseline(const std::string& name, const TriageSettings& settings, Workers& workers) {
   std::error_code error;
   fs::path file = name;
   if (fs::is_directory(name, error)) file = fs::path(name) / "triage" / "triage.json";
   if (fs::is_regular_file(file, error)) {
     const nlohmann::json j = parse_json(read_file(file), file.string());
-    Baseline before{signatures_from_json(j, file.string()), sample_in_triage(j, file.string())};
+    Baseline before{signatures_from_json(j, file.string()), sample_in_triage(j, file.string()),
+                    measure_in_triage(j, file.string())};
     std::erase_if(before.rows, [](const TriagedSignature& s) { return s.change == SignatureChange::fixed; });
     return before;
   }
   const Sources sources = read_sources({name});
   name_skipped(sources);
   Triage earlier = triage(sources, settings, workers);
-  Baseline before{std::move(earlier.signatures), std::move(earlier.sample)};
+  Baseline before{std::move(earlier.signatures), std::move(earlier.sample), earlier.measure};
   add_right_now(earlier, before.rows);
   return before;
 }
 
+BaselineNow ask_baseline(const Baseline& baseline,
+                         const std::function<bool(const std::string& query, const std::string& subject)>& is_wanted,
+                         const TriageSettings& settings, Workers& workers) {
+  BaselineNow now;
+  if (baseline.measure) use_measure(*baseline.measure);
+  for (const TriagedSignature& row : baseline.rows) {
+    settings.tick("asking the baseline again", now.rows.size(), baseline.rows.size());
+    now.rows.push_back(cases_now(row, baseline.rows, workers));
+  }
+  if (!can_be_drawn_again(baseline.sample)) return now;
+  const auto until =
+      std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(settings.time);
+  std::size_t done = 0;
+  for (const auto& [of, asked] : baseline.sample.asked) {
+    const Subject* subject = find_subject(of.second);
+    if (subject == nullptr || !is_wanted(of.first, of.second)) continue;
+    const auto tick = [&] { settings.tick("asking the baseline again", done, baseline.sample.asked.size()); };
+    std::optional<AskedAgain> again = asked_again(baseline.sample, of.first, *subject, until, tick);
+    ++done;
+    now.all_again = now.all_again && again;
+    if (!again) continue;
+    now.again.asked.merge(again->sample.asked);
+    now.again.findings.merge(again->sample.findings);
+    now.wrong_now[of] = std::move(again->wrong_now);
+    now.right_now[of] = again->right_now;
+  }
+  return now;
+}
+
+std::vector<std::string> compare_with(const Baseline& baseline, const BaselineNow& asked, Triage& now,
+                                      const TriageSettings& settings, Workers& workers) {
+  return Comparison(baseline, asked, now, settings, workers).result();
+}
+
 std::vector<std::string> compare_with(const Baseline& baseline, Triage& now, const TriageSettings& settings,
                                       Workers& workers) {
-  return Comparison(baseline, now, settings, workers).result();
+  const auto is_asked_now = [&](const std::string& query, const std::string& subject) {
+    return now.sample.asked_of(query, subject) > 0;
+  };
+  return compare_with(baseline, ask_baseline(baseline, is_asked_now, settings, workers), now, settings, workers);
 }
 
 std::vector<SignatureDecision> decisions_in(const std::string& text, const std::string& where) {

@@ -7,6 +7,7 @@
 
 #include "oracles/judge.hpp"
 #include "reports/engine/kept_reports.hpp"
+#include "reports/findings/report.hpp"
 #include "reports/findings/version.hpp"
 
 namespace nearmiss {
@@ -23,9 +24,17 @@ std::optional<std::uint64_t> seed_of_run(const FileValue& index) {
   return index.at("seed").whole();
 }
 
+std::optional<WrongCases> wrong_cases_in(const FileValue& j) {
+  const std::optional<FileValue> digits = j.find("wrong_cases");
+  if (!digits) return std::nullopt;
+  std::optional<WrongCases> wrong = WrongCases::from_text(digits->text());
+  if (!wrong) digits->fail("hexadecimal digits");
+  return wrong;
+}
+
 /// The cases of a tally that were judged, and all that were drawn for it.
 Sample::Asked asked_in(const FileValue& tally) {
-  Sample::Asked asked{tally.at("cases").count(), 0};
+  Sample::Asked asked{tally.at("cases").count(), 0, wrong_cases_in(tally)};
   asked.drawn = asked.cases;
   for (const char* passed_over : {"gave_up", "not_judged"}) {
     if (const auto more = tally.find(passed_over)) asked.drawn += more->count();
@@ -71,21 +80,46 @@ void Sample::add(const FileValue& index) {
     const Asked more = asked_in(t);
     Asked& all = asked[{t.at("query").text(), t.at("subject").text()}];
     all.cases += more.cases, all.drawn += more.drawn;
+    all.wrong = more.wrong;  // of use only where the seed is known: of one run
   }
   for (const CountedVariant& v : variants_in(index)) findings[class_of(v.kind, v.variant.regions)] += v.count.findings;
 }
 
 bool can_be_drawn_again(const Sample& s) { return s.seed && s.version == version(); }
 
-std::optional<Sample> asked_again(const Sample& sample, const std::string& query, const Subject& subject,
-                                  std::chrono::steady_clock::time_point until, const std::function<void()>& tick) {
+namespace {
+
+/// Notes which of the cases of a sample have become wrong or right.
+class ChangedAnswers : public Sink {
+ public:
+  explicit ChangedAnswers(const std::optional<WrongCases>& before) : before_(before) {}
+  void take(const Examined& e) override {
+    if (!before_ || !WrongCases::may_have(e.question) || e.answer.late()) return;
+    const bool was_wrong = before_->has(e.question), is_wrong = is_bad(e.finding);
+    right_now += was_wrong && !is_wrong;
+    if (!was_wrong && is_wrong && wrong_now.size() < AskedAgain::most_kept) wrong_now.push_back(e.question);
+  }
+  bool needs_second(const Examined&) const override { return false; }
+
+  std::vector<Case> wrong_now;
+  std::uint64_t right_now = 0;
+
+ private:
+  const std::optional<WrongCases>& before_;
+};
+
+}  // namespace
+
+std::optional<AskedAgain> asked_again(const Sample& sample, const std::string& query, const Subject& subject,
+                                      std::chrono::steady_clock::time_point until, const std::function<void()>& tick) {
   const Query* q = find_query(query);
   const auto of = sample.asked.find({query, subject.name});
   if (q == nullptr || of == sample.asked.end() || !sample.seed) return std::nullopt;
   // The same sinks as those of a run: which answers are judged twice depends on them.
   Counts counts({q}, {&subject}, false);
   KeptReports kept("", counts, [](const std::filesystem::path&, const std::string&) {});
-  Campaign campaign({"", tick}, {&counts, &kept});
+  ChangedAnswers changed(of->second.wrong);
+  Campaign campaign({"", tick}, {&counts, &kept, &changed});
   kept.ask_with(campaign.dispatcher().workers());
   campaign.set_until(until);
   Schedule schedule({q}, {&subject}, of->second.drawn);
@@ -93,18 +127,20 @@ std::optional<Sample> asked_again(const Sample& sample, const std::string& query
   const Tally* tally = counts.of(*q, subject);
   const bool is_whole = !campaign.should_stop() && tally != nullptr && campaign.internal_errors().count() == 0;
   if (!is_whole) return std::nullopt;
-  Sample again;
-  again.asked[of->first] = {tally->cases, of->second.drawn};
+  AskedAgain again{{}, std::move(changed.wrong_now), changed.right_now};
+  again.sample.asked[of->first] = {tally->cases, of->second.drawn, tally->wrong_cases};
   const nlohmann::json variants = {{"variants", kept.variants().to_json()}};
   for (const CountedVariant& v : variants_in(FileValue(variants, "the cases of the baseline")))
-    again.findings[class_of(v.kind, v.variant.regions)] += v.count.findings;
+    again.sample.findings[class_of(v.kind, v.variant.regions)] += v.count.findings;
   return again;
 }
 
 nlohmann::ordered_json sample_to_json(const Sample& sample) {
   nlohmann::ordered_json asked = nlohmann::ordered_json::array(), classes = nlohmann::ordered_json::array();
-  for (const auto& [of, cases] : sample.asked)
+  for (const auto& [of, cases] : sample.asked) {
     asked.push_back({{"query", of.first}, {"subject", of.second}, {"cases", cases.cases}, {"drawn", cases.drawn}});
+    if (cases.wrong) asked.back()["wrong_cases"] = cases.wrong->text();
+  }
   for (const auto& [of, findings] : sample.findings) {
     classes.push_back({{"query", of.query},
                        {"subject", of.subject},
@@ -124,7 +160,8 @@ Sample sample_from_json(const FileValue& j) {
   if (const FileValue seed = j.at("seed"); !seed.is_null()) sample.seed = seed.whole();
   sample.version = j.at("version").text();
   for (const FileValue& a : j.at("asked").items())
-    sample.asked[{a.at("query").text(), a.at("subject").text()}] = {a.at("cases").count(), a.at("drawn").count()};
+    sample.asked[{a.at("query").text(), a.at("subject").text()}] = {a.at("cases").count(), a.at("drawn").count(),
+                                                                    wrong_cases_in(a)};
   for (const FileValue& c : j.at("classes").items()) {
     const FindingClass of{c.at("query").text(), c.at("subject").text(), c.at("fault").text(), c.at("breakage").text(),
                           feature_regions_named(c.at("regions").texts())};

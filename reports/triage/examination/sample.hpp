@@ -10,10 +10,12 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "corpus/files/file_value.hpp"
 #include "corpus/generator/feature_regions.hpp"
 #include "reports/engine/variant_counts.hpp"
+#include "reports/engine/wrong_cases.hpp"
 #include "reports/findings/finding_kind.hpp"
 
 namespace nearmiss {
@@ -38,7 +40,8 @@ struct Sample {
   struct Asked {
     std::uint64_t cases = 0;  ///< that were judged
     std::uint64_t drawn = 0;  ///< of the generator: also those that were not judged
-    auto operator<=>(const Asked&) const = default;
+    /// Those with a wrong answer. Empty in an index of an older version, and where the subject was given up.
+    std::optional<WrongCases> wrong{};
   };
   std::map<std::pair<std::string, std::string>, Asked> asked;  ///< by query and subject
   std::map<FindingClass, std::uint64_t> findings;
@@ -60,9 +63,18 @@ struct Sample {
 /// True where the cases of a sample can be drawn again by this version.
 bool can_be_drawn_again(const Sample& s);
 
+/// The answers of now to the cases of a sample.
+struct AskedAgain {
+  Sample sample;
+  /// Cases that the subject answered right and that are wrong now; the first `most_kept`. Late answers are none.
+  std::vector<Case> wrong_now;
+  std::uint64_t right_now = 0;  ///< the number of cases that it answered wrong and that are right now
+  static constexpr std::size_t most_kept = 1024;
+};
+
 /// Asks a subject the cases of a sample again. Empty where the time is over before the last one, or an interrupt came.
-std::optional<Sample> asked_again(const Sample& sample, const std::string& query, const Subject& subject,
-                                  std::chrono::steady_clock::time_point until, const std::function<void()>& tick);
+std::optional<AskedAgain> asked_again(const Sample& sample, const std::string& query, const Subject& subject,
+                                      std::chrono::steady_clock::time_point until, const std::function<void()>& tick);
 
 nlohmann::ordered_json sample_to_json(const Sample& sample);
 /// Throws BadInput.
