@@ -251,10 +251,13 @@ class Comparison {
       s.change = !was_asked(s) || is_promise_broken(s) ? SignatureChange::fresh : SignatureChange::unproved;
     }
   }
-  /// The subject promises exact answers, and kept its promise in the baseline.
+  /// The subject promises exact answers, and kept its promise in the baseline: in every query, because one that has
+  /// mistakes may have rare ones, too.
   bool is_promise_broken(const TriagedSignature& s) const {
     const Subject* subject = find_subject(s.kind.subject);
-    if (before_.sample.rate_of(s.kind.query, s.kind.subject).findings > 0) return false;
+    const auto& all = before_.sample.findings;
+    if (std::any_of(all.begin(), all.end(), [&](const auto& f) { return f.first.subject == s.kind.subject; }))
+      return false;
     return subject != nullptr && subject->standard_for(s.kind.query).promised;
   }
   /// A known row whose findings are more frequent, which no new row explains.
@@ -542,8 +545,7 @@ Baseline read_baseline(const std::string& name, const TriageSettings& settings, 
   return before;
 }
 
-BaselineNow ask_baseline(const Baseline& baseline,
-                         const std::function<bool(const std::string& query, const std::string& subject)>& is_wanted,
+BaselineNow ask_baseline(const Baseline& baseline, const std::vector<BaselineNow::Of>& order,
                          const TriageSettings& settings, Workers& workers) {
   BaselineNow now;
   if (baseline.measure) use_measure(*baseline.measure);
@@ -555,13 +557,13 @@ BaselineNow ask_baseline(const Baseline& baseline,
   const auto until =
       std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(settings.time);
   std::size_t done = 0;
-  for (const auto& [of, asked] : baseline.sample.asked) {
+  for (const BaselineNow::Of& of : order) {
     const Subject* subject = find_subject(of.second);
-    if (subject == nullptr || !is_wanted(of.first, of.second)) continue;
+    if (subject == nullptr) continue;
     const auto tick = [&] { settings.tick("asking the baseline again", done, baseline.sample.asked.size()); };
     std::optional<AskedAgain> again = asked_again(baseline.sample, of.first, *subject, until, tick);
     ++done;
-    now.all_again = now.all_again && again;
+    now.all_again = now.all_again && again && again->is_whole;
     if (!again) continue;
     now.again.asked.merge(again->sample.asked);
     now.again.findings.merge(again->sample.findings);
@@ -578,10 +580,16 @@ std::vector<std::string> compare_with(const Baseline& baseline, const BaselineNo
 
 std::vector<std::string> compare_with(const Baseline& baseline, Triage& now, const TriageSettings& settings,
                                       Workers& workers) {
-  const auto is_asked_now = [&](const std::string& query, const std::string& subject) {
-    return now.sample.asked_of(query, subject) > 0;
-  };
-  return compare_with(baseline, ask_baseline(baseline, is_asked_now, settings, workers), now, settings, workers);
+  std::vector<std::pair<double, BaselineNow::Of>> by_chance;
+  for (const auto& [of, asked] : baseline.sample.asked) {
+    if (now.sample.asked_of(of.first, of.second) == 0) continue;
+    by_chance.emplace_back(
+        chance_without_rise(baseline.sample.rate_of(of.first, of.second), now.sample.rate_of(of.first, of.second)), of);
+  }
+  std::sort(by_chance.begin(), by_chance.end());
+  std::vector<BaselineNow::Of> order;
+  for (auto& [chance, of] : by_chance) order.push_back(std::move(of));
+  return compare_with(baseline, ask_baseline(baseline, order, settings, workers), now, settings, workers);
 }
 
 std::vector<SignatureDecision> decisions_in(const std::string& text, const std::string& where) {

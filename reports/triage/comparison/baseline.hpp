@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,10 +49,9 @@ struct BaselineNow {
   bool all_again = true;                      ///< false where the time was over before the last case of its run
 };
 
-/// Asks the cases that the baseline keeps, and then draws those of its run again for at most the settings' time, of the
-/// queries and subjects that `is_wanted` names.
-BaselineNow ask_baseline(const Baseline& baseline,
-                         const std::function<bool(const std::string& query, const std::string& subject)>& is_wanted,
+/// Asks the cases that the baseline keeps, and then draws those of its run again, for at most the settings' time: those
+/// of these queries and subjects, in this order.
+BaselineNow ask_baseline(const Baseline& baseline, const std::vector<BaselineNow::Of>& order,
                          const TriageSettings& settings, Workers& workers);
 
 /// Sets `change` of every signature, and adds the rows of the baseline that have no signature now. Returns the subjects

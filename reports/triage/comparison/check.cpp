@@ -29,9 +29,9 @@ class Checking {
       : baseline_(baseline), settings_(settings), workers_(workers), begin_(CheckClock::now()) {}
 
   Check result() {
-    const BaselineNow asked = ask_baseline(
-        baseline_, [](const std::string&, const std::string&) { return true; }, triage_settings(end_of_again),
-        workers_);
+    std::vector<BaselineNow::Of> all;
+    for (const auto& [of, cases] : baseline_.sample.asked) all.push_back(of);
+    const BaselineNow asked = ask_baseline(baseline_, all, triage_settings(end_of_again), workers_);
     for (const std::optional<CasesNow>& row : asked.rows) add(row);
     check_.again = asked.again, check_.all_again = asked.all_again;
     check_.seed = settings_.seed;

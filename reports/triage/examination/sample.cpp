@@ -125,9 +125,9 @@ std::optional<AskedAgain> asked_again(const Sample& sample, const std::string& q
   Schedule schedule({q}, {&subject}, of->second.drawn);
   campaign.generate(schedule, *sample.seed);
   const Tally* tally = counts.of(*q, subject);
-  const bool is_whole = !campaign.should_stop() && tally != nullptr && campaign.internal_errors().count() == 0;
-  if (!is_whole) return std::nullopt;
-  AskedAgain again{{}, std::move(changed.wrong_now), changed.right_now};
+  if (tally == nullptr || campaign.internal_errors().count() > 0) return std::nullopt;
+  AskedAgain again{{}, !campaign.should_stop(), std::move(changed.wrong_now), changed.right_now};
+  if (!again.is_whole) return again;
   again.sample.asked[of->first] = {tally->cases, of->second.drawn, tally->wrong_cases};
   const nlohmann::json variants = {{"variants", kept.variants().to_json()}};
   for (const CountedVariant& v : variants_in(FileValue(variants, "the cases of the baseline")))
