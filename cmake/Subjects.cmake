@@ -331,7 +331,8 @@ function(nearmiss_finish_subjects)
   add_library(nearmiss_host STATIC
     ${PROJECT_SOURCE_DIR}/impl/host/serve.cpp
     ${PROJECT_SOURCE_DIR}/impl/host/shared_layout.cpp
-    ${PROJECT_SOURCE_DIR}/impl/host/timing.cpp)
+    ${PROJECT_SOURCE_DIR}/impl/host/timing.cpp
+    ${PROJECT_SOURCE_DIR}/impl/subject/convention.cpp)
   nearmiss_examines(nearmiss_host)
   target_link_libraries(nearmiss_host PUBLIC nearmiss_flags collide PRIVATE nearmiss_catalogue nlohmann_json::nlohmann_json)
   target_include_directories(nearmiss_host PUBLIC ${NEARMISS_GENERATED})

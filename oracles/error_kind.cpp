@@ -15,7 +15,9 @@ std::optional<double> error_of(const Case& question, const Answer& answer, const
   const Finding f = judge(question, answer, standard, Detail::full);
   if (!is_compared(f)) return std::nullopt;
   if (kind == ErrorKind::backward) {
-    return f.backward ? std::optional(finer_backward(question, answer, *f.backward, standard.required)) : std::nullopt;
+    return f.backward
+               ? std::optional(finer_backward(question, answer, *f.backward, standard.required, standard.declared))
+               : std::nullopt;
   }
   return f.forward_ulps > 0 && std::isfinite(f.forward_ulps) ? std::optional(f.forward_ulps) : std::nullopt;
 }

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "impl/subject/floating_point.hpp"
+#include "oracles/declared_oracle.hpp"
 #include "oracles/exact/number_memory.hpp"
-#include "oracles/exact/oracle.hpp"
 #include "oracles/requirements.hpp"
 #include "oracles/rule_of_no.hpp"
 
@@ -48,16 +48,17 @@ int rung_of(const Backward& b) { return b.above > 0 ? std::ilogb(b.above) + 1 : 
 /// The oracle and the case, so that each step below is one line. Caches the result of each rung.
 class Examination {
  public:
-  /// The case meets `required`.
-  Examination(const Case& question, const Answer& answer, Preconditions required = {})
+  /// The case meets `required`, and means what is declared.
+  Examination(const Case& question, const Answer& answer, Preconditions required = {}, Conventions declared = {})
       : question_(question),
         answer_(answer),
+        oracle_(question, answer, declared),
         largest_(magnitudes(*question.query, question.values)),
         required_(with_border(*question.query, required)) {}
 
   Enclosure within(double k) const {
     widen(k);
-    return oracle_of(*question_.query).interval(question_.values, widening_, answer_, question_.scalar);
+    return oracle_.interval(widening_);
   }
   void widen(double k) const {
     widening_.resize(question_.values.size());
@@ -69,9 +70,7 @@ class Examination {
       if (k > 0 && moves(role) && widening_[i] < 0x1p-1000) widening_[i] = std::nextafter(widening_[i], 1.0);
     }
   }
-  Enclosure exactly(std::vector<Alternative>* list = nullptr) const {
-    return oracle_of(*question_.query).exact(question_.values, answer_, question_.scalar, list);
-  }
+  Enclosure exactly(std::vector<Alternative>* list = nullptr) const { return oracle_.exact(list); }
   /// The highest rung at which no exact answer matches; empty if even the lowest rung may have a match. `about`: where
   /// the search begins.
   std::optional<Backward> backward(int about) const {
@@ -106,10 +105,9 @@ class Examination {
   /// True if the place that contains output `worst` is proved to lie off the surface of every input within k, by more
   /// than that many ulps.
   bool off_surface(int worst, double k, double ulps) const {
-    const Oracle& oracle = oracle_of(*question_.query);
-    if (oracle.may_be_on_surface == nullptr || !answer_.yes) return false;
+    if (!answer_.yes) return false;
     widen(k);
-    return !oracle.may_be_on_surface(question_.values, widening_, answer_, std::size_t(worst), ulps, question_.scalar);
+    return !oracle_.may_be_on_surface(widening_, std::size_t(worst), ulps);
   }
   const NumberVector<double>& last_widening() const { return widening_; }
   /// Those of the required preconditions that have a border and that an input within k epsilon may break.
@@ -174,6 +172,7 @@ class Examination {
 
   const Case& question_;
   const Answer& answer_;
+  DeclaredOracle oracle_;
   Magnitudes largest_;
   Preconditions required_;  ///< only those with a border that concern the query
   mutable NumberVector<double> widening_;
@@ -225,7 +224,7 @@ class Judgement {
         scene_(standard.promised ? nullptr : scene),
         length_of_epsilon_(unit_roundoff(question.scalar) * largest_length(question)),
         detail_(detail),
-        x_(question, answer, standard.required) {}
+        x_(question, answer, standard.required, standard.declared) {}
 
   Finding finding() {
     if (answer_.status != Answer::Status::answered) {
@@ -666,10 +665,11 @@ Enclosure enclosure_of(const Case& question, const Answer& answer) {
   return Examination(question, answer).within(0);
 }
 
-double finer_backward(const Case& question, const Answer& answer, const Backward& proved, Preconditions required) {
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved, Preconditions required,
+                      Conventions declared) {
   constexpr int halvings = 4;  // to 1/16
   const FloatingPointScope standard_modes;
-  const Examination x(question, answer, required);
+  const Examination x(question, answer, required, declared);
   double above = proved.above, step = std::max(proved.above, 1.0);
   for (int i = 0; i < halvings; ++i) {
     step /= 2;
@@ -692,10 +692,10 @@ double decision_margin(const Case& question, double guess) {
   return Examination(question, none).margin(rung_of({guess})).value_or(Backward{-1}).above;
 }
 
-Truth truth_of(const Case& question) {
+Truth truth_of(const Case& question, Conventions declared) {
   const FloatingPointScope standard_modes;
   const Answer none{};
-  const Examination x(question, none);
+  const Examination x(question, none, {}, declared);
   Truth t;
   const Enclosure exact = x.exactly(&t.alternatives);
   t.alternatives = each_once(std::move(t.alternatives));
@@ -704,7 +704,7 @@ Truth truth_of(const Case& question) {
   if (const auto margin = x.margin()) t.margin_at_least = margin->above;
   if (!t.yes) {
     const bool late = std::any_of(t.alternatives.begin(), t.alternatives.end(), [](const auto& a) { return a.late; });
-    t.because = late ? "the contact comes at a time beyond the largest number" : rule_of_no(question);
+    t.because = late ? "the contact comes at a time beyond the largest number" : rule_of_no(question, declared);
   }
   return t;
 }

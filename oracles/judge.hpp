@@ -131,7 +131,8 @@ enum class Detail {
 /// Judges `answer` to a valid case by `standard`. A case outside the subject's preconditions gets not_asked, whatever
 /// the answer. A rung on which an input may break a required precondition that has a border (has_border) proves
 /// nothing: the answer may be right for that input by a rule of the library's own. Thread-safe. The result does not
-/// depend on the caller's floating-point modes; this holds for every call of the oracle.
+/// depend on the caller's floating-point modes; this holds for every call of the oracle. Exact answers are those of the
+/// conventions that the standard declares; what contradicts them is proved in the same way as without them.
 ///
 /// `scene` holds for a subject that promises nothing: it replaces the measure where the scene states what it requires.
 Finding judge(const Case& question, const Answer& answer, const Standard& standard, Detail detail,
@@ -144,8 +145,9 @@ Enclosure enclosure_of(const Case& question, const Answer& answer);
 /// A lower bound of the backward error of the whole answer that is finer than the ladder: at least `proved`, the bound
 /// of judge(), and below its next rung, in steps of 1/16 of the rung (of 1 on rung 0). Like a rung it is proved by
 /// itself: no input within so many epsilon has an exact answer that matches, and every such input meets `required`. For
-/// an answer with the status answered.
-double finer_backward(const Case& question, const Answer& answer, const Backward& proved, Preconditions required = {});
+/// an answer with the status answered, by the conventions that are declared.
+double finer_backward(const Case& question, const Answer& answer, const Backward& proved, Preconditions required = {},
+                      Conventions declared = {});
 
 /// A guide for a search, which proves nothing and which no finding uses: the forward error over the widening of the
 /// enclosure of the exact answers for each epsilon of the inputs, so about the backward error in epsilon where it is
@@ -169,7 +171,8 @@ struct Truth {
   /// Empty for a yes, and where no rule is needed.
   std::string because;
 };
-Truth truth_of(const Case& question);
+/// By the conventions that are declared.
+Truth truth_of(const Case& question, Conventions declared = {});
 
 /// The largest coordinate, size or offset of the case.
 double largest_length(const Case& question);

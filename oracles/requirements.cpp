@@ -77,6 +77,8 @@ struct Neighbourhood {
   Long move(std::size_t i) const { return moves.empty() ? 0 : moves[i]; }
   /// Of the three numbers of a vector, the furthest move.
   Long move_of_vector(std::size_t i) const { return std::max({move(i), move(i + 1), move(i + 2)}); }
+  /// Number i is certainly at most number k.
+  bool at_most(std::size_t i, std::size_t k) const { return moves.empty() ? c.values[i] <= c.values[k] : less(i, k); }
   /// Number i is certainly less than number k.
   bool less(std::size_t i, std::size_t k) const {
     if (moves.empty()) return c.values[i] < c.values[k];
@@ -117,6 +119,9 @@ bool has_no_zero_sizes(const Neighbourhood& n, const Operands& parts) {
          each(parts.triangles, [&](const auto& t) { return has_area(n, t); });
 }
 
+/// What is the same for every input of a neighbourhood; empty where this is not proved.
+using Certain = std::optional<bool>;
+
 /// The ball at the start and the obstacle, as a case of another query of the catalogue whose decision tells whether
 /// they touch.
 class StartAsCase {
@@ -139,10 +144,10 @@ class StartAsCase {
       for (std::size_t k = 0; k < m.count; ++k) derived_.set(operand.begin + m.begin + k, from + k);
     }
   }
-  bool surely_apart() const {
-    if (n_.moves.empty()) return !exact_decision(derived_.question());
+  Certain touch() const {
+    if (n_.moves.empty()) return exact_decision(derived_.question());
     const std::vector<double> moves = derived_.of_inputs({n_.moves.begin(), n_.moves.end()});
-    return decision_within(derived_.question(), moves) == std::optional(false);
+    return decision_within(derived_.question(), moves);
   }
 
  private:
@@ -151,17 +156,17 @@ class StartAsCase {
   DerivedCase derived_;
 };
 
-bool apart_from(const Neighbourhood& n, const Start& s, QueryId query, const std::string& ball,
-                std::string_view obstacle, std::span<const Renamed> renamed = {}) {
+Certain touch_of(const Neighbourhood& n, const Start& s, QueryId query, const std::string& ball,
+                 std::string_view obstacle, std::span<const Renamed> renamed = {}) {
   StartAsCase start(n, s, query);
   start.set_ball(ball);
   start.set_obstacle(obstacle, renamed);
-  return start.surely_apart();
+  return start.touch();
 }
 
 /// A ball at rest hits exactly what it touches or overlaps. Only the sum of the radii matters. The ball gets the larger
 /// radius, because a point inside a capsule hits nothing.
-bool apart_from_capsule(const Neighbourhood& n, const Start& s) {
+Certain touch_of_capsule(const Neighbourhood& n, const Start& s) {
   StartAsCase start(n, s, QueryId::moving_sphere_capsule);
   start.set_ball("sphere");
   start.set_obstacle("capsule");
@@ -170,32 +175,37 @@ bool apart_from_capsule(const Neighbourhood& n, const Start& s) {
     start.set("sphere.radius", other);
     start.set("capsule.radius", s.radius);
   }
-  return start.surely_apart();
+  return start.touch();
 }
 
-bool apart_from_aabox(const Neighbourhood& n, const Start& s) {
+Certain touch_of_aabox(const Neighbourhood& n, const Start& s) {
   const std::size_t low = s.obstacle.positions[0], high = s.obstacle.positions[1];
-  bool any = false;
-  for (std::size_t k = 0; k < 3; ++k) any = any || n.less(s.place + k, low + k) || n.less(high + k, s.place + k);
-  return any;
+  bool any_apart = false, all_within = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    any_apart = any_apart || n.less(s.place + k, low + k) || n.less(high + k, s.place + k);
+    all_within = all_within && n.at_most(low + k, s.place + k) && n.at_most(s.place + k, high + k);
+  }
+  return any_apart ? Certain(false) : all_within ? Certain(true) : std::nullopt;
 }
 
 /// Both triangles of a rectangle count.
-bool apart_from_rectangle(const Neighbourhood& n, const Start& s) {
+Certain touch_of_rectangle(const Neighbourhood& n, const Start& s) {
   constexpr std::array<Renamed, 2> second{Renamed{"v1", "v2"}, Renamed{"v2", "v3"}};
-  return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle") &&
-         apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle", second);
+  const Certain one = touch_of(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
+  if (one.value_or(false)) return one;
+  const Certain other = touch_of(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle", second);
+  return other.value_or(false) || (one && other) ? other : std::nullopt;
 }
 
-bool starts_outside(const Neighbourhood& n, const Start& s) {
+Certain touch_at_start(const Neighbourhood& n, const Start& s) {
   switch (s.obstacle.shape) {
-    case Shape::plane: return apart_from(n, s, QueryId::sphere_plane_penetration, "sphere", "plane");
-    case Shape::triangle: return apart_from(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
-    case Shape::rectangle: return apart_from_rectangle(n, s);
-    case Shape::sphere: return apart_from(n, s, QueryId::sphere_sphere_overlap, "sphere1", "sphere2");
-    case Shape::capsule: return apart_from_capsule(n, s);
-    case Shape::box: return apart_from(n, s, QueryId::sphere_box_overlap, "sphere", "box");
-    case Shape::aabox: return apart_from_aabox(n, s);
+    case Shape::plane: return touch_of(n, s, QueryId::sphere_plane_penetration, "sphere", "plane");
+    case Shape::triangle: return touch_of(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
+    case Shape::rectangle: return touch_of_rectangle(n, s);
+    case Shape::sphere: return touch_of(n, s, QueryId::sphere_sphere_overlap, "sphere1", "sphere2");
+    case Shape::capsule: return touch_of_capsule(n, s);
+    case Shape::box: return touch_of(n, s, QueryId::sphere_box_overlap, "sphere", "box");
+    case Shape::aabox: return touch_of_aabox(n, s);
     case Shape::point:
     case Shape::segment:
     case Shape::line:
@@ -214,7 +224,7 @@ bool meets(const Neighbourhood& n, Precondition p) {
     case Precondition::unit_normal: return each(parts.normals, three);
     case Precondition::unit_direction: return each(parts.directions, three);
     case Precondition::unit_quaternion: return each(parts.quaternions, [&](std::size_t i) { return is_unit(c, i, 4); });
-    case Precondition::starts_outside: return !parts.start || starts_outside(n, *parts.start);
+    case Precondition::starts_outside: return !parts.start || touch_at_start(n, *parts.start) == Certain(false);
     case Precondition::moves: return each(parts.velocities, [&](std::size_t i) { return is_not_zero(n, i); });
     case Precondition::no_zero_sizes: return has_no_zero_sizes(n, parts);
   }
@@ -263,6 +273,11 @@ Preconditions unmet_within(const Case& question, Preconditions required, std::sp
     if (required.has(p) && has_border(p) && !meets(Neighbourhood{question, moves}, p)) unmet.add(p);
   }
   return unmet;
+}
+
+std::optional<bool> contact_at_start(const Case& question, std::span<const double> moves) {
+  const auto& start = question.operands().start;
+  return start ? touch_at_start({question, moves}, *start) : false;
 }
 
 std::string requires_text(Preconditions required) {

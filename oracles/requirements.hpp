@@ -34,6 +34,11 @@ Preconditions with_border(const Query& query, Preconditions required);
 /// `moves` (one distance per number, not negative) of the case's number. Thread-safe.
 Preconditions unmet_within(const Case& question, Preconditions required, std::span<const double> moves);
 
+/// Whether the moving body or the ray's origin touches or overlaps the other set at the start; of a plane, with the
+/// space behind it. For every input of which each number lies within `moves` of the case's; without `moves`, for the
+/// case. Empty where this is not proved to be the same for all of them. False where nothing starts. Thread-safe.
+std::optional<bool> contact_at_start(const Case& question, std::span<const double> moves = {});
+
 /// "it requires unit quaternions and a start outside".
 std::string requires_text(Preconditions required);
 

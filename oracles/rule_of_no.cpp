@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "oracles/declared_oracle.hpp"
 #include "oracles/derived_case.hpp"
 #include "oracles/exact_decision.hpp"
 #include "oracles/requirements.hpp"
@@ -137,6 +138,18 @@ class Rules {
 
 }  // namespace
 
-std::string rule_of_no(const Case& question) { return Rules(question).broken(); }
+std::string rule_of_no(const Case& question, Conventions declared) {
+  if (declared.has(Convention::start_is_miss) && contact_at_start(question) == true &&
+      concerns(Convention::start_is_miss, *question.query))
+    return std::string(text_of(Convention::start_is_miss).what);
+  const bool is_yes = !declared.empty() && exact_decision(question);
+  if (!is_yes) return Rules(question).broken();
+  for (const Convention c : {Convention::strict_touch, Convention::ends_at_time_one}) {
+    if (!declared.has(c) || !concerns(c, *question.query)) continue;
+    const Answer none{};
+    if (!DeclaredOracle(question, none, {c}).exact().may_be_yes) return std::string(text_of(c).what);
+  }
+  return "";
+}
 
 }  // namespace nearmiss

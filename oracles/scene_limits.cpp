@@ -13,6 +13,7 @@ std::shared_ptr<const SceneLimits> the_limits;
 void use_measure(SceneMeasure m) {
   set_measure(m.measure);
   count_promises_of_others(m.scene == nullptr);
+  declare_as_reported(std::move(m.declared));
   the_limits = std::move(m.scene);
 }
 

@@ -21,12 +21,14 @@ struct SceneLimits {
 };
 
 /// The measure for subjects that promise nothing. What a scene requires replaces it for decisions, places, depths and
-/// times; it stays the bound of all other members. nullptr: no scene.
+/// times; it stays the bound of all other members. nullptr: no scene. The conventions are those of a report; empty:
+/// each subject is judged by what it declares.
 struct SceneMeasure {
   Measure measure{};
   std::shared_ptr<const SceneLimits> scene{};
+  std::optional<ReportedConventions> declared{};
 };
-/// Sets both for the rest of the process.
+/// Sets all three for the rest of the process.
 void use_measure(SceneMeasure m);
 /// The requirements of the scene that use_measure() has set; nullptr: none.
 const SceneLimits* scene_limits();

@@ -134,6 +134,40 @@ Preconditions requirements_in(const Json& list, const std::string& query) {
   return required;
 }
 
+/// An entry of a list of conventions: its name, or an object with the name and a sentence of the documentation.
+Declaration declaration_in(const Json& j, const Query& query) {
+  std::string name, sentence;
+  if (j.is_object()) {
+    const Members m(j, fmt::format("what it declares for {}", query.name), {"convention", "sentence"});
+    name = m.text("convention"), sentence = m.text("sentence");
+  } else if (j.is_string()) {
+    name = j.get<std::string>();
+  } else {
+    refuse("what it declares for {} has an entry that is neither a text nor an object", query.name);
+  }
+  const auto convention = convention_named(name);
+  if (!convention) {
+    refuse("it declares '{}' for {}, which is none of {}", name.substr(0, most_of_a_name), query.name,
+           convention_names());
+  }
+  if (!concerns(*convention, query)) refuse("it declares '{}' for {}, where it has no effect", name, query.name);
+  return {*convention, sentence};
+}
+
+std::vector<Declaration> declarations_in(const Json& list, const Query& query) {
+  std::vector<Declaration> declared;
+  Conventions all;
+  for (const Json& j : list) {
+    declared.push_back(declaration_in(j, query));
+    if (const auto other = contradicted(declared.back().convention, all)) {
+      refuse("it declares '{}' and '{}' for {}, which contradict each other", name_of(*other),
+             name_of(declared.back().convention), query.name);
+    }
+    all.add(declared.back().convention);
+  }
+  return declared;
+}
+
 /// Checks the names of the outputs that an offer gives (wire::given_by_offers).
 void check_given(const Json& list, const Query& query) {
   for (const Json& j : list) {
@@ -164,7 +198,7 @@ Answer ask_hosted(const void* offer, std::span<const double> inputs) {
 /// The inputs of a query with lists are counted where each list has its fewest entries.
 void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedOffers& hosted) {
   const Members m(j, fmt::format("offer {}", position + 1),
-                  {"query", "inputs", "outputs", "by_equivalence", "how", "contract", "requires", "gives"});
+                  {"query", "inputs", "outputs", "by_equivalence", "how", "contract", "requires", "gives", "declares"});
   const std::string name = m.text("query");
   const Query* query = find_query(name);
   if (query == nullptr) refuse("it offers the query '{}', which the catalogue does not have", name);
@@ -185,6 +219,7 @@ void take_offer(const Json& j, std::uint32_t position, Subject& subject, HostedO
     o.offer = m.flag("by_equivalence") ? Offer::by_equivalence : Offer::answers;
     o.contract = contract_in(m.find("contract"), name);
     o.required = requirements_in(m.list("requires"), name);
+    o.declare(declarations_in(m.list("declares"), *query));
     o.position = position;
     o.outputs = std::uint32_t(outputs);
     check_given(m.list("gives"), *query);

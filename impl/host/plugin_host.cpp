@@ -36,6 +36,8 @@ static_assert(NEARMISS_NO_ZERO_SIZES == bit_of(Precondition::no_zero_sizes));
 constexpr std::size_t most_offers = 4096, most_text = 4096;
 
 using Entry = const nearmiss_plugin* (*)();
+using Declarations = const nearmiss_declaration* (*)();
+constexpr std::size_t most_declarations = 4096;
 
 /// The version before the functions had the count of their inputs, and such a function.
 constexpr int version_without_counts = 2;
@@ -157,6 +159,34 @@ std::string fault_of(const nearmiss_plugin* plugin) {
   return {};
 }
 
+/// The convention is declared for the offer: by the name of its query or, where it concerns that, for all.
+bool is_declared_for(const nearmiss_declaration& d, const Offering& o) {
+  if (d.query != nullptr) return text_or_none(d.query) == o.query;
+  const auto convention = convention_named(text_or_none(d.convention));
+  const Query* query = find_query(o.query);
+  return convention && query != nullptr && concerns(*convention, *query);
+}
+
+/// Adds what the plugin declares to the offers that it is about. Returns the error in it; empty where it has none.
+std::string declare_all(const nearmiss_declaration* list, Subject& subject) {
+  for (std::size_t i = 0; list[i].convention != nullptr; ++i) {
+    const std::string name = text_or_none(list[i].convention), query = text_or_none(list[i].query);
+    if (i == most_declarations) return "its declarations have no end";
+    const auto convention = convention_named(name);
+    if (!convention) return "it declares '" + name + "', which is none of " + convention_names();
+    bool is_about_any = false;
+    for (Offering& o : subject.offerings) {
+      if (!is_declared_for(list[i], o)) continue;
+      o.declare({{*convention, text_or_none(list[i].sentence)}});
+      is_about_any = true;
+    }
+    if (!is_about_any && list[i].query != nullptr)
+      return "it declares '" + name + "' for " + query + ", which it does not offer";
+    if (!is_about_any) return "it declares '" + name + "', which has no effect on a query that it offers";
+  }
+  return {};
+}
+
 bool is_unreachable(const std::string& path) { return access(path.c_str(), R_OK) != 0 && errno == EACCES; }
 
 /// The path by which this user can load the library. Through the descriptor of its folder, where that goes, so that it
@@ -189,7 +219,15 @@ int host_plugin(const std::string& path) {
   FloatingPointModes::standard().set();
   if (const std::string fault = fault_of(plugin); !fault.empty()) return send_refusal(fault);
   std::vector<AskedFunction> functions;
-  return run_host(described_by(*plugin, modes, functions));
+  Subject subject = described_by(*plugin, modes, functions);
+  if (const auto declarations = reinterpret_cast<Declarations>(dlsym(library, "nearmiss_plugin_declarations"))) {
+    const nearmiss_declaration* list = declarations();
+    FloatingPointModes::standard().set();
+    const std::string fault =
+        list == nullptr ? "nearmiss_plugin_declarations() returns none" : declare_all(list, subject);
+    if (!fault.empty()) return send_refusal(fault);
+  }
+  return run_host(subject);
 }
 
 }  // namespace

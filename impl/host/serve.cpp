@@ -171,6 +171,8 @@ std::string hello_of(const Subject& subject) {
                {"how", o.how},
                {"contract", contract_to_json(o.contract)},
                {"requires", requires_names}};
+    for (const Declaration& d : o.declared)
+      offer["declares"].push_back({{"convention", name_of(d.convention)}, {"sentence", d.sentence}});
     if (o.counts) offer["inputs"] = o.counts->inputs, offer["outputs"] = o.counts->outputs;
     j["offers"].push_back(std::move(offer));
   }

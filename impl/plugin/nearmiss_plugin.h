@@ -83,6 +83,18 @@ typedef struct nearmiss_plugin {
 /* The one symbol that a plugin must export. Its result must stay valid until the process ends. */
 const nearmiss_plugin* nearmiss_plugin_entry(void);
 
+/* What the documentation of the library defines otherwise than the catalogue does: the name of a convention, from the
+ * list of docs/bring-your-own.md, such as "two-sided". */
+typedef struct nearmiss_declaration {
+  const char* query;      /* of one of its offers; NULL: each one where the convention has an effect */
+  const char* convention; /* its name */
+  const char* sentence;   /* of the library's documentation; NULL: none */
+} nearmiss_declaration;
+
+/* A symbol that a plugin of any version may export: its conventions, which end with one whose `convention` is NULL. The
+ * result must stay valid until the process ends. */
+const nearmiss_declaration* nearmiss_plugin_declarations(void);
+
 #ifdef __cplusplus
 }
 #endif

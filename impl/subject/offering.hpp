@@ -31,6 +31,7 @@ Offering offering_of(std::string_view query) {
     };
     if constexpr (requires { Adapter::template contract<Q>(); }) o.contract = Adapter::template contract<Q>();
     if constexpr (requires { Adapter::template needs<Q>(); }) o.required = Adapter::template needs<Q>();
+    if constexpr (requires { Adapter::template declares<Q>(); }) o.declare(Adapter::template declares<Q>());
     if constexpr (requires { Adapter::template equivalence<Q>(); }) {
       o.how = Adapter::template equivalence<Q>();
       if (!o.how.empty()) o.offer = Offer::by_equivalence;

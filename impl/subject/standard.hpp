@@ -1,8 +1,10 @@
-/// The bound by which the judge accepts an answer: the subject's contract, or the measure where it promises nothing.
+/// What the judge holds an answer to: the subject's contract, or the measure where it promises nothing, and the
+/// conventions that it declares.
 #pragma once
 
 #include <collide/contract.hpp>
 
+#include "impl/subject/convention.hpp"
 #include "impl/subject/precondition.hpp"
 
 namespace nearmiss {
@@ -11,9 +13,10 @@ struct Standard {
   collide::Contract contract;
   bool promised = true;      ///< false: the bound is the measure, not a promise of the subject
   Preconditions required{};  ///< a case that is not proved to meet them is neither asked nor judged
+  Conventions declared{};    ///< what the subject declares: the meaning by which its answers are judged
 
-  Standard(const collide::Contract& c = {}, bool is_promised = true, Preconditions r = {})
-      : contract(c), promised(is_promised), required(r) {}
+  Standard(const collide::Contract& c = {}, bool is_promised = true, Preconditions r = {}, Conventions d = {})
+      : contract(c), promised(is_promised), required(r), declared(d) {}
 };
 
 /// True for a contract that no answer can violate.

@@ -15,6 +15,31 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// A convention that the user declares.
+struct UsersDeclaration {
+  std::string subject, query;  ///< empty: of every query that it concerns
+  Declaration declaration;
+
+  bool is_about(const Subject& s, std::string_view q) const {
+    if (s.name != subject || (!query.empty() && query != q)) return false;
+    const Query* known = find_query(q);
+    return known != nullptr && concerns(declaration.convention, *known);
+  }
+};
+
+std::vector<UsersDeclaration>& users_declarations() {
+  static std::vector<UsersDeclaration> all;
+  return all;
+}
+
+void declare_of_user(Subject& s) {
+  for (const UsersDeclaration& u : users_declarations()) {
+    for (Offering& o : s.offerings) {
+      if (u.is_about(s, o.query)) o.declare({u.declaration});
+    }
+  }
+}
+
 /// The subject in the state before its start.
 Subject not_started(std::string name) {
   Subject s;
@@ -52,6 +77,7 @@ class AllSubjects {
     const auto i = std::size_t(std::find(names_.begin(), names_.end(), s.name) - names_.begin());
     s.own = contains(own_, s.name);
     s.referee = contains(referees_, s.name);
+    declare_of_user(s);
     all_.at(i) = std::move(s);
     is_started_[i] = true;
   }
@@ -95,23 +121,46 @@ std::vector<const Subject*> subjects_named(std::span<const std::string> names) {
 
 std::vector<const Subject*> referees() { return subjects_named(names_of_referees()); }
 
-void add_subject(Subject subject) { of_process().all().push_back(std::move(subject)); }
+void add_subject(Subject subject) {
+  declare_of_user(subject);
+  of_process().all().push_back(std::move(subject));
+}
+
+void declare(const std::string& subject, std::string_view query, const Declaration& declaration) {
+  users_declarations().push_back({subject, std::string(query), declaration});
+  for (Subject& s : of_process().all()) declare_of_user(s);
+}
 
 namespace {
 Measure the_measure;
 bool promises_of_others_count = true;
+std::optional<ReportedConventions> as_reported;
 }  // namespace
 
 const Measure& measure() { return the_measure; }
 void set_measure(const Measure& m) { the_measure = m; }
 void count_promises_of_others(bool count) { promises_of_others_count = count; }
 
+void declare_as_reported(std::optional<ReportedConventions> reported) { as_reported = std::move(reported); }
+
+std::vector<Declaration> Subject::declared_for(std::string_view query) const {
+  if (!as_reported || as_reported->subject != name || as_reported->query != query) return offering(query).declared;
+  Offering reported;
+  reported.declare(as_reported->declared);
+  for (const UsersDeclaration& u : users_declarations()) {
+    if (u.is_about(*this, query)) reported.declare({u.declaration});
+  }
+  return reported.declared;
+}
+
 Standard Subject::standard_for(std::string_view query) const {
   const Offering& offer = offering(query);
+  Conventions declared;
+  for (const Declaration& d : declared_for(query)) declared.add(d.convention);
   const bool counts = !the_measure.for_all && (own || promises_of_others_count);
-  if (counts && !promises_nothing(offer.contract)) return {offer.contract, true, offer.required};
+  if (counts && !promises_nothing(offer.contract)) return {offer.contract, true, offer.required, declared};
   const double epsilons = the_measure.error / unit_roundoff(scalar);
-  return {{.backward = epsilons, .unit = epsilons}, false, offer.required};
+  return {{.backward = epsilons, .unit = epsilons}, false, offer.required, declared};
 }
 
 const Subject* find_subject(std::string_view name) {

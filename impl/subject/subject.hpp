@@ -1,6 +1,7 @@
 /// A subject: a library, or one configuration of it, that answers cases.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -74,16 +75,26 @@ struct Offering {
   Offer offer = Offer::not_offered;
   std::string how;  ///< the equivalent operation, or why the query is not offered
   collide::Contract contract{};
-  AnswerFunction answer{};     ///< nullptr where the query is not offered
-  Preconditions required{};    ///< a case that does not meet them is not asked
-  std::uint32_t position = 0;  ///< index among the offers in the host's hello
-  bool decides = true;         ///< false for a query without a decision: the decision that a host sends is then ignored
-  std::uint32_t outputs = 0;   ///< numbers in an answer of a host; 0: unknown
+  AnswerFunction answer{};              ///< nullptr where the query is not offered
+  Preconditions required{};             ///< a case that does not meet them is not asked
+  std::vector<Declaration> declared{};  ///< its conventions
+  std::uint32_t position = 0;           ///< index among the offers in the host's hello
+  bool decides = true;        ///< false for a query without a decision: the decision that a host sends is then ignored
+  std::uint32_t outputs = 0;  ///< numbers in an answer of a host; 0: unknown
   struct Counts {
     int inputs, outputs;
   };
   std::optional<Counts> counts{};  ///< the numbers of inputs and outputs that the host states
   TimeFunction time = nullptr;     ///< nullptr: its calls can be timed only through `answer`; known only in the host
+
+  /// Adds them to its conventions, each once. One that only restricts the cases is a precondition as well.
+  void declare(const std::vector<Declaration>& more) {
+    for (const Declaration& d : more) {
+      const auto is_same = [&](const Declaration& e) { return e.convention == d.convention; };
+      if (std::none_of(declared.begin(), declared.end(), is_same)) declared.push_back(d);
+      if (d.convention == Convention::unit_directions) required.add(Precondition::unit_direction);
+    }
+  }
 };
 
 /// A program that answers in place of a function of this process (docs/reference/protocol.md).
@@ -117,9 +128,12 @@ struct Subject {
     }
     return none;
   }
-  /// The bound for its answers to the query, its contract or, where it promises nothing, the measure; and its
-  /// preconditions.
+  /// The bound for its answers to the query, its contract or, where it promises nothing, the measure; its
+  /// preconditions; and what it declares.
   Standard standard_for(std::string_view query) const;
+  /// The conventions by which its answers to the query are judged: its own and those of declare(), or those of
+  /// declare_as_reported().
+  std::vector<Declaration> declared_for(std::string_view query) const;
 };
 
 /// Every subject of this build, in the order of the calls of nearmiss_add_subject, then the subjects of add_subject().
@@ -150,6 +164,17 @@ struct Measure {
 const Measure& measure();
 /// Sets the measure for the rest of the process.
 void set_measure(const Measure& m);
+/// Declares a convention of a subject for the rest of the process: of all its queries that the convention concerns, or
+/// of the named one. The subject need not be started yet.
+void declare(const std::string& subject, std::string_view query, const Declaration& declaration);
+/// The conventions with which a report was judged.
+struct ReportedConventions {
+  std::string subject, query;
+  std::vector<Declaration> declared;
+};
+/// Until the next call, answers of that subject to that query are judged by these and those of declare(), in place of
+/// what the subject declares now. Empty: by what each subject declares.
+void declare_as_reported(std::optional<ReportedConventions> reported);
 /// nullptr where no subject has that name. A subject of this build is built and started where needed.
 const Subject* find_subject(std::string_view name);
 /// Whether a subject has that name. Builds and starts none.

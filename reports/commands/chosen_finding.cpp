@@ -78,7 +78,7 @@ ChosenFinding::Asked ChosenFinding::ask() const {
   const nlohmann::json j = parse_json(read_file(file), file);
   if (read_relation_case(j, file)) throw BadInput(fmt::format("{}: it has several related cases; one is needed", file));
   const Case question = case_of(j, file);
-  use_measure(measure_ ? SceneMeasure{{*measure_, true}, nullptr} : measure_of(j, file));
+  use_measure(measure_or(measure_, j, file));
   const Subject* of_report = reported_subject(j, file, for_.empty());
   if (for_.empty() && of_report == nullptr)
     throw BadInput(fmt::format("{}: it is no report, so --for is needed", file));

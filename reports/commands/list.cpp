@@ -10,6 +10,8 @@
 #include "reports/engine/output.hpp"
 #include "reports/engine/properties.hpp"
 #include "reports/findings/pretty_json.hpp"
+#include "reports/findings/report.hpp"
+#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -50,6 +52,15 @@ Json requirements(const Query& query) {
   return j;
 }
 
+/// What each subject declares: {NAME: [{"convention", "sentence"}]}.
+Json declarations(const Query& query) {
+  Json j = Json::object();
+  for (const Subject& s : subjects_at_hand()) {
+    if (const auto declared = s.declared_for(query.name); !declared.empty()) j[s.name] = declarations_to_json(declared);
+  }
+  return j;
+}
+
 Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
 
 /// The contract of each subject that promises something: {NAME: {"backward", "forward", "unit", "exact_decisions"}}, in
@@ -75,6 +86,7 @@ Json list_json() {
                        {"subjects", offers(q, false)},
                        {"referees", offers(q, true)},
                        {"requires", requirements(q)},
+                       {"declared", declarations(q)},
                        {"contracts", contracts(q)},
                        {"fuzz_target", fmt::format("fuzz_{}", q.name)},
                        {"seeds", count_seeds(q)},
@@ -119,14 +131,20 @@ std::string queries_table() {
   return table_text(rows);
 }
 
+std::string declared_cell(const Subject& s, const Query& query) {
+  const std::vector<Declaration> declared = s.declared_for(query.name);
+  return declared.empty() ? "-" : declarations_text(declared);
+}
+
 /// One line for each pair of query and subject, with the reason or the equivalence.
 std::string reasons_table() {
-  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "REQUIRES", "HOW OR WHY NOT"}};
+  std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "REQUIRES", "DECLARES", "HOW OR WHY NOT"}};
   for (const Query& q : catalogue()) {
     for (const Subject& s : subjects_at_hand()) {
       const Offering& o = s.offering(q.name);
       rows.push_back({std::string(q.name), s.name, std::string(offer_of(s, q)),
-                      o.required.empty() ? "-" : fmt::format("{}", fmt::join(names_of(o.required), ", ")), o.how});
+                      o.required.empty() ? "-" : fmt::format("{}", fmt::join(names_of(o.required), ", ")),
+                      declared_cell(s, q), o.how});
     }
   }
   return table_text(rows);
@@ -162,10 +180,12 @@ class ListCommand : public Command {
              "properties that are tested. Subjects that are marked as referees also give second "
              "opinions in reports.",
              "--why shows for each query and subject the equivalent operation, or why the query is not offered, "
-             "and the preconditions of the subject: it is not asked cases that do not meet them. --json prints "
+             "the preconditions of the subject, and the conventions that it declares: it is not asked cases that do "
+             "not meet "
+             "the former, and judged by the latter. --json prints "
              "one object for programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by "
              "equivalence\" | \"not offered\" | \"not built yet\"}, \"referees\": {the same}, \"requires\": {NAME: "
-             "[PRECONDITION]}, "
+             "[PRECONDITION]}, \"declared\": {NAME: [{\"convention\", \"sentence\"}]}, "
              "\"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},

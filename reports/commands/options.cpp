@@ -101,6 +101,42 @@ void add_loading(CLI::App& app, const std::string& name, void (*load)(const std:
       ->allow_extra_args(false);
 }
 
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+  return begin == std::string_view::npos ? "" : std::string(text.substr(begin, end - begin + 1));
+}
+
+/// "SUBJECT: CONVENTION", "SUBJECT QUERY: CONVENTION"; each may go on with ": SENTENCE".
+void declare_by_text(const std::string& text) {
+  const auto refuse = [&](const std::string& why) {
+    throw BadInput(fmt::format("--declare {}: {}", one_line(text, 200), why));
+  };
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) refuse("it must be \"SUBJECT: CONVENTION\" or \"SUBJECT QUERY: CONVENTION\"");
+  const std::size_t second = std::min(text.find(':', colon + 1), text.size());
+  const std::string of = trimmed(text.substr(0, colon)), name = trimmed(text.substr(colon + 1, second - colon - 1));
+  const std::string sentence = second < text.size() ? trimmed(text.substr(second + 1)) : "";
+  const std::size_t space = std::min(of.find(' '), of.size());
+  const std::string subject = of.substr(0, space), query = trimmed(of.substr(space));
+  if (!is_subject(subject)) refuse(unknown_text("subject", subject, subject_names()));
+  if (!query.empty() && find_query(query) == nullptr) refuse(unknown_query_text(query));
+  const auto convention = convention_named(name);
+  if (!convention)
+    refuse(fmt::format("no convention is '{}'; those that exist: {}", one_line(name, 60), convention_names()));
+  if (!query.empty() && !concerns(*convention, *find_query(query)))
+    refuse(fmt::format("'{}' has no effect on {}", name, query));
+  declare(subject, query, {*convention, sentence});
+  for (const Query& q : catalogue()) {
+    Conventions all;
+    for (const Declaration& d : find_subject(subject)->declared_for(q.name)) {
+      if (const auto other = contradicted(d.convention, all))
+        refuse(fmt::format("'{}' contradicts '{}', which {} declares for {}", name_of(d.convention), name_of(*other),
+                           subject, q.name));
+      all.add(d.convention);
+    }
+  }
+}
+
 }  // namespace
 
 void declare_foreign_subjects(CLI::App& app) {
@@ -125,6 +161,11 @@ void declare_foreign_subjects(CLI::App& app) {
   add_loading(app, "--command", load_command,
               "Add the subject that this program is (see docs/reference/protocol.md); may be given several times",
               "COMMAND");
+  add_loading(app, "--declare", declare_by_text,
+              "Judge a subject by a convention that its documentation states (docs/bring-your-own.md lists them): "
+              "\"SUBJECT: CONVENTION\", \"SUBJECT QUERY: CONVENTION\", each also with \": SENTENCE\"; may be given "
+              "several times",
+              "TEXT");
 }
 
 void Selection::declare_subjects(CLI::App& app) {
@@ -195,6 +236,23 @@ std::string measure_line(std::span<const Query* const> queries, std::span<const 
     }
   }
   return "";
+}
+
+std::string declarations_line(std::span<const Query* const> queries, std::span<const Subject* const> subjects) {
+  std::string text;
+  for (const Subject* s : subjects) {
+    std::vector<std::pair<std::string, std::vector<std::string_view>>> each;  // conventions, and the queries with these
+    for (const Query* q : queries) {
+      const std::vector<Declaration> declared = s->declared_for(q->name);
+      if (declared.empty() || s->offering(q->name).answer == nullptr) continue;
+      const std::string words = declarations_text(declared);
+      if (each.empty() || each.back().first != words) each.push_back({words, {}});
+      each.back().second.push_back(q->name);
+    }
+    for (const auto& [words, of] : each)
+      text += fmt::format("{} declares for {}: {}\n", s->name, fmt::join(of, ", "), words);
+  }
+  return text;
 }
 
 void select_queries_of(const scenes::Scene& scene, Selection& selection) {

@@ -18,8 +18,8 @@ namespace nearmiss {
 
 std::vector<std::string> query_names();
 
-/// --patience, --plugin and --command; the last two are repeatable. Plugins and commands are loaded while the arguments
-/// are parsed, before later options are checked.
+/// --patience, --plugin, --command and --declare; the last three are repeatable. Plugins and commands are loaded while
+/// the arguments are parsed, before later options are checked; then conventions are declared.
 void declare_foreign_subjects(CLI::App& app);
 
 /// Accepts the name of a query.
@@ -53,6 +53,9 @@ struct SceneOption {
 void judge_by(std::optional<double> given_measure, const scenes::Scene* scene);
 /// The line that states the measure, where it applies to one of the subjects and queries; otherwise empty.
 std::string measure_line(std::span<const Query* const> queries, std::span<const Subject* const> subjects);
+
+/// A line for each convention that one of the subjects declares for one of the queries; otherwise empty.
+std::string declarations_line(std::span<const Query* const> queries, std::span<const Subject* const> subjects);
 
 /// Selects the queries that the scene asks where none are selected. Throws BadInput for a selected query that the scene
 /// does not ask.

@@ -57,7 +57,7 @@ class ReplayCommand : public Command {
       settle_run_of(f);
       const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe cannot be read twice
       warn_of_missing_subject(j, f);
-      measures.push_back(measure_ ? SceneMeasure{{*measure_, true}, nullptr} : measure_of(j, f));
+      measures.push_back(measure_or(measure_, j, f));
       if (auto related = read_relation_case(j, f)) {
         cases.emplace_back(std::move(*related));
       } else {

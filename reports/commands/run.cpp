@@ -128,9 +128,11 @@ class RunCommand : public Command {
                          every_answer_};
     Run run(std::move(settings));
     if (world != nullptr) run.note("scene", world->name);
+    note_declared(run);
     if (const SceneLimits* limits = scene_limits()) run.note("required", limits_to_json(*limits));
     say("seed {}, {}, into {}\n{}", seed, amount_text(), path_text(run.settings().folder),
-        measure_line(run.settings().queries, run.settings().subjects));
+        measure_line(run.settings().queries, run.settings().subjects) +
+            declarations_line(run.settings().queries, run.settings().subjects));
     std::fflush(stdout);
     if (world == nullptr) run.ask_worst_cases();
     const std::string climbs = climb_ ? climb(run) : "";
@@ -150,6 +152,16 @@ class RunCommand : public Command {
                                 : scene_.name.empty() && !profile_.is_given() ? " cases for each query and subject"
                                                                               : " cases of the scene for each subject";
     return count_text(*amount_.number()) + std::string(of);
+  }
+  static void note_declared(Run& run) {
+    nlohmann::ordered_json all;
+    for (const Subject* s : run.settings().subjects) {
+      for (const Query* q : run.settings().queries) {
+        const std::vector<Declaration> declared = s->declared_for(q->name);
+        if (!declared.empty()) all[s->name][q->name] = declarations_to_json(declared);
+      }
+    }
+    if (!all.empty()) run.note("declared", all);
   }
   void check_own() const {
     for (const Subject* s : selection_.subjects()) {

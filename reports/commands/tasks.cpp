@@ -24,7 +24,7 @@ Task read_task(const std::string& file, const Selection& selection, std::optiona
   if (read_relation_case(j, file))
     throw BadInput(fmt::format("{}: it has several related cases, and one can be {}", file, verb));
   const auto subject = selection.subject.empty() ? subject_of_report(j, file) : std::nullopt;
-  return {file, text, case_of(j, file), measure ? SceneMeasure{{*measure, true}, nullptr} : measure_of(j, file),
+  return {file, text, case_of(j, file), measure_or(measure, j, file),
           subject ? std::vector<const Subject*>{*subject} : selection.subjects()};
 }
 

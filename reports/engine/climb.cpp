@@ -131,8 +131,9 @@ Climb::Height Climb::backward_height(const Case& c, const Answer& answer, const 
   Height h{f.backward ? f.backward->above : 0, guide_of(c, answer, f)};
   const double next_rung = std::max(1.0, 2 * h.error);
   const bool may_be_worse = phase_ != Phase::hill || next_rung > here_.height.error;
-  if (f.backward && may_be_worse)
-    h.error = finer_backward(c, answer, *f.backward, subject().offering(query().name).required);
+  if (!f.backward || !may_be_worse) return h;
+  const Standard standard = subject().standard_for(query().name);
+  h.error = finer_backward(c, answer, *f.backward, standard.required, standard.declared);
   return h;
 }
 

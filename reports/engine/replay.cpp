@@ -218,9 +218,46 @@ std::shared_ptr<const SceneLimits> limits_from(const nlohmann::json& j, const st
 
 }  // namespace
 
+namespace {
+
+/// The conventions with which a report was judged; empty for what is no report.
+std::optional<ReportedConventions> conventions_of(const nlohmann::json& j, const std::string& file) {
+  const bool names_both = j.is_object() && j.contains("finding") && j.contains("query") && j["query"].is_string() &&
+                          j.contains("subject") && j["subject"].is_object() && j["subject"].contains("name") &&
+                          j["subject"]["name"].is_string();
+  if (!names_both) return std::nullopt;
+  ReportedConventions reported{j["subject"]["name"], j["query"], {}};
+  if (!j.contains("declared")) return reported;
+  const auto text = [](const nlohmann::json& d, const char* name) {
+    return d.is_object() && d.contains(name) && d[name].is_string() ? std::optional(d[name].get<std::string>())
+                                                                    : std::nullopt;
+  };
+  const nlohmann::json& declared = j["declared"];
+  for (const nlohmann::json& d : declared.is_array() ? declared : nlohmann::json::array({declared})) {
+    const auto name = text(d, "convention");
+    const auto convention = name ? convention_named(*name) : std::nullopt;
+    if (!convention) {
+      throw BadInput(fmt::format("{}: declared has {}; it must be a list of objects with a convention, one of {}", file,
+                                 one_line(d.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), 60),
+                                 convention_names()));
+    }
+    reported.declared.push_back({*convention, text(d, "sentence").value_or("")});
+  }
+  return reported;
+}
+
+}  // namespace
+
+SceneMeasure measure_or(std::optional<double> given, const nlohmann::json& j, const std::string& file) {
+  return given ? SceneMeasure{{*given, true}, nullptr, conventions_of(j, file)} : measure_of(j, file);
+}
+
 SceneMeasure measure_of(const nlohmann::json& j, const std::string& file) {
-  if (!j.is_object() || !j.contains("finding") || !j.contains("measure") || j["measure"].is_null()) return {};
-  return measure_in(j["measure"], file);
+  std::optional<ReportedConventions> declared = conventions_of(j, file);
+  const bool has_measure = j.is_object() && j.contains("finding") && j.contains("measure") && !j["measure"].is_null();
+  SceneMeasure m = has_measure ? measure_in(j["measure"], file) : SceneMeasure{};
+  m.declared = std::move(declared);
+  return m;
 }
 
 SceneMeasure measure_in(const nlohmann::json& m, const std::string& file) {
@@ -260,7 +297,7 @@ std::string replay_command(const Subject& subject, const std::string& file) {
 
 Replay replay(const Case& question, const std::string& file, std::span<const Subject* const> subjects,
               Workers& workers) {
-  Replay r{question, file, truth_of(question), {}, {}};
+  Replay r{question, file, {}, {}, {}};
   for (const Subject* s : subjects) {
     const Offering& offering = s->offering(question.query->name);
     const std::optional<Case> same = in_scalar(question, s->scalar);
@@ -275,6 +312,10 @@ Replay replay(const Case& question, const std::string& file, std::span<const Sub
       r.reports.back().replay = replay_command(*s, file);
     }
   }
+  const bool declare_the_same = std::all_of(r.reports.begin(), r.reports.end(), [&](const Report& report) {
+    return report.standard.declared == r.reports.front().standard.declared;
+  });
+  r.truth = truth_of(question, r.reports.empty() || !declare_the_same ? Conventions{} : r.reports[0].standard.declared);
   return r;
 }
 

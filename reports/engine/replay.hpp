@@ -16,12 +16,14 @@ namespace nearmiss {
 Case read_case_or_report(const std::filesystem::path& file);
 /// The same for JSON that was already read from `file`.
 Case case_of(const nlohmann::json& j, const std::string& file);
-/// The measure of the report's subject, with what its scene required; the usual measure where the file has none. Throws
-/// BadInput.
+/// The measure of the report's subject, with what its scene required, and the conventions that the subject declared;
+/// the usual measure where the file has none. Throws BadInput.
 SceneMeasure measure_of(const nlohmann::json& j, const std::string& file);
 /// The same of the member "measure" of a file: {"error", "for_all", "scene"}. Throws BadInput.
 SceneMeasure measure_in(const nlohmann::json& measure, const std::string& file);
 nlohmann::ordered_json measure_to_json(const SceneMeasure& m);
+/// The same with a given measure in place of the report's own, and of its scene.
+SceneMeasure measure_or(std::optional<double> given, const nlohmann::json& j, const std::string& file);
 
 /// The subject of a report; empty for JSON that is no report. Throws BadInput where no such subject is loaded.
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file);

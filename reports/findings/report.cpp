@@ -81,9 +81,10 @@ Report examine(const Case& question, const Subject& subject, const Answer& answe
   r.version = subject.version;
   r.answer = answer;
   r.standard = subject.standard_for(question.query->name);
+  r.declared = subject.declared_for(question.query->name);
   if (!r.standard.promised && scene_limits() != nullptr) r.scene = *scene_limits();
   r.finding = confirmed(question, answer, r.standard, Detail::full);
-  r.truth = truth_of(question);
+  r.truth = truth_of(question, r.standard.declared);
   r.referees = second_opinions(question, subject, workers);
   r.static_checks = static_checks(question, answer, r.truth, workers);
   return r;

@@ -28,6 +28,7 @@ struct Report {
   std::string output{};              ///< for a subject that broke: the end of its standard output and error
   std::optional<SceneLimits> scene;  ///< the requirements of the scene that replaced the measure
   Standard standard;
+  std::vector<Declaration> declared{};  ///< the conventions by which the answer is judged
   Finding finding;
   Truth truth;
   std::vector<Opinion> referees;
@@ -56,6 +57,8 @@ nlohmann::ordered_json truth_to_json(const Query& query, Scalar scalar, const Tr
 nlohmann::ordered_json finding_to_json(const Case& question, const Finding& f);
 /// {"name", "unit", "position_error", "missed_depth", "time_error"}
 nlohmann::ordered_json limits_to_json(const SceneLimits& limits);
+/// [{"convention", "sentence"}]; the sentence is left out where none is given.
+nlohmann::ordered_json declarations_to_json(const std::vector<Declaration>& declared);
 /// The versions of Nearmiss and the compiler, the build type and the platform.
 nlohmann::ordered_json environment_to_json();
 inline constexpr int report_schema_version = 2;

@@ -222,6 +222,15 @@ Json lines_to_json(std::string_view text) {
   return lines;
 }
 
+Json declarations_to_json(const std::vector<Declaration>& declared) {
+  Json list = Json::array();
+  for (const Declaration& d : declared) {
+    list.push_back({{"convention", name_of(d.convention)}});
+    if (!d.sentence.empty()) list.back()["sentence"] = d.sentence;
+  }
+  return list;
+}
+
 Json report_to_json(const Report& r) {
   const Query& query = *r.question.query;
   Json j{{"schema", report_schema_version},
@@ -240,6 +249,7 @@ Json report_to_json(const Report& r) {
   if (!r.standard.promised) j["measure"] = {{"error", measure().error}, {"for_all", measure().for_all}};
   if (r.scene) j["measure"]["scene"] = limits_to_json(*r.scene);
   if (!r.standard.required.empty()) j["requires"] = requires_to_json(r.standard.required);
+  if (!r.declared.empty()) j["declared"] = declarations_to_json(r.declared);
   j["referees"] = Json::array();
   for (const Opinion& o : r.referees) j["referees"].push_back(opinion(query, o));
   j["static_checks"] = Json::array();

@@ -98,6 +98,7 @@ class Explanation {
     if (const std::string s = excuse(); !s.empty()) sentences.push_back(s);
     if (const std::string s = others(); !s.empty()) sentences.push_back(s);
     if (const std::string s = promise(); !s.empty()) sentences.push_back(s);
+    if (!r_.declared.empty()) sentences.push_back("It declares: " + declarations_text(r_.declared));
     return fmt::format("{}.", fmt::join(sentences, ". "));
   }
   /// "misses a collision", "gives a wrong time".
@@ -331,6 +332,16 @@ class Explanation {
 };
 
 }  // namespace
+
+std::string declarations_text(const std::vector<Declaration>& declared) {
+  std::vector<std::string> each;
+  for (const Declaration& d : declared) {
+    const std::string sentence = one_line(d.sentence, 300);
+    each.push_back(sentence.empty() ? std::string(name_of(d.convention))
+                                    : fmt::format("{} (\"{}\")", name_of(d.convention), sentence));
+  }
+  return fmt::format("{}", fmt::join(each, ", "));
+}
 
 std::string requirement_text(const SceneLimits& limits) {
   return fmt::format(

@@ -7,6 +7,8 @@
 
 namespace nearmiss {
 
+/// "two-sided ("The back counts."), motion ends at time 1".
+std::string declarations_text(const std::vector<Declaration>& declared);
 /// One line: the subject, its fault, the query, and the proved bound of the backward error.
 std::string headline(const Report& r);
 /// Two to four sentences: the subject's answer, the exact answer, how far the inputs would have to move to make the

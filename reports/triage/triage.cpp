@@ -159,6 +159,7 @@ class Work {
     }
     count();
     for (TriagedSignature& s : triage_.signatures) describe_range(s);
+    propose_conventions();
     rank(triage_.signatures);
     return std::move(triage_);
   }
@@ -311,6 +312,14 @@ class Work {
     s.kind = c.kind;
     s.size = c.size;
     s.headline = c.headline;
+  }
+  void propose_conventions() {
+    std::vector<CasesOfRow> rows(triage_.signatures.size());
+    for (const CandidatesOfKind& g : groups_) {
+      for (const Candidate& c : g.all) rows[row_of_.at(&c)].cases.push_back(&c);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].findings = triage_.signatures[i].findings;
+    triage_.proposals = proposed_conventions(rows, workers_, [] { return !interrupted(); });
   }
   static void add_to_range(TriagedSignature& s, const Candidate& c) {
     s.range->add(*c.extreme);

@@ -15,6 +15,7 @@
 #include "reports/triage/causes/cause.hpp"
 #include "reports/triage/examination/ordinary_scene.hpp"
 #include "reports/triage/examination/sources.hpp"
+#include "reports/triage/proposals.hpp"
 
 namespace nearmiss {
 
@@ -98,13 +99,14 @@ struct TriagedSignature {
 struct Triage {
   std::vector<std::string> sources;
   std::vector<std::pair<std::string, std::string>> skipped;
-  std::vector<TriagedSignature> signatures;  ///< in the order of severity
-  Sample sample;                             ///< what the runs asked and found
-  SceneMeasure measure;                      ///< by which the subjects are judged that promise nothing
-  std::vector<FiledReport> right_now;        ///< reports whose subject, asked again, is right
-  std::uint64_t findings_right_now = 0;      ///< counted by the runs, of such reports and of their kinds
-  std::uint64_t left_out = 0;                ///< findings of rows that were taken out, as --ordinary does
-  bool all_examined = true;                  ///< false where the time was over or an interrupt came
+  std::vector<TriagedSignature> signatures;   ///< in the order of severity
+  Sample sample;                              ///< what the runs asked and found
+  SceneMeasure measure;                       ///< by which the subjects are judged that promise nothing
+  std::vector<FiledReport> right_now;         ///< reports whose subject, asked again, is right
+  std::uint64_t findings_right_now = 0;       ///< counted by the runs, of such reports and of their kinds
+  std::uint64_t left_out = 0;                 ///< findings of rows that were taken out, as --ordinary does
+  std::vector<ProposedConvention> proposals;  ///< undeclared conventions that explain rows
+  bool all_examined = true;                   ///< false where the time was over or an interrupt came
 };
 
 struct TriageSettings {

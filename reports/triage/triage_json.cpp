@@ -288,14 +288,17 @@ Json triage_to_json(const Triage& t) {
   Json skipped = Json::array(), signatures = Json::array();
   for (const auto& [file, why] : t.skipped) skipped.push_back({{"file", file}, {"why", why}});
   for (const TriagedSignature& s : t.signatures) signatures.push_back(signature_to_json(s));
-  return {{"schema", triage_schema_version},
-          {"environment", environment_to_json()},
-          {"sources", t.sources},
-          {"skipped", skipped},
-          {"sample", sample_to_json(t.sample)},
-          {"measure", measure_to_json(t.measure)},
-          {"signatures", signatures},
-          {"totals", totals(t)}};
+  Json j{{"schema", triage_schema_version},
+         {"environment", environment_to_json()},
+         {"sources", t.sources},
+         {"skipped", skipped},
+         {"sample", sample_to_json(t.sample)},
+         {"measure", measure_to_json(t.measure)},
+         {"signatures", signatures},
+         {"totals", totals(t)}};
+  for (const ProposedConvention& p : t.proposals)
+    j["proposals"].push_back({{"declare", declarations_of(p)}, {"findings", p.findings}});
+  return j;
 }
 
 std::vector<TriagedSignature> signatures_from_json(const nlohmann::json& j, const std::string& where) {

@@ -114,6 +114,7 @@ std::string triage_text(const Triage& t, std::size_t rows) {
   if (!t.right_now.empty()) {
     text += fmt::format("\n{}: the subject, asked again, is right now\n", plural_text(t.right_now.size(), "report"));
   }
+  if (!t.proposals.empty()) text += "\nif the documentation says so:\n" + proposals_text(t.proposals);
   if (t.left_out > 0) text += fmt::format("\n{} of extreme magnitudes left out\n", plural_text(t.left_out, "finding"));
   if (!t.all_examined)
     text += "\nNot every kind was examined; the same command goes on, --minutes gives it more time\n";

@@ -8,7 +8,7 @@
 #include "corpus/storage/store.hpp"
 #include "impl/subject/printable.hpp"
 #include "oracles/confirmed.hpp"
-#include "oracles/exact_decision.hpp"
+#include "oracles/declared_oracle.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
@@ -37,6 +37,7 @@ class SubjectCheck {
     ask();
     CheckedQuery c;
     c.query = &query_;
+    c.subject = subject_.name;
     c.asked = cases_.size();
     for (const Ordinary& o : cases_) count(o, c);
     if (!wrong_.empty()) c.misreading = misreading();
@@ -91,7 +92,7 @@ class SubjectCheck {
     } else {
       ++c.wrong;
       wrong_.push_back(&o);
-      if (!c.example) c.example = {o.question, o.answer, truth_of(o.question), o.note};
+      if (!c.example) c.example = {o.question, o.answer, truth_of(o.question, standard_.declared), o.note};
     }
   }
 
@@ -138,7 +139,8 @@ class SubjectCheck {
     std::size_t explained = 0, affected = 0;
     const bool decide = are_about_decisions(all);
     for (const Ordinary* o : wrong_) {
-      if (decide && o->answer.yes == exact_decision(o->question)) continue;  // its numbers are wrong
+      if (decide && o->answer.yes == exact_decision(o->question, standard_.declared))
+        continue;  // its numbers are wrong
       const std::optional<bool> fit = fits(all, o->question, o->answer);
       affected += fit.has_value(), explained += fit.value_or(false);
     }
@@ -202,16 +204,26 @@ std::string counts_text(const CheckedQuery& c) {
   return text + "\n";
 }
 
+/// What to declare where the documentation defines that meaning; empty where it is no convention.
+std::string declaration_text(const CheckedQuery& c) {
+  std::vector<std::string> names;
+  for (const Reading* r : c.misreading->readings) {
+    if (!r->convention || !concerns(*r->convention, *c.query)) return "";
+    names.push_back(fmt::format("\"{} {}: {}\"", c.subject, c.query->name, name_of(*r->convention)));
+  }
+  return fmt::format(" If its documentation says so, declare {}.", list_text(names));
+}
+
 std::string misreading_text(const CheckedQuery& c) {
   if (c.wrong == 1) return "One wrong answer says nothing about other meanings.";
   if (!c.misreading) return "No other meaning of the inputs and of the answer explains the wrong answers.";
   std::vector<std::string> meanings;
   for (const Reading* r : c.misreading->readings) meanings.emplace_back(r->what);
   const bool all = c.is_explained();
-  return fmt::format("{} right if {}.{}",
+  return fmt::format("{} right if {}.{}{}",
                      all ? fmt::format("All {} wrong answers are", c.wrong)
                          : fmt::format("{} of the {} wrong answers are", c.misreading->explained, c.wrong),
-                     list_text(meanings), all ? "" : " Nothing explains the others.");
+                     list_text(meanings), all ? "" : " Nothing explains the others.", declaration_text(c));
 }
 
 std::string example_text(const CheckedQuery& c, Scalar scalar) {

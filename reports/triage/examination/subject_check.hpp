@@ -31,6 +31,7 @@ struct WrongOrdinary {
 /// The answers of a subject to the ordinary cases of one query.
 struct CheckedQuery {
   const Query* query = nullptr;
+  std::string subject;
   std::size_t asked = 0;           ///< cases
   std::size_t right = 0;           ///< answers against which nothing is proved
   std::size_t wrong = 0;           ///< answers that are proved wrong

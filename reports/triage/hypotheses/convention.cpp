@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-class Convention : public TestOfCause {
+class TestOfReadings : public TestOfCause {
  public:
   using TestOfCause::TestOfCause;
 
@@ -203,7 +203,7 @@ class Convention : public TestOfCause {
 }  // namespace
 
 Tested convention_of(AskedCases& asked) {
-  Convention test(asked);
+  TestOfReadings test(asked);
   return test.finished(test.named());
 }
 

@@ -241,7 +241,8 @@ Fits of_another(const Case& c, const Answer& a, const IsRight& is_right) {
 }
 
 constexpr Reading of_answers[] = {
-    {"normal reversed", "its normal points the other way", CauseKind::convention, false, reversed_normal},
+    {"normal reversed", text_of(Convention::normal_reversed).what, CauseKind::convention, false, reversed_normal,
+     Convention::normal_reversed},
     {"normal not of unit length", "its normal is divided by its length", CauseKind::convention, false,
      normalised_normal},
     {"direction not of unit length", "its direction is divided by its length", CauseKind::convention, false,
@@ -252,19 +253,22 @@ constexpr Reading of_answers[] = {
      distance_for_time},
     {"time over speed", "its time is divided by the speed once more", CauseKind::convention, false, time_over_speed},
     {"depth of the other sign", "its depth is negative for an overlap", CauseKind::convention, false, negative_depth},
-    {"center in place of the contact", "its place is the center at the contact", CauseKind::convention, false,
-     center_for_place},
+    {"center in place of the contact", text_of(Convention::center_for_contact).what, CauseKind::convention, false,
+     center_for_place, Convention::center_for_contact},
     {"contact on the other body", "its place lies on the surface of the other body", CauseKind::convention, false,
      place_on_the_other},
     {"contact half way", "its place lies half way between the two surfaces", CauseKind::convention, false,
      place_half_way},
     {"nearest point of the start", "its place is the point nearest to the start", CauseKind::convention, false,
      place_of_the_start},
-    {"strict instead of closed", "a touch is a miss", CauseKind::convention, true, strict},
-    {"start in contact is a miss", "a start in contact is a miss", CauseKind::convention, true, start_inside_is_a_miss},
-    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, true,
-     start_inside_is_a_hit},
-    {"motion ends at time 1", "a contact after time 1 is a miss", CauseKind::convention, true, ends_at_time_one},
+    {"strict instead of closed", text_of(Convention::strict_touch).what, CauseKind::convention, true, strict,
+     Convention::strict_touch},
+    {"start in contact is a miss", text_of(Convention::start_is_miss).what, CauseKind::convention, true,
+     start_inside_is_a_miss, Convention::start_is_miss},
+    {"start in contact is a hit", text_of(Convention::start_is_hit).what, CauseKind::convention, true,
+     start_inside_is_a_hit, Convention::start_is_hit},
+    {"motion ends at time 1", text_of(Convention::ends_at_time_one).what, CauseKind::convention, true, ends_at_time_one,
+     Convention::ends_at_time_one},
     {"index from 1", "its index counts from 1", CauseKind::convention, false, counted_from_one},
     {"index of the one before", "its index is that of the one before", CauseKind::convention, false, of_another<1>},
     {"index of the next one", "its index is that of the next one", CauseKind::convention, false, of_another<2>},
@@ -272,8 +276,8 @@ constexpr Reading of_answers[] = {
 
 /// After all others: a flag that is ignored says more.
 constexpr Reading of_starts[] = {
-    {"start in contact is a hit", "a start in contact is a hit at time 0", CauseKind::convention, false,
-     start_inside_is_a_hit},
+    {"start in contact is a hit", text_of(Convention::start_is_hit).what, CauseKind::convention, false,
+     start_inside_is_a_hit, Convention::start_is_hit},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "impl/subject/convention.hpp"
 #include "reports/triage/causes/cause.hpp"
 
 namespace nearmiss {
@@ -20,6 +21,7 @@ struct Reading {
   bool decides = false;  ///< it is about the decision alone
   /// Whether the answer is right under this reading; empty where the reading makes no difference to the case.
   std::optional<bool> (*right)(const Case& c, const Answer& a, const IsRight& is_right) = nullptr;
+  std::optional<Convention> convention{};  ///< the one that a subject may declare with this meaning
 };
 
 std::span<const Reading> readings();

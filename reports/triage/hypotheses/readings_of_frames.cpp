@@ -6,6 +6,7 @@
 #include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
+#include "oracles/seen_from_behind.hpp"
 #include "reports/triage/hypotheses/readings.hpp"
 
 namespace nearmiss {
@@ -14,32 +15,9 @@ namespace {
 
 using Fits = std::optional<bool>;
 
-void swap_vectors(Case& c, std::size_t i, std::size_t k) {
-  std::swap_ranges(c.values.begin() + std::ptrdiff_t(i), c.values.begin() + std::ptrdiff_t(i) + 3,
-                   c.values.begin() + std::ptrdiff_t(k));
-}
-
-Case with_reversed_plane(Case c) {
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    const Role role = c.role(i);
-    if (role == Role::direction || role == Role::offset) c.values[i] = -c.values[i];
-  }
-  return c;
-}
-
-/// The case with the back of the plane, triangle or rectangle as its front; empty if there is none.
-std::optional<Case> seen_from_behind(const Case& c) {
-  if (!c.query->traits.one_sided) return std::nullopt;
-  const Operands& parts = c.operands();
-  Case other = c;
-  if (!parts.rectangles.empty()) {
-    swap_vectors(other, parts.rectangles[0][1], parts.rectangles[0][3]);
-  } else if (!parts.triangles.empty()) {
-    swap_vectors(other, parts.triangles[0][1], parts.triangles[0][2]);
-  } else {
-    return with_reversed_plane(c);
-  }
-  return other;
+/// The case with the back of the plane, triangle or rectangle as its front; empty if only one side may be hit anyway.
+std::optional<Case> with_back_for_front(const Case& c) {
+  return c.query->traits.one_sided ? seen_from_behind(c) : std::nullopt;
 }
 
 /// Without weights, which follow the order of the corners.
@@ -72,17 +50,17 @@ bool is_behind_plane(const Case& c) {
 /// A plane without a solid side: what lies behind it is pushed out at the back.
 Fits plane_with_two_fronts(const Case& c, const Answer& a, const IsRight& is_right) {
   if (c.query->kind != Kind::depth || !is_behind_plane(c)) return std::nullopt;
-  return is_right(with_reversed_plane(c), a);
+  return is_right(*seen_from_behind(c), a);
 }
 
 Fits back_for_front(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto other = seen_from_behind(c);
+  const auto other = with_back_for_front(c);
   if (!other) return std::nullopt;
   return is_right(*other, without_weights(c, a));
 }
 
 Fits both_sides(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto other = seen_from_behind(c);
+  const auto other = with_back_for_front(c);
   if (!other || exact_decision(c) || !exact_decision(*other)) return std::nullopt;
   return is_right(*other, without_weights(c, a));
 }
@@ -157,7 +135,7 @@ Fits along_unit_axis(const Case& c, const Answer& a, const IsRight& is_right) {
 }
 
 constexpr Reading table_of_frames[] = {
-    {"both sides", "the back counts as well as the front", CauseKind::convention, true, both_sides},
+    {"both sides", text_of(Convention::two_sided).what, CauseKind::convention, true, both_sides, Convention::two_sided},
     {"back for front", "the back takes the place of the front", CauseKind::convention, false, back_for_front},
     {"plane with two fronts", "a plane has a front on both sides", CauseKind::convention, false, plane_with_two_fronts},
     {"normal in the frame of the box", "its normal is turned by the rotation of the box", CauseKind::convention, false,
