@@ -10,6 +10,7 @@
 #include "corpus/generator/fit.hpp"
 #include "oracles/confirmed.hpp"
 #include "oracles/declared_oracle.hpp"
+#include "oracles/requirements.hpp"
 #include "oracles/seen_from_behind.hpp"
 #include "oracles/touch.hpp"
 #include "properties/support.hpp"
@@ -231,6 +232,38 @@ TEST_P(EveryDeclared, RightAnswersAreNeverAccused) {
       EXPECT_NE(confirmed(c, opposite, standard, Detail::verdict).verdict, Verdict::agrees) << name_of(convention) << i;
     }
   }
+}
+
+/// The generator needs no other cases for a declaration.
+TEST(Conventions, HaveEnoughGeneratedCases) {
+  constexpr int cases = 500;
+  for (const Query& q : catalogue()) {
+    int from_behind_alone = 0, in_contact = 0;
+    Case c;
+    for (int i = 0; i < cases && q.operands.start; ++i) {
+      generate_inside(c, q, Scalar::float64, stream(12), std::uint64_t(i), {});
+      in_contact += contact_at_start(c) == true;
+      from_behind_alone += q.traits.one_sided && !exact_decision(c, none) && exact_decision(*seen_from_behind(c), none);
+    }
+    if (!q.operands.start) continue;
+    EXPECT_GE(in_contact, cases / 25) << q.name;
+    EXPECT_TRUE(!q.traits.one_sided || from_behind_alone >= cases / 8) << q.name << " " << from_behind_alone;
+  }
+}
+
+TEST(Conventions, OfUnitDirectionsAreAPrecondition) {
+  Offering o;
+  o.declare({{Convention::unit_directions, "A direction is a unit vector."}});
+  EXPECT_TRUE(o.required.has(Precondition::unit_direction));
+}
+
+/// A meaning without its opposite: each of the three about a start in contact excludes the two others.
+TEST(Conventions, OfStartsContradictEachOther) {
+  const Conventions misses{Convention::start_is_miss};
+  EXPECT_EQ(contradicted(Convention::start_is_hit, misses), Convention::start_is_miss);
+  EXPECT_EQ(contradicted(Convention::exit_from_start, misses), Convention::start_is_miss);
+  EXPECT_FALSE(contradicted(Convention::start_is_miss, misses));
+  EXPECT_FALSE(contradicted(Convention::two_sided, misses));
 }
 
 TEST(Conventions, HaveNamesThatAreFoundAgain) {

@@ -77,7 +77,8 @@ class EvidenceMeasurement {
         tolerance_(settings.source->tolerance),
         dispatcher_(dispatcher),
         internal_errors_(internal_errors),
-        required_(settings.subject->offering(settings.query->name).required) {
+        required_(settings.subject->offering(settings.query->name).required),
+        standard_(unbounded_standard(settings.subject->standard_for(settings.query->name).declared)) {
     e_.subject = settings.subject;
     e_.query = settings.query;
     e_.seed = settings.seed;
@@ -127,7 +128,9 @@ class EvidenceMeasurement {
 
   /// Empty: one enclosure leaves open whether the answer is good enough.
   std::optional<BoundedAnswer> good_by_enclosure(const Case& exact, const Answer& answer) const {
-    if (answer.status != Answer::Status::answered || !is_regular(*exact.query, answer)) return std::nullopt;
+    const bool is_of_catalogue = standard_.declared.empty();  // otherwise the judge knows the meaning
+    if (answer.status != Answer::Status::answered || !is_regular(*exact.query, answer) || !is_of_catalogue)
+      return std::nullopt;
     const Enclosure e = enclosure_of(exact, answer);
     if (!e.decided() || e.may_be_yes != answer.yes) return std::nullopt;
     const LargestError distance = enclosed_error(*exact.query, answer, e, is_length);
@@ -146,7 +149,7 @@ class EvidenceMeasurement {
   std::optional<BoundedAnswer> judged(const Case& exact, const Answer& answer) {
     if (const auto good = good_by_enclosure(exact, answer)) return good;
     const Subject& subject = *settings_.subject;
-    const auto first = internal_errors_.judged(exact, subject, answer, unbounded_standard(), Detail::verdict);
+    const auto first = internal_errors_.judged(exact, subject, answer, standard_, Detail::verdict);
     if (!first) return std::nullopt;
     BoundedAnswer a{trade_answer(exact, subject.scalar, answer, *first, tolerance_)};
     if (a.answer.state != TradeAnswer::State::compared) return a;
@@ -154,7 +157,7 @@ class EvidenceMeasurement {
     a.time_at_most = error_at_most(exact, answer, *first, [](Role r) { return r == Role::time; });
     a.by_intervals = first->settled && first->decided_by == Stage::interval && is_good(a);
     if (a.by_intervals) return a;
-    const auto full = internal_errors_.judged(exact, subject, answer, unbounded_standard(), Detail::full);
+    const auto full = internal_errors_.judged(exact, subject, answer, standard_, Detail::full);
     if (!full) return std::nullopt;
     a.answer = trade_answer(exact, subject.scalar, answer, refined(exact, answer, *full), tolerance_);
     a.distance_at_most = a.answer.distance;
@@ -162,9 +165,10 @@ class EvidenceMeasurement {
     return a;
   }
   /// The backward bound of a wrong decision to a sixteenth: the ladder alone may halve the depth of a miss.
-  static Finding refined(const Case& exact, const Answer& answer, Finding f) {
+  Finding refined(const Case& exact, const Answer& answer, Finding f) const {
     const bool decides_wrongly = f.has(Disagreement::false_miss) || f.has(Disagreement::false_hit);
-    if (decides_wrongly && f.backward) f.backward->above = finer_backward(exact, answer, *f.backward);
+    if (decides_wrongly && f.backward)
+      f.backward->above = finer_backward(exact, answer, *f.backward, {}, standard_.declared);
     return f;
   }
   /// The decision is right and the upper bounds are within the tolerance.
@@ -207,6 +211,7 @@ class EvidenceMeasurement {
   Dispatcher& dispatcher_;
   InternalErrors& internal_errors_;
   const Preconditions required_;
+  const Standard standard_;
   SceneEvidence e_;
   std::uint64_t contacts_ = 0, reported_ = 0, missed_deeper_ = 0, phantom_wider_ = 0;
 };

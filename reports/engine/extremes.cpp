@@ -103,7 +103,8 @@ class Extremes::Place : public Sink {
 namespace {
 
 Standard nothing_promised(const Subject& subject, const Query& query) {
-  return {no_promise, true, subject.offering(query.name).required};
+  const Standard standard = subject.standard_for(query.name);
+  return {no_promise, true, standard.required, standard.declared};
 }
 
 }  // namespace

@@ -24,6 +24,12 @@
   if (trend) document.getElementById("trend").append(trend);
   const notes = [];
   for (const link of data.raw.extremes) notes.push(element("a", {href: link}, "maps of extremes"));
+  const declared = Object.entries(run.declared || {}).flatMap(([subject, queries]) => Object.entries(queries).flatMap(([query, all]) =>
+    all.map(d => `${subject} ${query}: ${d.convention}${d.sentence ? ` ("${d.sentence}")` : ""}`)));
+  if (declared.length) {
+    notes.push(element("details", {}, element("summary", {}, `${plural(declared.length, "declared convention")}`),
+      element("ul", {}, declared.map(line => element("li", {}, line)))));
+  }
   if (data.raw.skipped.length) {
     notes.push(element("details", {}, element("summary", {}, `${plural(data.raw.skipped.length, "file")} skipped`),
       element("ul", {}, data.raw.skipped.map(s => element("li", {}, `${s.file}: ${s.why}`)))));

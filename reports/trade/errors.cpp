@@ -73,10 +73,7 @@ Case judged_case(const Case& question, Scalar scalar) {
   return c;
 }
 
-const Standard& unbounded_standard() {
-  static const Standard nothing{collide::Contract{}, true};
-  return nothing;
-}
+Standard unbounded_standard(Conventions declared) { return {collide::Contract{}, true, {}, declared}; }
 
 Preconditions all_required(std::span<const Subject* const> subjects, const Query& query) {
   Preconditions all;

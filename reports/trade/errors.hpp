@@ -42,8 +42,9 @@ struct TradeAnswer {
 Case asked_case(const Case& question, Scalar scalar);
 /// The judge measures in the wider of both scalars, which holds the case exactly.
 Case judged_case(const Case& question, Scalar scalar);
-/// Promises nothing, so that every answer is measured. Preconditions are checked before a subject is asked.
-const Standard& unbounded_standard();
+/// Promises nothing, so that every answer is measured, by what the subject declares. Preconditions are checked before a
+/// subject is asked.
+Standard unbounded_standard(Conventions declared = {});
 /// The preconditions of all of the subjects for this query.
 Preconditions all_required(std::span<const Subject* const> subjects, const Query& query);
 

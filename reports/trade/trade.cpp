@@ -139,7 +139,8 @@ TradeAnswer Trade::judged_answer(const Subject& subject, const Case& question, c
   const Preconditions required = subject.offering(question.query->name).required;
   if (answer.status == Answer::Status::cannot_answer && !unmet_by(asked, required).empty()) return {};
   const Case exact = judged_case(question, subject.scalar);
-  const auto finding = internal_errors_.judged(exact, subject, answer, unbounded_standard(), Detail::full);
+  const Standard standard = unbounded_standard(subject.standard_for(question.query->name).declared);
+  const auto finding = internal_errors_.judged(exact, subject, answer, standard, Detail::full);
   return finding ? trade_answer(exact, subject.scalar, answer, *finding, settings_.source.tolerance) : TradeAnswer{};
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "impl/subject/subject.hpp"
-#include "oracles/exact/oracle.hpp"
+#include "oracles/declared_oracle.hpp"
 
 namespace nearmiss {
 
@@ -23,12 +23,12 @@ double to_scalar(double x, Scalar scalar) { return scalar == Scalar::float32 ? d
 /// Finds the distances from a right answer at which the judge still takes a member for right.
 class Tolerances {
  public:
-  Tolerances(const Case& question, double allowed)
-      : question_(question), moves_(widening(*question.query, question.values, question.scalar, allowed)) {}
+  Tolerances(const Case& question, double allowed, Conventions declared)
+      : question_(question),
+        declared_(declared),
+        moves_(widening(*question.query, question.values, question.scalar, allowed)) {}
 
-  Enclosure about(const Answer& answer) const {
-    return oracle_of(*question_.query).interval(question_.values, moves_, answer, question_.scalar);
-  }
+  Enclosure about(const Answer& answer) const { return DeclaredOracle(question_, answer, declared_).interval(moves_); }
   /// The largest distance, in the maximum norm, along each axis and towards the given values.
   double of(const Answer& right, std::size_t member, const Answer& given) const {
     const Layout::Part part = question_.query->layout.parts[member];
@@ -97,6 +97,7 @@ class Tolerances {
   }
 
   const Case& question_;
+  Conventions declared_;
   std::vector<double> moves_;
 };
 
@@ -104,13 +105,14 @@ bool is_exact(Role role) { return role == Role::flag || role == Role::index; }
 
 class Builder {
  public:
-  Builder(const Case& question, const Answer& given, const Finding& finding, const Truth& truth, double allowed)
+  Builder(const Case& question, const Answer& given, const Finding& finding, const Truth& truth, double allowed,
+          Conventions declared)
       : question_(question),
         given_(given),
         finding_(finding),
         truth_(truth),
         allowed_(allowed),
-        tolerances_(question, allowed),
+        tolerances_(question, allowed, declared),
         found_(question.query->layout.parts.size(), -1) {}
 
   RightAnswer right_answer(const Alternative& a, const std::vector<std::size_t>& members) {
@@ -252,10 +254,10 @@ RightAnswers right_answers(const Case& question, const Answer& given, const Find
   if (standard.contract.unit < collide::Contract::none) {
     right.unit_error = standard.contract.unit * unit_roundoff(question.scalar);
   }
-  Builder builder(question, given, finding, truth, right.allowed);
+  Builder builder(question, given, finding, truth, right.allowed, standard.declared);
   for (const Alternative& a : truth.alternatives) right.any.push_back(builder.right_answer(a, members));
   const bool exact = standard.contract.exact_decisions || !decides(question.query->kind);
-  const Enclosure all = Tolerances(question, right.allowed).about(Answer{});
+  const Enclosure all = Tolerances(question, right.allowed, standard.declared).about(Answer{});
   const bool flips = truth.yes ? all.may_be_no : all.may_be_yes;
   if (flips && !exact && !(finding.is_proved() && given.yes != truth.yes)) right.any.push_back({!truth.yes, {}});
   if (finding.is_proved()) narrow(right, *question.query, given);
