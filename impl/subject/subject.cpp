@@ -35,7 +35,7 @@ std::vector<UsersDeclaration>& users_declarations() {
 void declare_of_user(Subject& s) {
   for (const UsersDeclaration& u : users_declarations()) {
     for (Offering& o : s.offerings) {
-      if (u.is_about(s, o.query)) o.declare({u.declaration});
+      if (o.offer != Offer::not_offered && u.is_about(s, o.query)) o.declare({u.declaration});
     }
   }
 }

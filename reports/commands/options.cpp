@@ -126,9 +126,19 @@ void declare_by_text(const std::string& text) {
   if (!query.empty() && !concerns(*convention, *find_query(query)))
     refuse(fmt::format("'{}' has no effect on {}", name, query));
   declare(subject, query, {*convention, sentence});
+  const Subject& declaring = *find_subject(subject);
+  const bool is_about_any = std::any_of(declaring.offerings.begin(), declaring.offerings.end(), [&](const Offering& o) {
+    const Query* q = find_query(o.query);
+    return o.offer != Offer::not_offered && q != nullptr && concerns(*convention, *q) &&
+           (query.empty() || query == o.query);
+  });
+  if (!is_about_any) {
+    refuse(query.empty() ? fmt::format("'{}' has no effect on a query that {} offers", name, subject)
+                         : fmt::format("{} does not offer {}", subject, query));
+  }
   for (const Query& q : catalogue()) {
     Conventions all;
-    for (const Declaration& d : find_subject(subject)->declared_for(q.name)) {
+    for (const Declaration& d : declaring.declared_for(q.name)) {
       if (const auto other = contradicted(d.convention, all))
         refuse(fmt::format("'{}' contradicts '{}', which {} declares for {}", name_of(d.convention), name_of(*other),
                            subject, q.name));

@@ -109,7 +109,8 @@ std::string program_that_says(const TemporaryFolder& folder, const std::string& 
   write_file(folder / "hello", R"({"nearmiss": 3, "name": "told", "scalar": "double", "batches": "json", )"
                                R"("offers": [{"query": "moving_point_box", "declares": )" +
                                    declares + "}]}\n");
-  return "cat " + (folder / "hello").string() + " -";
+  write_file(folder / "program", "cat '" + (folder / "hello").string() + "' >&4; cat <&3 >/dev/null\n");
+  return "sh " + (folder / "program").string();
 }
 
 TEST(Declared, ByAProgram) {
@@ -140,6 +141,8 @@ TEST(Declared, WhatIsWrongIsToldInOneLine) {
       {"ray: two-sided", "unknown subject 'ray'"},
       {"rays moving_point_triangles: two-sided", "moving_point_triangles"},
       {"rays moving_point_triangle: center in place of the contact", "has no effect on moving_point_triangle"},
+      {"rays moving_point_plane: two-sided", "rays does not offer moving_point_plane"},
+      {"rays: center in place of the contact", "has no effect on a query that rays offers"},
       {"rays", "it must be \"SUBJECT: CONVENTION\""},
   };
   for (const auto& [text, says] : on_the_command_line)
