@@ -149,6 +149,7 @@ class Work {
     triage_.skipped = sources_.skipped;
     triage_.sample = sources_.sample;
     triage_.measure = measure_of_sources();
+    triage_.measure.declared.reset();  // that of one report
     ask_again();
     for (CandidatesOfKind& g : groups_) choose(g);
     examine_groups();
