@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -214,7 +216,7 @@ TEST_P(EveryDeclared, RightAnswersAreNeverAccused) {
     Standard standard = by_measure;
     standard.declared = {convention};
     Case c;
-    for (std::uint64_t i = 0; i < 60; ++i) {
+    for (std::uint64_t i = 0; i < 40; ++i) {
       generate_inside(c, query, scalars[i % 2], stream(11), i, {});
       const Truth t = truth_of(c, standard.declared);
       for (const Alternative& one : t.alternatives) {
@@ -230,6 +232,31 @@ TEST_P(EveryDeclared, RightAnswersAreNeverAccused) {
       Answer opposite;
       opposite.yes = !t.yes, opposite.given = 0;
       EXPECT_NE(confirmed(c, opposite, standard, Detail::verdict).verdict, Verdict::agrees) << name_of(convention) << i;
+    }
+  }
+}
+
+/// The bound of a proof: an answer that is right for some input within k epsilon has no backward error above k.
+TEST_P(EveryDeclared, BoundsHoldForEveryInputNearby) {
+  const Query& query = *GetParam().query;
+  std::mt19937_64 draw(stream(13));
+  std::uniform_real_distribution<double> share(-0.99, 0.99);
+  constexpr std::uint64_t cases = 12, rungs_drawn = 40;
+  for (const Convention convention : all_conventions) {
+    if (!concerns(convention, query)) continue;
+    Case c;
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      generate_inside(c, query, Scalar::float64, stream(13), i, {});
+      const double k = std::ldexp(1.0, int(draw() % rungs_drawn));
+      const std::vector<double> moves = widening(query, c.values, c.scalar, k);
+      Case near = c;
+      for (std::size_t n = 0; n < moves.size(); ++n) near.values[n] += moves[n] * share(draw);
+      if (query.broken(near.values)) continue;
+      const Standard within_k{{.backward = 1.001 * k, .unit = 1e300}, false, {}, {convention}};
+      for (const Alternative& one : truth_of(near, within_k.declared).alternatives) {
+        const Finding f = confirmed(c, answer_of(query, one), within_k, Detail::verdict);
+        EXPECT_FALSE(f.is_proved()) << name_of(convention) << " " << i << " " << k << ": " << f.clause;
+      }
     }
   }
 }
