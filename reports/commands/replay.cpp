@@ -33,7 +33,7 @@ class ReplayCommand : public Command {
          "query is asked again; "
          "answers in the file are ignored. The page shows the inputs, the exact answer, and for each subject "
          "its answer, the verdict and how far the inputs would have to move to make the answer right. Subjects are "
-         "judged as in the report: by their contracts, or by its measure.",
+         "judged as in the report: by their contracts or its measure, and by the conventions that it states.",
          "A report of 'nearmiss relations' has several cases: all of them are asked again and compared.",
          "All files are read before the first subject is asked: a malformed one is an error, and nothing is printed."},
         judging_exit_status(),

@@ -252,10 +252,7 @@ int rank_of(const Json& s, bool ours) {
   if (member_of(member_of(s, "decision"), "reopened") == true) return 0;
   const std::string change = text_of_member(s, "change");
   const int other = ours ? 0 : 2;
-  return change == "worse"                                ? 1 + other
-         : change == "new"                                ? 2 + other
-         : change == "fixed" ? 6
-                                                          : 5;
+  return change == "worse" ? 1 + other : change == "new" ? 2 + other : change == "fixed" ? 6 : 5;
 }
 
 }  // namespace
