@@ -137,7 +137,8 @@ nearmiss.finding = (() => {
   function cause(r) {
     const d = data.details(row) || {}, c = d.cause;
     const parts = [];
-    if (c) parts.push(element("p", {}, element("b", {}, c.kind), c.text ? `: ${c.text}` : ""));
+    for (const [i, named] of (c ? [c, ...c.either || []] : []).entries())
+      parts.push(element("p", {}, i ? "Or " : "", element("b", {}, named.kind), named.text ? `: ${named.text}` : ""));
     if (c && c.evidence && c.evidence.length) parts.push(element("table", {class: "evidence"}, element("tbody", {}, c.evidence.map(e => element("tr", {}, element("th", {scope: "row"}, e.test), element("td", {}, e.result))))));
     if (d.regions && d.regions.length) parts.push(element("p", {class: "note"}, `Where: ${d.regions.join(", ")}`));
     if (d.decision) parts.push(element("p", {}, "Decision: ", element("b", {}, d.decision.kind), d.decision.reopened ? ", reopened because the finding got worse" : "", d.decision.note ? `. ${d.decision.note}` : "", d.decision.url ? ` ${d.decision.url}` : ""));

@@ -249,7 +249,7 @@ std::string uri_of(const std::string& file) {
 Json sarif_result(const TriagedSignature& s) {
   Json r{{"ruleId", s.kind.fault},
          {"level", level_of(s)},
-         {"message", {{"text", fmt::format("{}. {} Signature {}.", s.headline, s.cause.text, s.id)}}},
+         {"message", {{"text", fmt::format("{}. {} Signature {}.", s.headline, sentences_of(s.cause), s.id)}}},
          {"partialFingerprints", {{"nearmissSignature/v1", s.id}}}};
   const std::string& file = s.simplest.empty() ? s.worst : s.simplest;
   if (!file.empty()) {

@@ -98,7 +98,7 @@ std::string signature_text(const TriagedSignature& s) {
   if (!s.why.empty()) text += wrapped_text(s.why, "     ");
   if (!s.asked_as.empty()) text += wrapped_text("asked as: " + s.asked_as, "     ");
   if (const std::string queries = queries_text(s); !queries.empty()) text += wrapped_text(queries, "     ");
-  text += wrapped_text(s.cause.text + (s.range ? "" : needs_text(s)), "     ");
+  text += wrapped_text(sentences_of(s.cause) + (s.range ? "" : needs_text(s)), "     ");
   if (!s.simplest.empty()) text += fmt::format("     {}\n", path_text(s.simplest));
   return text;
 }

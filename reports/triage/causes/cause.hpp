@@ -32,10 +32,14 @@ struct Evidence {
   std::vector<CauseKind> against{};  ///< causes of these kinds are not named beside it
 };
 
-struct Cause {
+struct CauseName {
   CauseKind kind = CauseKind::unexplained;
   std::string key;   ///< tells two bugs of a kind apart, stable within one bug: "normal reversed"; may be empty
   std::string text;  ///< one sentence
+};
+
+struct Cause : CauseName {
+  std::vector<CauseName> either;  ///< further causes whose tests passed: nothing tells which of all is the right one
   std::vector<Evidence> evidence;
   std::uint64_t questions = 0;
 };
@@ -47,7 +51,12 @@ struct CauseLimits {
 };
 
 std::string_view name_of(CauseKind kind);
-/// {"kind", "key", "text", "evidence": [{"test", "result"}], "questions"}
+/// "absolute tolerance (1e-6 length), or iteration limit".
+std::string names_of(const Cause& cause);
+/// The sentence of the cause; those of further ones after "Or:".
+std::string sentences_of(const Cause& cause);
+/// {"kind", "key", "text", "either": [{"kind", "key", "text"}], "evidence": [{"test", "result"}], "questions"}; without
+/// "either" where there is one cause.
 nlohmann::ordered_json cause_to_json(const Cause& cause);
 /// The section of a page: a heading, the sentence, and the evidence.
 std::string cause_text(const Cause& cause);

@@ -5,9 +5,28 @@
 
 namespace nearmiss {
 
+namespace {
+
+std::string name_with_key(const CauseName& c) {
+  return c.key.empty() ? std::string(name_of(c.kind)) : fmt::format("{} ({})", name_of(c.kind), c.key);
+}
+
+}  // namespace
+
+std::string names_of(const Cause& cause) {
+  std::string text = name_with_key(cause);
+  for (const CauseName& other : cause.either) text += ", or " + name_with_key(other);
+  return text;
+}
+
+std::string sentences_of(const Cause& cause) {
+  std::string text = cause.text;
+  for (const CauseName& other : cause.either) text += " Or: " + other.text;
+  return text;
+}
+
 std::string cause_text(const Cause& cause) {
-  const std::string key = cause.key.empty() ? "" : fmt::format(" ({})", cause.key);
-  std::string text = fmt::format("Cause: {}{}\n", name_of(cause.kind), key) + wrapped_text(cause.text, "  ");
+  std::string text = fmt::format("Cause: {}\n", names_of(cause)) + wrapped_text(sentences_of(cause), "  ");
   for (const Evidence& e : cause.evidence) text += wrapped_text(fmt::format("* {} {}", e.test, e.result), "  ");
   return text;
 }

@@ -13,7 +13,7 @@ namespace nearmiss {
 /// What must be true besides if a cause is the right one. hypotheses/predictions.cpp has the tests.
 enum class Prediction {
   at_every_scale,     ///< the finding stays where lengths or velocities are multiplied by powers of two
-  in_every_rounding,  ///< the finding stays in the four rounding modes
+  in_every_rounding,  ///< the finding stays in the four rounding modes; behind pipes, where numbers move by some ulps
   extreme_numbers,    ///< a formula of the case leaves the range of a type
   small_error,        ///< the error is one that rounding may have
   two_borders,        ///< from scale to scale, the answers are wrong, then right, and then wrong again

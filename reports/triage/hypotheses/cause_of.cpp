@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "reports/engine/interrupt.hpp"
@@ -28,25 +29,17 @@ Tested tolerance_test(AskedCases& a) {
 Tested unknown_tolerance_test(AskedCases& a) { return {a.unknown_tolerance(), {}}; }
 Tested relative_tolerance_test(AskedCases& a) { return relative_tolerance_of(a.trials(), a.similar()); }
 
-/// In the order of the hypotheses.
-constexpr Tested (*tests_of_causes[])(AskedCases&) = {number_range_of,
-                                                      convention_of,
-                                                      unsupported_of,
-                                                      constant_error_test,
-                                                      tolerance_test,
-                                                      certified_of,
-                                                      rounding_mode_of,
-                                                      unknown_tolerance_test,
-                                                      relative_tolerance_test,
-                                                      error_share_of,
-                                                      rounding_of,
-                                                      times_of_steps_of,
-                                                      errors_of_steps_of,
-                                                      starts_of_motion_of,
-                                                      grazing_contacts_of,
-                                                      few_answers_of,
-                                                      small_errors_of,
-                                                      logic_of};
+using TestOfHypothesis = Tested (*)(AskedCases&);
+
+/// What passes is shown by the answers themselves: they are right under another meaning, in other regions, or within
+/// the range of a type.
+constexpr TestOfHypothesis shown[] = {number_range_of, convention_of, unsupported_of, certified_of};
+/// What passes is inferred from changes of the case. Two may pass, and the right one may be either.
+constexpr TestOfHypothesis inferred[] = {
+    constant_error_test, tolerance_test,     rounding_mode_of,    relative_tolerance_test, error_share_of, rounding_of,
+    times_of_steps_of,   errors_of_steps_of, starts_of_motion_of, grazing_contacts_of,     few_answers_of};
+/// What is left where nothing else passed.
+constexpr TestOfHypothesis left_over[] = {unknown_tolerance_test, small_errors_of, logic_of};
 
 bool speaks_against(const std::vector<Evidence>& evidence, CauseKind kind) {
   return std::any_of(evidence.begin(), evidence.end(), [kind](const Evidence& e) {
@@ -62,24 +55,66 @@ bool is_consistent(const Named& named, AskedCases& asked, std::vector<Evidence>&
   return !contradiction;
 }
 
-std::optional<Named> first_named(AskedCases& asked, std::vector<Evidence>& evidence) {
-  if (!is_bad(asked.trials().base().finding)) {
-    evidence.push_back({"The subject was asked again.", "The finding is gone."});
-    return std::nullopt;
-  }
-  asked.roundings(), asked.scans();
-  for (const auto& test : tests_of_causes) {
-    if (asked.trials().is_over()) {
-      evidence.push_back(
-          {"The search has a limit of questions and of time.", "The limit was reached before every test was made."});
-      return std::nullopt;
+/// The causes of one case.
+class CausesOfCase {
+ public:
+  CausesOfCase(AskedCases& asked, std::vector<Evidence>& evidence) : asked_(asked), evidence_(evidence) {}
+
+  /// None, one, or two that cannot be told apart.
+  std::vector<Named> result() {
+    if (!is_bad(asked_.trials().base().finding)) {
+      evidence_.push_back({"The subject was asked again.", "The finding is gone."});
+      return {};
     }
-    Tested tested = test(asked);
-    std::move(tested.evidence.begin(), tested.evidence.end(), std::back_inserter(evidence));
-    if (tested.named && is_consistent(*tested.named, asked, evidence)) return tested.named;
+    asked_.roundings(), asked_.scans();
+    if (first_of(shown) || all_of(inferred) || first_of(left_over)) return named_;
+    return {};
   }
-  return std::nullopt;
-}
+
+ private:
+  bool first_of(std::span<const TestOfHypothesis> tests) {
+    return std::any_of(tests.begin(), tests.end(), [&](TestOfHypothesis test) { return passes(test); });
+  }
+  bool all_of(std::span<const TestOfHypothesis> tests) {
+    for (const TestOfHypothesis test : tests) passes(test);
+    std::erase_if(named_, [&](const Named& n) { return speaks_against(evidence_, n.kind); });
+    constexpr std::size_t most = 2;
+    if (named_.size() > most) {
+      evidence_.push_back({"The causes that passed their tests were compared.",
+                           fmt::format("{} passed: nothing tells them apart.", named_.size())});
+      named_.clear(), is_over_ = true;
+    }
+    return !named_.empty();
+  }
+  bool passes(TestOfHypothesis test) {
+    if (is_over_) return false;
+    if (asked_.trials().is_over()) {
+      evidence_.push_back(
+          {"The search has a limit of questions and of time.", "The limit was reached before every test was made."});
+      is_over_ = true;
+      return false;
+    }
+    Tested tested = test(asked_);
+    std::move(tested.evidence.begin(), tested.evidence.end(), std::back_inserter(evidence_));
+    if (!tested.named || !is_consistent(*tested.named, asked_, evidence_)) return false;
+    add(std::move(*tested.named));
+    return true;
+  }
+  /// Of two of a kind, the one with a key says more.
+  void add(Named named) {
+    for (Named& other : named_) {
+      if (other.kind != named.kind) continue;
+      if (other.key.empty()) other = std::move(named);
+      return;
+    }
+    named_.push_back(std::move(named));
+  }
+
+  AskedCases& asked_;
+  std::vector<Evidence>& evidence_;
+  std::vector<Named> named_;
+  bool is_over_ = false;
+};
 
 class CauseSearch {
  public:
@@ -90,10 +125,13 @@ class CauseSearch {
     cause_.text = "No hypothesis passed its test.";
     Trials trials(question, subject_, left(), workers_);
     AskedCases asked(trials);
-    auto named = first_named(asked, cause_.evidence);
+    std::vector<Named> named = CausesOfCase(asked, cause_.evidence).result();
     count(trials);
-    if (!named && !interrupted() && is_bad(trials.base().finding)) named = named_from_others(question, asked);
-    if (named) cause_.kind = named->kind, cause_.key = named->key, cause_.text = named->text;
+    if (named.empty() && !interrupted() && is_bad(trials.base().finding)) named = named_from_others(question, asked);
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      CauseName& into = i == 0 ? cause_ : cause_.either.emplace_back();
+      into = {named[i].kind, std::move(named[i].key), std::move(named[i].text)};
+    }
     return std::move(cause_);
   }
 
@@ -110,16 +148,16 @@ class CauseSearch {
   void count(const Trials& trials) { cause_.questions += trials.questions(); }
 
   /// Makes the tests again with other cases that have the finding. The evidence is that of the case that names a cause.
-  std::optional<Named> named_from_others(const Case& question, AskedCases& asked) {
+  std::vector<Named> named_from_others(const Case& question, AskedCases& asked) {
     std::size_t tried = 0;
     for (const Case& other : others(question, asked)) {
       if (is_over()) break;
       Trials trials(other, subject_, left(), workers_);
       AskedCases of_other(trials);
       std::vector<Evidence> evidence;
-      const auto named = first_named(of_other, evidence);
+      std::vector<Named> named = CausesOfCase(of_other, evidence).result();
       count(trials), ++tried;
-      if (!named) continue;
+      if (named.empty()) continue;
       cause_.evidence.push_back(
           {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
            "The tests were made again, as follows."});
@@ -129,7 +167,7 @@ class CauseSearch {
     if (tried > 0)
       cause_.evidence.push_back({"Other cases with the same finding were taken in place of the case.",
                                  fmt::format("The tests were made again with {}, and none passed.", tried)});
-    return std::nullopt;
+    return {};
   }
   /// The plainest of the cases that were asked, and generated cases, the plainest first.
   std::vector<Case> others(const Case& question, AskedCases& asked) {

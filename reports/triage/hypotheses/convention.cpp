@@ -18,30 +18,40 @@ class TestOfReadings : public TestOfCause {
  public:
   using TestOfCause::TestOfCause;
 
+  /// Of the readings that hold, the one that makes the most wrong answers right: a part of a convention explains fewer.
   std::optional<Named> named() {
     if (trials().base().answer.status != Answer::Status::answered) return std::nullopt;
-    std::vector<std::string> by_chance;
+    std::optional<Held> best;
     for (const Reading& reading : readings()) {
-      if (reading.decides && !asked_.is_wrong_decision()) continue;
-      const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
-      if (!fits.value_or(is_undefined()) || (is_miss() && is_vacuous(reading))) continue;
-      if (reading.decides && is_wrong_without(reading)) continue;
-      Support s = support_of(reading);
-      const bool holds = s.holds(!reading.decides) && (gives_numbers() || s.against_it == 0);
-      if (fits ? holds && holds_for_fresh_cases(reading, s) : s.holds_without_case()) return named_reading(reading, s);
-      if (!fits) continue;
-      by_chance.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
-                                      of_text(s.explained, s.with_finding), s.for_it, s.against_it));
+      const auto held = held_by(reading);
+      if (held && (!best || held->made_right() > best->made_right())) best = held;
     }
+    if (best) return named_reading(*best);
     const std::string which =
-        by_chance.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance));
+        by_chance_.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance_));
     saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
         "None explains the answers." + which);
     return std::nullopt;
   }
 
  private:
-  /// A number of the answer is not finite, as that of 0 / 0: readings say nothing about it.
+  /// Whether the reading replaces a number of this answer that is not finite, as that of 0 / 0.
+  bool replaces_undefined(const Reading& reading) {
+    const auto& outputs = trials().query().outputs;
+    const Answer& own = trials().base().answer;
+    bool replaces = false;
+    for (const Trial& t : asked_.sample()) {
+      if (t.answer.status != Answer::Status::answered || replaces) continue;
+      reading.right(t.question, t.answer, [&](const Case& c, const Answer& read) {
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+          replaces |= own.gives(i) && !std::isfinite(own.values[i]) && read.gives(i) && t.answer.gives(i) &&
+                      read.values[i] != t.answer.values[i];
+        return asked_.is_right()(c, read);
+      });
+    }
+    return replaces;
+  }
+  /// A number of the answer is not finite.
   bool is_undefined() const { return trials().base().finding.disagreement == Disagreement::not_finite; }
   /// A right answer without numbers is right by chance in half of the cases.
   bool gives_numbers() const { return trials().query().kind != Kind::decision; }
@@ -71,6 +81,28 @@ class TestOfReadings : public TestOfCause {
       return for_it >= least && nearly_all(for_it, wrong) && against_it == 0;
     }
   };
+  struct Held {
+    const Reading* reading;
+    Support support, fresh{};
+    std::size_t made_right() const { return support.for_it + fresh.for_it; }
+  };
+  std::optional<Held> held_by(const Reading& reading) {
+    if (reading.decides && !asked_.is_wrong_decision()) return std::nullopt;
+    const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
+    if (fits ? !*fits : !is_undefined() || !replaces_undefined(reading)) return std::nullopt;
+    if (is_miss() && is_vacuous(reading)) return std::nullopt;
+    if (reading.decides && is_wrong_without(reading)) return std::nullopt;
+    const Support s = support_of(reading);
+    const bool is_exact = !reading.decides && gives_numbers();  // what decides holds in every case
+    const bool holds = s.holds(!reading.decides) && (is_exact || s.against_it == 0);
+    if (!fits) return s.holds_without_case() ? std::optional(Held{&reading, s}) : std::nullopt;
+    Support fresh;
+    if (holds) count_generated(reading, asked_.fresh(), fresh);
+    if (holds && holds_for_fresh_cases(reading, s, fresh)) return Held{&reading, s, fresh};
+    by_chance_.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
+                                     of_text(s.explained, s.with_finding), s.for_it, s.against_it));
+    return std::nullopt;
+  }
   /// Whether most answers have the finding where the reading makes no difference. Then it explains the others by
   /// chance.
   bool is_wrong_without(const Reading& reading) {
@@ -100,13 +132,9 @@ class TestOfReadings : public TestOfCause {
     return nearly_all(misses, hits) && explained == 0;
   }
   /// As the sample was used to choose among the readings, other generated cases must not contradict the chosen one.
-  bool holds_for_fresh_cases(const Reading& reading, Support& s) {
-    Support fresh;
-    count_generated(reading, asked_.fresh(), fresh);
-    saw(fmt::format("Other cases were generated and judged as if {}.", reading.what),
-        fmt::format("{} with the finding are right then; {} wrong answers become right, and {} right ones wrong.",
-                    of_text(fresh.explained, fresh.with_finding), fresh.for_it, fresh.against_it));
-    const bool contradicts = !gives_numbers() && asked_.is_wrong_decision() && fresh.against_it > 0;
+  bool holds_for_fresh_cases(const Reading& reading, const Support& s, const Support& fresh) const {
+    const bool contradicts =
+        (reading.decides || (!gives_numbers() && asked_.is_wrong_decision())) && fresh.against_it > 0;
     return !contradicts &&
            (fresh.for_it + fresh.against_it == 0 ||
             nearly_all(s.for_it + fresh.for_it, s.for_it + fresh.for_it + s.against_it + fresh.against_it)) &&
@@ -151,7 +179,12 @@ class TestOfReadings : public TestOfCause {
     }
   }
 
-  Named named_reading(const Reading& reading, const Support& s) {
+  Named named_reading(const Held& held) {
+    const Reading& reading = *held.reading;
+    const Support& s = held.support;
+    saw(fmt::format("Other cases were generated and judged as if {}.", reading.what),
+        fmt::format("{} with the finding are right then; {} wrong answers become right, and {} right ones wrong.",
+                    of_text(held.fresh.explained, held.fresh.with_finding), held.fresh.for_it, held.fresh.against_it));
     saw(fmt::format("The answers were judged as if {}.", reading.what),
         fmt::format("The answer to the case is right then, and so are those to {} other cases with the finding. Of the "
                     "generated cases, {} wrong answers become right, and {} right ones become wrong.",
@@ -198,6 +231,8 @@ class TestOfReadings : public TestOfCause {
       return below > 0 && std::abs(c.first * below - above) <= known * above;
     });
   }
+
+  std::vector<std::string> by_chance_;  ///< readings under which the answer to this case alone is right
 };
 
 }  // namespace

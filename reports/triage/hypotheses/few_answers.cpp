@@ -59,7 +59,8 @@ class FewAnswers : public TestOfCause {
   /// The length of the shortest move that changes the given number, where a move of a quarter does not, though it
   /// changes the exact number; empty where there is none.
   std::optional<double> end_of_plateau(const Operand& operand) {
-    constexpr int finest = -34, coarsest = -4, step = 2;
+    constexpr int coarsest = -4, step = 2, bits_of_rounding = 6;  // rounded numbers have plateaus too
+    const int finest = std::max(-34, bits_of_rounding + std::ilogb(unit_roundoff(question().scalar)));
     const double own = trials().base().answer.values[number_];
     const auto& inputs = question().values;
     if (std::find(inputs.begin(), inputs.end(), own) != inputs.end()) return std::nullopt;  // a corner, not a step

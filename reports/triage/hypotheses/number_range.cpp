@@ -53,8 +53,8 @@ class NumberRange : public TestOfCause {
                  {Prediction::extreme_numbers}};
   }
 
-  /// A tolerance is exceeded on one side. The range of a smaller type is left on both, and so is the range of numbers
-  /// for which a search with a fixed start and number of steps ends.
+  /// A tolerance is exceeded on one side. The range of a smaller type is left on both. So may be that of a search from
+  /// a fixed start, or of a solver with constants: where no type's range is left, nothing is named.
   std::optional<Named> right_between(const ScaleScan& s) {
     constexpr int least_between = 16, furthest = 128;  // the range of floats
     if (!s.has_clean_flip() || largest_of(question(), *s.group) == 0) return std::nullopt;
@@ -69,17 +69,14 @@ class NumberRange : public TestOfCause {
     if (!again) return std::nullopt;
     const int smallest = base + std::min(*again, s.flip->wrong), largest = base + std::max(*again, s.flip->wrong);
     if (smallest < -furthest || largest > furthest) return std::nullopt;
+    constexpr int sixth_power = 128 / 6;  // of the largest float; its square, fourth and sixth power leave the range
+    const bool leaves_floats = largest >= sixth_power - 2 && smallest <= -sixth_power;
     saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
         fmt::format("The finding is there with 2^{} and again with 2^{}, and the answer is right between the two.",
                     s.flip->wrong, *again),
-        {CauseKind::absolute_tolerance, CauseKind::relative_tolerance});
-    constexpr int sixth_power = 128 / 6;  // of the largest float; its square, fourth and sixth power leave the range
-    if (largest < sixth_power - 2 || smallest > -sixth_power)
-      return Named{CauseKind::iteration_limit,
-                   "steps from a fixed start",
-                   "The finding is there for large numbers and for small ones, and not between, in the range of every "
-                   "type: a search from a fixed start ends too early.",
-                   {Prediction::two_borders}};
+        leaves_floats ? std::vector{CauseKind::absolute_tolerance, CauseKind::relative_tolerance}
+                      : std::vector<CauseKind>{});
+    if (!leaves_floats) return std::nullopt;
     return Named{
         direction < 0 ? CauseKind::overflow : CauseKind::underflow,
         std::string(s.group->name),

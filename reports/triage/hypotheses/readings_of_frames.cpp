@@ -15,9 +15,11 @@ namespace {
 
 using Fits = std::optional<bool>;
 
-/// The case with the back of the plane, triangle or rectangle as its front; empty if only one side may be hit anyway.
+/// The case with the back of the plane, triangle or rectangle as its front; empty if there is none. A plane has a front
+/// in every query.
 std::optional<Case> with_back_for_front(const Case& c) {
-  return c.query->traits.one_sided ? seen_from_behind(c) : std::nullopt;
+  const bool has_front = c.query->traits.one_sided || c.operands().find(Shape::plane) != nullptr;
+  return has_front ? seen_from_behind(c) : std::nullopt;
 }
 
 /// Without weights, which follow the order of the corners.
@@ -59,10 +61,25 @@ Fits back_for_front(const Case& c, const Answer& a, const IsRight& is_right) {
   return is_right(*other, without_weights(c, a));
 }
 
+/// The normal points the other way.
+Answer with_reversed_normal(const Case& c, Answer a) {
+  const Layout::Part* p = given_part(c, a, Role::normal);
+  for (std::size_t i = 0; p != nullptr && i < p->end - p->begin; ++i) a.values[p->begin + i] *= -1;
+  return a;
+}
+
+/// Of a hit from behind, the normal points against the motion or is that of the front.
 Fits both_sides(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto other = with_back_for_front(c);
+  const auto other = c.query->traits.one_sided ? seen_from_behind(c) : std::nullopt;
   if (!other || exact_decision(c) || !exact_decision(*other)) return std::nullopt;
-  return is_right(*other, without_weights(c, a));
+  const Answer read = without_weights(c, a);
+  return is_right(*other, read) || is_right(*other, with_reversed_normal(c, read));
+}
+
+/// The back takes the place of the front, and the normal is that of the front.
+Fits back_with_front_normal(const Case& c, const Answer& a, const IsRight& is_right) {
+  if (given_part(c, a, Role::normal) == nullptr) return std::nullopt;
+  return back_for_front(c, with_reversed_normal(c, a), is_right);
 }
 
 /// A vector turned by the first rotation of the case; empty where there is none, or where it turns nothing.
@@ -137,6 +154,8 @@ Fits along_unit_axis(const Case& c, const Answer& a, const IsRight& is_right) {
 constexpr Reading table_of_frames[] = {
     {"both sides", text_of(Convention::two_sided).what, CauseKind::convention, true, both_sides, Convention::two_sided},
     {"back for front", "the back takes the place of the front", CauseKind::convention, false, back_for_front},
+    {"back for front", "the back takes the place of the front, and its normal points the other way",
+     CauseKind::convention, false, back_with_front_normal},
     {"plane with two fronts", "a plane has a front on both sides", CauseKind::convention, false, plane_with_two_fronts},
     {"normal in the frame of the box", "its normal is turned by the rotation of the box", CauseKind::convention, false,
      normal_in_frame},
