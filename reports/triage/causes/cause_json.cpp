@@ -31,7 +31,8 @@ nlohmann::ordered_json cause_to_json(const Cause& cause) {
 }
 
 Cause cause_from_json(const FileValue& j) {
-  Cause cause{name_in(j)};
+  Cause cause;
+  static_cast<CauseName&>(cause) = name_in(j);
   if (const auto either = j.find("either")) {
     for (const FileValue& other : either->items()) cause.either.push_back(name_in(other));
   }

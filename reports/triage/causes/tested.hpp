@@ -18,6 +18,7 @@ enum class Prediction {
   small_error,        ///< the error is one that rounding may have
   two_borders,        ///< from scale to scale, the answers are wrong, then right, and then wrong again
   one_border,         ///< from scale to scale, the answers are wrong up to one border and right beyond it
+  ends_at_a_scale,    ///< the finding ends where lengths or velocities are multiplied by a power of two
 };
 
 /// A cause whose test passed.

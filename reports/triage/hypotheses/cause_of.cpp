@@ -25,7 +25,6 @@ Tested tolerance_test(AskedCases& a) {
   if (tested.named && tested.named->key.empty()) a.set_unknown_tolerance(*std::exchange(tested.named, std::nullopt));
   return tested;
 }
-/// A scale at which rounding errors become visible looks like that of a tolerance.
 Tested unknown_tolerance_test(AskedCases& a) { return {a.unknown_tolerance(), {}}; }
 Tested relative_tolerance_test(AskedCases& a) { return relative_tolerance_of(a.trials(), a.similar()); }
 
@@ -33,13 +32,14 @@ using TestOfHypothesis = Tested (*)(AskedCases&);
 
 /// What passes is shown by the answers themselves: they are right under another meaning, in other regions, or within
 /// the range of a type.
-constexpr TestOfHypothesis shown[] = {number_range_of, convention_of, unsupported_of, certified_of};
+constexpr TestOfHypothesis shown_by_answers[] = {number_range_of, convention_of, unsupported_of, certified_of};
 /// What passes is inferred from changes of the case. Two may pass, and the right one may be either.
-constexpr TestOfHypothesis inferred[] = {
-    constant_error_test, tolerance_test,     rounding_mode_of,    relative_tolerance_test, error_share_of, rounding_of,
-    times_of_steps_of,   errors_of_steps_of, starts_of_motion_of, grazing_contacts_of,     few_answers_of};
+constexpr TestOfHypothesis inferred[] = {constant_error_test, tolerance_test,          unknown_tolerance_test,
+                                         rounding_mode_of,    relative_tolerance_test, error_share_of,
+                                         rounding_of,         times_of_steps_of,       errors_of_steps_of,
+                                         starts_of_motion_of, grazing_contacts_of,     few_answers_of};
 /// What is left where nothing else passed.
-constexpr TestOfHypothesis left_over[] = {unknown_tolerance_test, small_errors_of, logic_of};
+constexpr TestOfHypothesis left_over[] = {small_errors_of, logic_of};
 
 bool speaks_against(const std::vector<Evidence>& evidence, CauseKind kind) {
   return std::any_of(evidence.begin(), evidence.end(), [kind](const Evidence& e) {
@@ -67,7 +67,7 @@ class CausesOfCase {
       return {};
     }
     asked_.roundings(), asked_.scans();
-    if (first_of(shown) || all_of(inferred) || first_of(left_over)) return named_;
+    if (first_of(shown_by_answers) || all_of(inferred) || first_of(left_over)) return named_;
     return {};
   }
 
@@ -156,6 +156,8 @@ class CauseSearch {
       AskedCases of_other(trials);
       std::vector<Evidence> evidence;
       std::vector<Named> named = CausesOfCase(of_other, evidence).result();
+      // What the other case shows must hold for the case, too: the other may be one of another bug.
+      std::erase_if(named, [&](const Named& n) { return contradiction_of(n, asked).has_value(); });
       count(trials), ++tried;
       if (named.empty()) continue;
       cause_.evidence.push_back(

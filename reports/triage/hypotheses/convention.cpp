@@ -35,24 +35,6 @@ class TestOfReadings : public TestOfCause {
   }
 
  private:
-  /// Whether the reading replaces a number of this answer that is not finite, as that of 0 / 0.
-  bool replaces_undefined(const Reading& reading) {
-    const auto& outputs = trials().query().outputs;
-    const Answer& own = trials().base().answer;
-    bool replaces = false;
-    for (const Trial& t : asked_.sample()) {
-      if (t.answer.status != Answer::Status::answered || replaces) continue;
-      reading.right(t.question, t.answer, [&](const Case& c, const Answer& read) {
-        for (std::size_t i = 0; i < outputs.size(); ++i)
-          replaces |= own.gives(i) && !std::isfinite(own.values[i]) && read.gives(i) && t.answer.gives(i) &&
-                      read.values[i] != t.answer.values[i];
-        return asked_.is_right()(c, read);
-      });
-    }
-    return replaces;
-  }
-  /// A number of the answer is not finite.
-  bool is_undefined() const { return trials().base().finding.disagreement == Disagreement::not_finite; }
   /// A right answer without numbers is right by chance in half of the cases.
   bool gives_numbers() const { return trials().query().kind != Kind::decision; }
   /// How the subject's answers fit a reading.
@@ -75,11 +57,6 @@ class TestOfReadings : public TestOfCause {
       constexpr std::size_t one_in = 32;
       return nearly_all(part, all) && all - part <= 1 + all / one_in;
     }
-    /// Where the reading says nothing about the case, it must explain nearly all wrong answers, and make none wrong.
-    bool holds_without_case() const {
-      constexpr std::size_t least = 16;
-      return for_it >= least && nearly_all(for_it, wrong) && against_it == 0;
-    }
   };
   struct Held {
     const Reading* reading;
@@ -89,13 +66,11 @@ class TestOfReadings : public TestOfCause {
   std::optional<Held> held_by(const Reading& reading) {
     if (reading.decides && !asked_.is_wrong_decision()) return std::nullopt;
     const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
-    if (fits ? !*fits : !is_undefined() || !replaces_undefined(reading)) return std::nullopt;
-    if (is_miss() && is_vacuous(reading)) return std::nullopt;
+    if (!fits.value_or(false) || (is_miss() && is_vacuous(reading))) return std::nullopt;
     if (reading.decides && is_wrong_without(reading)) return std::nullopt;
     const Support s = support_of(reading);
     const bool is_exact = !reading.decides && gives_numbers();  // what decides holds in every case
     const bool holds = s.holds(!reading.decides) && (is_exact || s.against_it == 0);
-    if (!fits) return s.holds_without_case() ? std::optional(Held{&reading, s}) : std::nullopt;
     Support fresh;
     if (holds) count_generated(reading, asked_.fresh(), fresh);
     if (holds && holds_for_fresh_cases(reading, s, fresh)) return Held{&reading, s, fresh};
@@ -138,7 +113,7 @@ class TestOfReadings : public TestOfCause {
     return !contradicts &&
            (fresh.for_it + fresh.against_it == 0 ||
             nearly_all(s.for_it + fresh.for_it, s.for_it + fresh.for_it + s.against_it + fresh.against_it)) &&
-           (fresh.with_finding == 0 || nearly_all(s.explained + fresh.explained, s.with_finding + fresh.with_finding));
+           (fresh.with_finding == 0 || nearly_all(fresh.explained, fresh.with_finding));
   }
   /// The answer would be wrong under the reading if the reading made a difference.
   static bool contradicts(const Reading& reading, const Trial& t) {

@@ -14,16 +14,32 @@ namespace {
 
 using Contradiction = std::optional<Evidence>;
 
-/// A change at a far smaller scale is that of a constant that keeps tiny numbers out.
+/// A change at a far smaller or larger scale is that of a constant that keeps such numbers out.
+constexpr int furthest_scale = 32;
+
+/// The first scan in which the finding ends.
+const ScaleScan* ending_scan(AskedCases& asked, std::size_t groups) {
+  const auto& scans = asked.scans();
+  const auto end = scans.begin() + std::ptrdiff_t(std::min(groups, scans.size()));
+  const auto found = std::find_if(scans.begin(), end, [](const ScaleScan& s) {
+    return s.has_clean_flip() && std::abs(s.flip->right) <= furthest_scale;
+  });
+  return found == end ? nullptr : &*found;
+}
+
 Contradiction depends_on_scale(AskedCases& asked) {
-  constexpr int furthest = 32;
-  for (const ScaleScan& s : std::span(asked.scans()).first(2)) {
-    if (!s.has_clean_flip() || std::abs(s.flip->right) > furthest) continue;
-    return Evidence{fmt::format("All {} were multiplied by powers of two.", s.group->name),
-                    fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}.", s.flip->wrong,
-                                s.flip->right)};
-  }
-  return std::nullopt;
+  constexpr std::size_t lengths_and_velocities = 2;
+  const ScaleScan* s = ending_scan(asked, lengths_and_velocities);
+  if (s == nullptr) return std::nullopt;
+  return Evidence{fmt::format("All {} were multiplied by powers of two.", s->group->name),
+                  fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}.", s->flip->wrong,
+                              s->flip->right)};
+}
+
+Contradiction stays_at_every_scale(AskedCases& asked) {
+  if (ending_scan(asked, asked.scans().size()) != nullptr) return std::nullopt;
+  return Evidence{"The numbers of the case were multiplied by powers of two.",
+                  fmt::format("The finding stays from 2^-{0} to 2^{0}.", furthest_scale)};
 }
 
 /// A subject behind pipes has one rounding mode. Rounding errors change with the last bits of the inputs, too.
@@ -124,9 +140,10 @@ struct Test {
   Contradiction (*contradiction)(AskedCases&);
 };
 constexpr std::array tests{
-    Test{Prediction::at_every_scale, depends_on_scale}, Test{Prediction::in_every_rounding, depends_on_rounding},
-    Test{Prediction::extreme_numbers, stays_in_range},  Test{Prediction::small_error, is_no_error_of_rounding},
-    Test{Prediction::two_borders, has_many_borders},    Test{Prediction::one_border, has_several_borders}};
+    Test{Prediction::at_every_scale, depends_on_scale},     Test{Prediction::in_every_rounding, depends_on_rounding},
+    Test{Prediction::extreme_numbers, stays_in_range},      Test{Prediction::small_error, is_no_error_of_rounding},
+    Test{Prediction::two_borders, has_many_borders},        Test{Prediction::one_border, has_several_borders},
+    Test{Prediction::ends_at_a_scale, stays_at_every_scale}};
 
 }  // namespace
 

@@ -134,14 +134,16 @@ class RoundingErrors : public TestOfCause {
     const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
     if (!others_depend_ || !may_be_named) return std::nullopt;
     if (moved >= least_moved)
-      return Named{CauseKind::rounding,
-                   "",
-                   "The error changes with the rounding mode: it consists of rounding errors.",
-                   {Prediction::small_error}};
+      return Named{CauseKind::rounding, "", "The error changes with the rounding mode: it consists of rounding errors.",
+                   size_of_error()};
     return Named{CauseKind::rounding, "",
                  depends ? "The answer is right in another rounding mode."
                          : "Other answers with the finding are right in another rounding mode.",
-                 nearly_all_depend_ ? std::vector<Prediction>{} : std::vector{Prediction::small_error}};
+                 size_of_error()};
+  }
+  /// A few cases on a border depend on the rounding mode by chance, whatever their errors are.
+  std::vector<Prediction> size_of_error() const {
+    return most_depend_ ? std::vector<Prediction>{} : std::vector{Prediction::small_error};
   }
   /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
   /// by chance.
@@ -153,7 +155,7 @@ class RoundingErrors : public TestOfCause {
     }
     saw("The other cases with the finding were asked in the four rounding modes.",
         fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
-    nearly_all_depend_ = all >= least_others && nearly_all(depend, all);
+    most_depend_ = all >= least_others && most(depend, all);
     return all < least_others ? case_depends : 2 * depend >= all;
   }
   bool depends_on_rounding(const Trial& base) const {
@@ -183,8 +185,8 @@ class RoundingErrors : public TestOfCause {
         "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances.",
         {Prediction::small_error}};
   }
-  bool nearly_all_depend_ = false;  ///< of the other cases, on the rounding mode: a subject may round as it likes
-  bool others_depend_ = true;       ///< on the rounding mode, where the subject can be asked in another
+  bool most_depend_ = false;   ///< of the other cases, on the rounding mode, which changes nothing but rounding errors
+  bool others_depend_ = true;  ///< on the rounding mode, where the subject can be asked in another
 
   std::vector<Case> moved_to_the_origin() const {
     std::vector<std::size_t> positions;

@@ -183,12 +183,26 @@ class ToleranceSearch {
             "No such quantity has the same value at every flip. The largest of the multiplied numbers is between "
             "{:.2g} and {:.2g} there.",
             low, high));
+    if (high > widest_flips * low || has_further_border(s)) return std::nullopt;
     return Named{CauseKind::absolute_tolerance,
                  "",
                  fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
                              "{:.2g} and {:.2g}. The subject compares something with a constant.",
                              s.group->name, low, high),
-                 {Prediction::one_border}};
+                 {Prediction::one_border, Prediction::ends_at_a_scale}};
+  }
+
+  /// Of the largest numbers at the flips. Lengths of ordinary cases differ by no more than about so much, and so do the
+  /// largest numbers of cases in which one of them has one value.
+  static constexpr double widest_flips = 0x1p10;
+  /// The finding is there again at a scale beyond the right answers: a constant has one border.
+  static bool has_further_border(const ScaleScan& s) {
+    constexpr int furthest = 32;
+    const int direction = s.flip->right > s.flip->wrong ? 1 : -1;
+    return std::any_of(s.trials.begin(), s.trials.end(), [&](const ScaleScan::At& a) {
+      const int beyond = (a.k - s.flip->right) * direction;
+      return a.trial.outcome == Outcome::same && beyond > 0 && beyond <= furthest;
+    });
   }
 
   /// A quantity that has about the same value at every flip, and different values in the cases.
@@ -257,12 +271,12 @@ class ToleranceSearch {
       return Named{CauseKind::absolute_tolerance,
                    "",
                    "The subject compares something with a constant: no quantity is a round number at every flip.",
-                   {Prediction::one_border}};
+                   {Prediction::one_border, Prediction::ends_at_a_scale}};
     return Named{CauseKind::absolute_tolerance,
                  fmt::format("{} {}", is_round ? fmt::format("1e{}", decade) : stable_value(q.low, q.high), q.unit),
                  fmt::format("The subject has an absolute tolerance of about {:.2g} ({}) that {} is compared with.",
                              value, q.unit, q.name),
-                 {Prediction::one_border}};
+                 {Prediction::one_border, Prediction::ends_at_a_scale}};
   }
   const Case& question() const { return trials_.base().question; }
   void saw(std::string test, std::string result, std::vector<CauseKind> against = {}) {

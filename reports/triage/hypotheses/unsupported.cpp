@@ -44,11 +44,13 @@ class Unsupported : public TestOfCause {
     }
     return trials().ask(cases);
   }
-  /// Nearly all answers inside are wrong, and nearly all outside are right.
+  /// Nearly all answers inside are wrong, and nearly all outside are right. Or nearly all inside have the finding, and
+  /// no more than one outside: other bugs may have their own findings there.
   static bool divides(std::span<const Trial> in, std::span<const Trial> out) {
     const std::size_t in_all = in.size() - count(in, Outcome::none), out_all = out.size() - count(out, Outcome::none);
-    return in_all >= least && out_all >= least && nearly_all(in_all - count(in, Outcome::right), in_all) &&
-           nearly_all(count(out, Outcome::right), out_all) && count(out, Outcome::same) <= most_outside;
+    if (in_all < least || out_all < least || count(out, Outcome::same) > most_outside) return false;
+    return nearly_all(count(in, Outcome::same), in_all) ||
+           (nearly_all(in_all - count(in, Outcome::right), in_all) && nearly_all(count(out, Outcome::right), out_all));
   }
   static Named always_wrong(const Region& region) {
     return {CauseKind::unsupported, region.name,
@@ -64,6 +66,7 @@ class Unsupported : public TestOfCause {
   std::optional<Named> told_by_meaning(const Region& region, std::span<const Trial> in, Named otherwise) {
     for (const Reading& reading : readings_of_answers()) {
       if (reading.decides || asked_.is_wrong_decision()) continue;
+      if (!reading.right(question(), trials().base().answer, asked_.is_right()).value_or(false)) continue;
       std::size_t wrong = 0, explained = 0;
       for (const Trial& t : in) {
         if (t.outcome != Outcome::same && t.outcome != Outcome::other) continue;
