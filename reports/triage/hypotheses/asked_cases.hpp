@@ -1,8 +1,10 @@
 /// What the tests of causes share: trials that several of them use, each asked once.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -61,6 +63,11 @@ class AskedCases {
   /// All errors are small shares of the numbers: set by the test of small errors, for that of logic.
   bool has_small_errors() const { return has_small_errors_; }
   void set_small_errors() { has_small_errors_ = true; }
+  /// A reading under which the answer to this case is right, but not those to others.
+  void refute(std::string_view reading) { refuted_.emplace_back(reading); }
+  bool is_refuted(std::string_view key) const {
+    return std::find(refuted_.begin(), refuted_.end(), key) != refuted_.end();
+  }
   void set_rounding_seen(RoundingSeen seen) { rounding_seen_ = seen; }
 
  private:
@@ -78,6 +85,7 @@ class AskedCases {
   RoundingSeen rounding_seen_;
   std::optional<Named> unknown_tolerance_;
   bool has_small_errors_ = false;
+  std::vector<std::string> refuted_;
 };
 
 /// The binary exponent of the largest position or size; 0 where all are zero.

@@ -21,7 +21,8 @@ namespace {
 Tested constant_error_test(AskedCases& a) { return constant_error_of(a.trials(), a.scans()); }
 Tested tolerance_test(AskedCases& a) {
   const bool flips = std::any_of(a.scans().begin(), a.scans().end(), std::mem_fn(&ScaleScan::has_clean_flip));
-  Tested tested = tolerance_of(a.trials(), a.scans(), a.similar(), flips && a.errs_to_both_sides());
+  const bool errs_to_both_sides = flips && a.is_wrong_decision() && a.errs_to_both_sides();
+  Tested tested = tolerance_of(a.trials(), a.scans(), a.similar(), errs_to_both_sides);
   if (tested.named && tested.named->key.empty()) a.set_unknown_tolerance(*std::exchange(tested.named, std::nullopt));
   return tested;
 }
@@ -157,7 +158,7 @@ class CauseSearch {
       std::vector<Evidence> evidence;
       std::vector<Named> named = CausesOfCase(of_other, evidence).result();
       // What the other case shows must hold for the case, too: the other may be one of another bug.
-      std::erase_if(named, [&](const Named& n) { return contradiction_of(n, asked).has_value(); });
+      std::erase_if(named, [&](const Named& n) { return asked.is_refuted(n.key) || contradiction_of(n, asked); });
       count(trials), ++tried;
       if (named.empty()) continue;
       cause_.evidence.push_back(

@@ -74,6 +74,7 @@ class TestOfReadings : public TestOfCause {
     Support fresh;
     if (holds) count_generated(reading, asked_.fresh(), fresh);
     if (holds && holds_for_fresh_cases(reading, s, fresh)) return Held{&reading, s, fresh};
+    asked_.refute(reading.name);
     by_chance_.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
                                      of_text(s.explained, s.with_finding), s.for_it, s.against_it));
     return std::nullopt;

@@ -25,20 +25,25 @@ class Logic : public TestOfCause {
     const std::size_t all = around.size() - count(around, Outcome::none);
     saw("Cases were asked whose numbers differ by up to a ten-thousandth.",
         fmt::format("{} are wrong.", of_text(wrong_of(around), all)));
-    const bool stays = !asked_.roundings().empty() && wrong_of(asked_.roundings()) == asked_.roundings().size() &&
+    // Behind pipes there are no other rounding modes, and the last bits of the inputs stand for them.
+    const bool stays = wrong_of(asked_.roundings()) == asked_.roundings().size() &&
                        nearly_all(wrong_of(near), near.size() - count(near, Outcome::none)) &&
                        nearly_all(wrong_of(around), all);
     if (!stays) return std::nullopt;
-    if (!no_flip && asked_.errs_to_both_sides())
+    if (!no_flip && asked_.is_wrong_decision() && asked_.errs_to_both_sides())
       return Named{
-          CauseKind::logic, "",
+          CauseKind::logic,
+          "",
           "The answer stays wrong in every rounding mode and for all cases nearby, depends on the scale, and errs "
-          "to both sides: the subject may compare numbers of different units."};
+          "to both sides: the subject may compare numbers of different units.",
+          {Prediction::in_every_rounding}};
     if (!no_flip) return std::nullopt;
     return Named{
-        CauseKind::logic, "",
+        CauseKind::logic,
+        "",
         "The answer stays wrong in every rounding mode, at every scale and for all cases nearby: the mistake is in "
-        "the logic."};
+        "the logic.",
+        {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
  private:

@@ -221,10 +221,12 @@ class RelativeTolerance {
     if (!follows_scales(c)) return absolute(c);
     if (is_of_floats(c.constant->value))
       return Named{
-          CauseKind::rounding, "single precision",
+          CauseKind::rounding,
+          "single precision",
           fmt::format("The answers jump where {} is {}, half a unit in the last place of a float near 1 or its "
                       "root: the subject compares floats.",
-                      name, value)};
+                      name, value),
+          {Prediction::small_error}};
     return Named{
         CauseKind::relative_tolerance,
         value,

@@ -133,6 +133,7 @@ class RoundingErrors : public TestOfCause {
     others_depend_ = holds_for_others(depends);
     const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
     if (!others_depend_ || !may_be_named) return std::nullopt;
+    is_right_by_rounding_ = right > 0 || count(asked_.neighbours(), Outcome::right) > 0;
     if (moved >= least_moved)
       return Named{CauseKind::rounding, "", "The error changes with the rounding mode: it consists of rounding errors.",
                    size_of_error()};
@@ -141,9 +142,9 @@ class RoundingErrors : public TestOfCause {
                          : "Other answers with the finding are right in another rounding mode.",
                  size_of_error()};
   }
-  /// A few cases on a border depend on the rounding mode by chance, whatever their errors are.
+  /// Any error may be one of rounding where most cases depend on the mode, and some rounding of this one is right.
   std::vector<Prediction> size_of_error() const {
-    return most_depend_ ? std::vector<Prediction>{} : std::vector{Prediction::small_error};
+    return most_depend_ && is_right_by_rounding_ ? std::vector<Prediction>{} : std::vector{Prediction::small_error};
   }
   /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
   /// by chance.
@@ -185,8 +186,9 @@ class RoundingErrors : public TestOfCause {
         "The answer is wrong far from the origin and right near it: coordinates lose the bits of the distances.",
         {Prediction::small_error}};
   }
-  bool most_depend_ = false;   ///< of the other cases, on the rounding mode, which changes nothing but rounding errors
-  bool others_depend_ = true;  ///< on the rounding mode, where the subject can be asked in another
+  bool most_depend_ = false;  ///< of the other cases, on the rounding mode, which changes nothing but rounding errors
+  bool is_right_by_rounding_ = false;  ///< in a rounding mode, or a few ulps away
+  bool others_depend_ = true;          ///< on the rounding mode, where the subject can be asked in another
 
   std::vector<Case> moved_to_the_origin() const {
     std::vector<std::size_t> positions;
