@@ -272,7 +272,8 @@ TEST(CauseOfAShare, WhatIsWrongForLargeAndForSmallNumbersIsARange) {
   expect_cause(cause_found(floats, far), CauseKind::overflow, "lengths and velocities");
   const Subject steps = subject_with("sphere_sphere_overlap", root_in_a_few_steps);
   const Case large = in_double("sphere_sphere_overlap", {0x1p17, 0, 0, 0x1.8p16, 0, 0x1p15, 0, 0x1.8p16});
-  expect_cause(cause_found(steps, large), CauseKind::iteration_limit, "steps from a fixed start");
+  const Cause unknown = cause_found(steps, large);  // constants at both ends would look the same
+  EXPECT_EQ(unknown.kind, CauseKind::unexplained) << cause_text(unknown);
 }
 
 Answer no_point(Numbers q) {

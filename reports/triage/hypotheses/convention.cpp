@@ -35,6 +35,22 @@ class TestOfReadings : public TestOfCause {
   }
 
  private:
+  /// A number of the answer is not finite.
+  bool is_undefined() const { return trials().base().finding.disagreement == Disagreement::not_finite; }
+  /// Whether the reading replaces this number in other answers.
+  bool replaces_undefined(const Reading& reading) {
+    const Answer& own = trials().base().answer;
+    bool replaces = false;
+    for (const Trial& t : asked_.sample()) {
+      if (t.answer.status != Answer::Status::answered || replaces) continue;
+      reading.right(t.question, t.answer, [&](const Case&, const Answer& read) {
+        for (std::size_t i = 0; i < trials().query().outputs.size(); ++i)
+          replaces |= own.gives(i) && !std::isfinite(own.values[i]) && read.values[i] != t.answer.values[i];
+        return false;
+      });
+    }
+    return replaces;
+  }
   /// A right answer without numbers is right by chance in half of the cases.
   bool gives_numbers() const { return trials().query().kind != Kind::decision; }
   /// How the subject's answers fit a reading.
@@ -52,6 +68,11 @@ class TestOfReadings : public TestOfCause {
       return explained >= least && nearly(explained, with_finding) && for_it >= (is_rare ? 1 : least_generated) &&
              nearly(for_it, for_it + against_it);
     }
+    /// Where the reading says nothing about the case, it must explain nearly all wrong answers, and make none wrong.
+    bool holds_without_case() const {
+      constexpr std::size_t least = 16;
+      return for_it >= least && nearly_all(for_it, wrong) && against_it == 0;
+    }
     /// Other numbers may explain most answers of a wrong formula by chance: more than a few exceptions count.
     static bool all_but_few(std::size_t part, std::size_t all) {
       constexpr std::size_t one_in = 32;
@@ -66,9 +87,11 @@ class TestOfReadings : public TestOfCause {
   std::optional<Held> held_by(const Reading& reading) {
     if (reading.decides && !asked_.is_wrong_decision()) return std::nullopt;
     const auto fits = reading.right(question(), trials().base().answer, asked_.is_right());
-    if (!fits.value_or(false) || (is_miss() && is_vacuous(reading))) return std::nullopt;
+    if (!fits.value_or(is_undefined() && replaces_undefined(reading))) return std::nullopt;
+    if (is_miss() && is_vacuous(reading)) return std::nullopt;
     if (reading.decides && is_wrong_without(reading)) return std::nullopt;
     const Support s = support_of(reading);
+    if (!fits) return s.holds_without_case() ? std::optional(Held{&reading, s}) : std::nullopt;
     const bool is_exact = !reading.decides && gives_numbers();  // what decides holds in every case
     const bool holds = s.holds(!reading.decides) && (is_exact || s.against_it == 0);
     Support fresh;
@@ -158,9 +181,11 @@ class TestOfReadings : public TestOfCause {
   Named named_reading(const Held& held) {
     const Reading& reading = *held.reading;
     const Support& s = held.support;
-    saw(fmt::format("Other cases were generated and judged as if {}.", reading.what),
-        fmt::format("{} with the finding are right then; {} wrong answers become right, and {} right ones wrong.",
-                    of_text(held.fresh.explained, held.fresh.with_finding), held.fresh.for_it, held.fresh.against_it));
+    if (held.fresh.wrong > 0)
+      saw(fmt::format("Other cases were generated and judged as if {}.", reading.what),
+          fmt::format("{} with the finding are right then; {} wrong answers become right, and {} right ones wrong.",
+                      of_text(held.fresh.explained, held.fresh.with_finding), held.fresh.for_it,
+                      held.fresh.against_it));
     saw(fmt::format("The answers were judged as if {}.", reading.what),
         fmt::format("The answer to the case is right then, and so are those to {} other cases with the finding. Of the "
                     "generated cases, {} wrong answers become right, and {} right ones become wrong.",

@@ -197,7 +197,7 @@ class ToleranceSearch {
   static constexpr double widest_flips = 0x1p10;
   /// The finding is there again at a scale beyond the right answers: a constant has one border.
   static bool has_further_border(const ScaleScan& s) {
-    constexpr int furthest = 32;
+    constexpr int furthest = 64;  // beyond, the squares of ordinary numbers leave the range of floats
     const int direction = s.flip->right > s.flip->wrong ? 1 : -1;
     return std::any_of(s.trials.begin(), s.trials.end(), [&](const ScaleScan::At& a) {
       const int beyond = (a.k - s.flip->right) * direction;

@@ -66,7 +66,6 @@ class Unsupported : public TestOfCause {
   std::optional<Named> told_by_meaning(const Region& region, std::span<const Trial> in, Named otherwise) {
     for (const Reading& reading : readings_of_answers()) {
       if (reading.decides || asked_.is_wrong_decision()) continue;
-      if (!reading.right(question(), trials().base().answer, asked_.is_right()).value_or(false)) continue;
       std::size_t wrong = 0, explained = 0;
       for (const Trial& t : in) {
         if (t.outcome != Outcome::same && t.outcome != Outcome::other) continue;
@@ -75,7 +74,8 @@ class Unsupported : public TestOfCause {
       if (!most(explained, wrong)) continue;
       saw(fmt::format("The wrong answers with {} were judged as if {}.", region.name, reading.what),
           fmt::format("{} are right then.", of_text(explained, wrong)));
-      if (!nearly_all(explained, wrong)) return std::nullopt;
+      const bool is_of_case = reading.right(question(), trials().base().answer, asked_.is_right()).value_or(false);
+      if (!nearly_all(explained, wrong) || !is_of_case) return std::nullopt;
       return Named{reading.kind, std::string(reading.name),
                    fmt::format("With {}, the answer is right if {}.", region.name, reading.what)};
     }
@@ -90,7 +90,7 @@ class Unsupported : public TestOfCause {
                     of_text(out_all - out_right, out_all)));
     if (in_all < least || out_all < least) return std::nullopt;
     if (divides(in, out)) return told_by_meaning(region, in, always_wrong(region));
-    if (asked_.is_wrong_decision() && in_all > in_right && count(out, Outcome::same) <= most_outside) {
+    if (in_all > in_right && count(out, Outcome::same) <= most_outside) {
       const std::vector<Trial> in_one = cases_of(region, true, true), out_one = cases_of(region, false, true);
       saw(fmt::format("Only cases with the exact decision {} were asked.",
                       trials().base().finding.truth_yes ? "yes" : "no"),
