@@ -63,8 +63,9 @@ class AskedCases {
   /// All errors are small shares of the numbers: set by the test of small errors, for that of logic.
   bool has_small_errors() const { return has_small_errors_; }
   void set_small_errors() { has_small_errors_ = true; }
-  /// A reading under which the answer to this case is right, but not those to others.
-  void refute(std::string_view reading) { refuted_.emplace_back(reading); }
+  /// The key of a reading under which the answer to this case is right, but not those to others; or of a region whose
+  /// answers have another cause.
+  void refute(std::string_view key) { refuted_.emplace_back(key); }
   bool is_refuted(std::string_view key) const {
     return std::find(refuted_.begin(), refuted_.end(), key) != refuted_.end();
   }

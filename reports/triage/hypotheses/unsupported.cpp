@@ -75,7 +75,10 @@ class Unsupported : public TestOfCause {
       saw(fmt::format("The wrong answers with {} were judged as if {}.", region.name, reading.what),
           fmt::format("{} are right then.", of_text(explained, wrong)));
       const bool is_of_case = reading.right(question(), trials().base().answer, asked_.is_right()).value_or(false);
-      if (!nearly_all(explained, wrong) || !is_of_case) return std::nullopt;
+      if (!nearly_all(explained, wrong) || !is_of_case) {
+        asked_.refute(region.name);
+        return std::nullopt;
+      }
       return Named{reading.kind, std::string(reading.name),
                    fmt::format("With {}, the answer is right if {}.", region.name, reading.what)};
     }
