@@ -34,8 +34,9 @@ struct PropertyOutcome {
 };
 
 /// Runs the property tests of the tiers of collide, of the subjects of NEARMISS_ADD and of foreign subjects, and the
-/// tests that watch the judge, in passes with fresh seeds until the time is over. The seed also shuffles the order of
-/// the tests. Messages go to properties/SEED.log, the report of a failed test to properties/QUERY/.
+/// tests that watch the judge, in passes with fresh seeds until the time is over. The first pass asks few cases, so
+/// that even a night of ten minutes asks every test. The seed also shuffles the order of the tests. Messages go to
+/// properties/SEED.log, the report of a failed test to properties/QUERY/.
 PropertyOutcome run_property_tests(const std::filesystem::path& program, const PropertyBudget& budget);
 
 }  // namespace nearmiss
