@@ -26,9 +26,9 @@ using Clock = Run::Clock;
 
 constexpr double default_minutes = 10, most_minutes = 1e6;
 /// The shares of the total time for climbing, for properties, of which half is for relations, and for fuzzing.
-constexpr double climbing_share = 1.0 / 12, properties_share = 1.0 / 6, fuzzing_share = 1.0 / 3;
+constexpr double climbing_share = 1.0 / 12, properties_share = 1.0 / 5, fuzzing_share = 1.0 / 3;
 /// Where --triage-minutes is not given: the share of the total time for the triage, and the most.
-constexpr double triage_share = 0.1, most_triage_minutes = 30;
+constexpr double triage_share = 0.25, most_triage_minutes = 30;
 static_assert(fuzzing_share * merging_share <= 0.1, "corpora are minimised in at most a tenth of the night");
 constexpr std::uint64_t most_jobs = 1024;
 
@@ -66,7 +66,7 @@ class NightlyCommand : public Command {
          "cases of earlier nights' reports in the run folder, and every stored case (seeds and regressions), whose "
          "findings are compared with the stored expectations. Then new cases are generated for all queries and "
          "subjects. A twelfth of the time goes to climbing towards the worst errors, as in 'nearmiss run --climb'. "
-         "A sixth goes to properties: half of it to relations between answers, as in 'nearmiss relations', and half "
+         "A fifth goes to properties: half of it to relations between answers, as in 'nearmiss relations', and half "
          "to the property tests of this build, which ask the tiers of collide new cases with fresh seeds. The last "
          "third is for the fuzz targets. Corpora that have doubled are minimised first, in at most a quarter of "
          "that third. Then the targets run as separate processes, --jobs of them at once: each has a turn, and "
@@ -78,7 +78,7 @@ class NightlyCommand : public Command {
          "ask the profile's choice alone, start from cases of the scene and stay in its ranges. Stored cases, climbs "
          "and property tests, which "
          "know no scene, are left out, and the cases of the scene get their time.",
-         "The night ends with a triage, as in 'nearmiss triage', for a tenth of the time (at most half an hour) or "
+         "The night ends with a triage, as in 'nearmiss triage', for a quarter of the time (at most half an hour) or "
          "--triage-minutes: reports are grouped into signatures, and compared with those of the last night: new, worse "
          "(at least twice the proved size), known, and fixed (asked again, and right now). The last night is the one "
          "before in the same folder; without --out the newest run with a triage. The result is triage/triage.json, and "

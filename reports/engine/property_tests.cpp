@@ -26,7 +26,7 @@ constexpr std::string_view long_watch = "NEARMISS_WATCH_ANSWERS=1000000";
 
 /// The first pass asks few cases, so that a short night has every test once; the others ask as many as the tests do by
 /// themselves.
-constexpr int cases_of_first_pass = 10, cases_of_a_pass = 200;
+constexpr int cases_of_first_pass = 4, cases_of_a_pass = 200;
 constexpr std::string_view first_watch = "NEARMISS_WATCH_ANSWERS=500";
 
 /// Counts the lines of GoogleTest: "[       OK ] NAME (12 ms)", or FAILED in place of OK.

@@ -1,6 +1,7 @@
 #include "reports/triage/one_bug.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <map>
 #include <numeric>
 
@@ -12,8 +13,21 @@ namespace nearmiss {
 
 namespace {
 
-/// 9 of 10.
-bool nearly_all(std::size_t part, std::size_t whole) { return whole > 0 && 10 * part >= 9 * whole; }
+using boost::math::binomial;
+
+/// The probability that a bound of a share, of Clopper and Pearson, is wrong.
+constexpr double error_of_a_share = 0.05;
+
+/// All, or with that confidence more than half: what holds of a finding holds more often than not.
+bool is_proved_of_most(std::size_t part, std::size_t whole) {
+  if (whole == 0 || part == whole) return whole > 0;
+  return binomial::find_lower_bound_on_p(double(whole), double(part), error_of_a_share) > 0.5;
+}
+
+/// Of so many findings a part was seen, and the true share may be this one.
+bool may_have_share(std::size_t part, std::size_t whole, double share) {
+  return part > 0 && binomial::find_upper_bound_on_p(double(whole), double(part), error_of_a_share) >= share;
+}
 
 bool is_reading(const std::string& key) {
   return std::any_of(readings().begin(), readings().end(), [&](const Reading& r) { return r.name == key; });
@@ -43,7 +57,7 @@ bool same_regions(const ExaminedFinding& a, const ExaminedFinding& b) {
          a.has_cause() == b.has_cause();
 }
 
-/// The share of a finding's reports whose answers are wrong in this way, too, is at least a half.
+/// The answers of a finding's reports are wrong in this way, too, at least as often as not.
 bool shows(const ExaminedFinding& f, Disagreement d) {
   const auto with =
       std::count_if(f.cases.begin(), f.cases.end(), [&](const Candidate* c) { return c->finding.has(d); });
@@ -98,7 +112,7 @@ class Joining {
     }
   }
 
-  /// The reading that is the cause of `a` makes nearly all answers of `b` right, of which no mechanism is known.
+  /// The reading that is the cause of `a` makes most answers of `b` right, of which no mechanism is known.
   bool is_explained_by(const ExaminedFinding& a, const ExaminedFinding& b) const {
     if (!is_mechanism(a) || a.cause().key.empty() || is_mechanism(b) || !b.has_cause()) return false;
     if (b.examined->finding.verdict == Verdict::broke) return false;
@@ -119,7 +133,7 @@ class Joining {
       use_measure(c->filed->measure);
       right += reading.right(c->filed->question, c->answer, is_right).value_or(false);
     }
-    return nearly_all(right, f.cases.size());
+    return is_proved_of_most(right, f.cases.size());
   }
 
   bool turn_into_each_other(const ExaminedFinding& a, const ExaminedFinding& b) {
@@ -127,15 +141,17 @@ class Joining {
     if (!a.has_cause() || !b.has_cause() || a.kind().fault == b.kind().fault) return false;
     return turns_into(a, b) && turns_into(b, a);
   }
-  /// Of the wrong answers to changed cases of one, a part has the other's fault: more than could be of another bug that
-  /// is met now and then.
+  /// Around the simplest case of one, the faults of both are mixed as in their reports. Two bugs are not: around a case
+  /// of one, the other is rarer than its share.
   bool turns_into(const ExaminedFinding& from, const ExaminedFinding& to) {
-    constexpr std::size_t one_in = 8;
-    const std::map<Disagreement, std::size_t>& seen = faults_around(from);
-    std::size_t wrong = 0;
-    for (const auto& [fault, count] : seen) wrong += count;
-    const auto found = seen.find(to.examined->finding.disagreement);
-    return found != seen.end() && found->second * one_in >= wrong;
+    const std::size_t own = around(from, from), other = around(from, to);
+    return may_have_share(other, own + other, double(to.cases.size()) / double(from.cases.size() + to.cases.size()));
+  }
+  /// The wrong answers around the case of one that have the fault of another.
+  std::size_t around(const ExaminedFinding& of, const ExaminedFinding& with_fault_of) {
+    const std::map<Disagreement, std::size_t>& seen = faults_around(of);
+    const auto found = seen.find(with_fault_of.examined->finding.disagreement);
+    return found == seen.end() ? 0 : found->second;
   }
   /// The faults of the answers to cases around the simplest one, each answer by its headline.
   const std::map<Disagreement, std::size_t>& faults_around(const ExaminedFinding& f) {

@@ -30,12 +30,13 @@ bool is_shared_by_queries(const Cause& cause);
 
 /// Groups of indices into `all`. Two findings of one subject are one bug where
 /// * both have the cause with the same reading or constant, in any query;
-/// * the reading that explains one makes nearly all answers of the other right, in any query;
+/// * the reading that explains one makes most answers of the other right (all, or proved to be more than half), in any
+///   query;
 /// * both have the same mechanism of arithmetic, in one query;
 /// * they are of one kind, no mechanism is known, and both need the same regions;
 /// * the answers to one are wrong in the other's way too, and the other way around, in one query;
 /// * no mechanism is known, they need the same regions, and each turns into the other where the numbers of its simplest
-///   case change, in one query.
+///   case change, as often as their reports let expect, in one query.
 std::vector<std::vector<std::size_t>> one_bug_each(const std::vector<ExaminedFinding>& all, Workers& workers);
 
 }  // namespace nearmiss

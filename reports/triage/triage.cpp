@@ -21,8 +21,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// The most time for the examination of one report.
-constexpr Seconds most_for_one{16};
+/// The most time for the examination of one report, and for the ranges of the numbers of a row's simplest case.
+constexpr Seconds most_for_one{16}, most_for_ranges{4};
 
 std::string hash_of(std::initializer_list<std::string_view> words) {
   Fnv1a fnv;
@@ -151,10 +151,12 @@ class Work {
     triage_.measure = measure_of_sources();
     triage_.measure.declared.reset();  // that of one report
     ask_again();
+    std::stable_partition(groups_.begin(), groups_.end(), [](const auto& g) { return is_ours(g.kind.subject); });
     for (CandidatesOfKind& g : groups_) choose(g);
     examine_groups();
     for (const CandidatesOfKind& g : groups_) take_parts(g);
     make_rows();
+    add_ranges();
     for (const CandidatesOfKind& g : groups_) {
       for (const Candidate& c : g.all) add(c);
     }
@@ -199,25 +201,27 @@ class Work {
     std::size_t total = 0, done = 0;
     for (const CandidatesOfKind& g : groups_) total += g.to_examine;
     for (std::size_t turn = 0; turn < most_examined; ++turn) {
+      auto left = std::size_t(std::count_if(groups_.begin(), groups_.end(),
+                                            [&](const CandidatesOfKind& g) { return turn < g.to_examine; }));
       for (CandidatesOfKind& g : groups_) {
         if (turn >= g.to_examine) continue;
         if (interrupted() || time_left() <= Seconds(0)) {
           triage_.all_examined = false;
           return;
         }
-        examine(g.all[turn], done++, total);
+        // Each of the kinds that are left may take its share: so the time suffices for all.
+        examine(g.all[turn], std::min(most_for_one, time_left() / double(left--)), done++, total);
       }
     }
   }
-  void examine(Candidate& c, std::size_t done, std::size_t total) {
+  void examine(Candidate& c, Seconds time, std::size_t done, std::size_t total) {
     const std::string activity = fmt::format("examining {} of {}", c.kind.query, c.kind.subject);
     const auto tick = [&](std::uint64_t) { settings_.tick(activity, done, total); };
     tick(0);
     use_measure(c.filed->measure);
     c.examined = examined_.earlier(*c.filed);
     const bool is_wanted = !settings_.is_examined || settings_.is_examined(c.kind, c.variant.regions);
-    if (!c.examined && is_wanted)
-      c.examined = examined_.examine(*c.filed, c.plain, std::min(most_for_one, time_left()), tick);
+    if (!c.examined && is_wanted) c.examined = examined_.examine(*c.filed, c.plain, time, tick);
   }
 
   /// The examined findings of a kind, each with the reports that are most like it. Where none was examined, the first
@@ -261,6 +265,18 @@ class Work {
       for (const Candidate& c : g.all) {
         if (!row_of_.contains(&c)) row_of_[&c] = row_of_range(c);
       }
+    }
+  }
+  /// Of the simplest cases that are those of rows.
+  void add_ranges() {
+    std::set<std::string> of_rows;
+    for (const TriagedSignature& s : triage_.signatures) of_rows.insert(s.simplest);
+    for (const ExaminedFinding& f : parts_) {
+      if (interrupted() || !f.has_cause() || of_rows.erase(f.examined->examined->file.string()) == 0) continue;
+      use_measure(f.examined->filed->measure);
+      const auto tick = [&](std::uint64_t) { settings_.tick("ranges of numbers", 0, of_rows.size()); };
+      examined_.add_ranges(*f.examined->examined, *f.examined->filed->subject,
+                           std::clamp(time_left(), Seconds(0), most_for_ranges), tick);
     }
   }
   /// Two bugs may have the same part, where their causes differ.

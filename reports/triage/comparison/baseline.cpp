@@ -18,8 +18,8 @@
 #include "reports/engine/replay.hpp"
 #include "reports/findings/pretty_json.hpp"
 #include "reports/findings/report.hpp"
-#include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/triage/candidates.hpp"
 #include "reports/triage/comparison/rates.hpp"
 #include "reports/triage/triage_json.hpp"
 
@@ -285,29 +285,35 @@ class Comparison {
         return s.change == SignatureChange::fresh && !s.range && has_part_of(s, of.first, of.second);
       });
       if (is_told) continue;
-      std::optional<TriagedSignature> row = row_of_wrong_now(of, ordinary_among(cases));
+      std::optional<TriagedSignature> row = row_of_wrong_now(of, in_order(cases));
       if (row) now_.signatures.push_back(std::move(*row));
     }
   }
-  /// Those of no extreme scene, the plainest first.
-  static std::vector<Case> ordinary_among(std::vector<Case> cases) {
-    std::erase_if(cases, is_extreme_scene);
-    std::stable_sort(cases.begin(), cases.end(),
-                     [](const Case& a, const Case& b) { return plainness_of(a) < plainness_of(b); });
+  /// Ordinary scenes first, then the plainest.
+  static std::vector<Case> in_order(std::vector<Case> cases) {
+    std::stable_sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) {
+      return std::pair(is_extreme_scene(a), plainness_of(a)) < std::pair(is_extreme_scene(b), plainness_of(b));
+    });
     return cases;
+  }
+  /// The case with its finding; empty where it is not wrong each time, and where the finding is one of extreme scenes
+  /// alone.
+  std::optional<Candidate> wrong_each_time(const Case& c, const Subject& subject) {
+    const FiledReport filed{"", "", c, &subject, before_.measure.value_or(SceneMeasure())};
+    std::optional<Candidate> wrong = asked_again(filed, workers_);
+    const bool is_kept = wrong && !wrong->extreme && asked_again(filed, workers_);
+    return is_kept ? wrong : std::nullopt;
   }
   /// Empty where no case is wrong each time.
   std::optional<TriagedSignature> row_of_wrong_now(const Of& of, const std::vector<Case>& cases) {
-    constexpr std::size_t most_kept = 64;
+    constexpr std::size_t most_kept = 32;
     TriagedSignature s;
-    s.kind.subject = of.second;
     for (const Case& c : cases) {
-      const FindingKind of_query{of.first, of.second, "", "", ""};
-      const std::optional<Finding> f = finding_now(c, of_query, workers_), second = finding_now(c, of_query, workers_);
-      if (!f || !second || !is_bad(*f) || !is_bad(*second)) continue;
-      if (s.cases.empty()) describe_wrong_now(c, s);
+      const std::optional<Candidate> wrong = wrong_each_time(c, *find_subject(of.second));
+      if (!wrong) continue;
+      if (s.cases.empty()) describe_wrong_now(c, *wrong, *find_subject(of.second), s);
       s.cases.push_back(c);
-      const FindingPart part{kind_of_finding(*c.query, of.second, *f), {}};
+      const FindingPart part{wrong->kind, {}};
       if (std::find(s.parts.begin(), s.parts.end(), part) == s.parts.end()) s.parts.push_back(part);
       if (s.cases.size() == most_kept) break;
     }
@@ -315,26 +321,24 @@ class Comparison {
     s.id = name_of_wrong_now(of.first, of.second);
     s.names = {s.id};
     s.change = SignatureChange::fresh;
-    const std::uint64_t asked = asked_.again.asked_of(of.first, of.second);
-    s.why = fmt::format("of the {} of the baseline, {}{} were right then and are wrong now", plural_text(asked, "case"),
-                        cases.size() < AskedAgain::most_kept ? "" : "more than ", count_text(cases.size()));
+    s.why = fmt::format("{}{} of the baseline's run: right then, wrong now",
+                        cases.size() < AskedAgain::most_kept ? "" : "more than ", plural_text(cases.size(), "case"));
     return s;
   }
   /// The plainest case, its error and its cause.
-  void describe_wrong_now(const Case& c, TriagedSignature& s) {
-    const Subject& subject = *find_subject(s.kind.subject);
-    Report r = examine(c, subject, workers_);
-    s.kind = kind_of_finding(*c.query, subject.name, r.finding);
+  void describe_wrong_now(const Case& c, const Candidate& wrong, const Subject& subject, TriagedSignature& s) {
+    s.kind = wrong.kind;
     s.version = subject.version;
     s.asked_as = subject.offering(c.query->name).how;
-    s.size = error_size(c, r.finding);
-    s.severity = severity_of(r.finding, s.size, 1);
-    s.headline = headline(r);
-    s.branches = r.finding.branches;
+    s.size = wrong.size;
+    s.severity = severity_of(wrong.finding, wrong.size, 1);
+    s.headline = wrong.headline;
+    s.branches = wrong.variant.branches;
     s.case_of_simplest = c;
     s.cause.text =
         "It was not looked for: the baseline has such findings in other cases, and those near by may be among them.";
     if (settings_.folder.empty()) return;
+    Report r = examine(c, subject, workers_);
     const fs::path file = settings_.folder / "simplest" / c.query->name /
                           fmt::format("{}-{}-{}.json", r.subject, fault_of(r.finding), id_of(r));
     r.replay = replay_command(subject, file.string());
@@ -347,11 +351,14 @@ class Comparison {
   void set_part_fixed() {
     for (std::size_t k = 0; k < before_.rows.size(); ++k) {
       const TriagedSignature& earlier = before_.rows[k];
-      if (!asked_.rows[k] || !asked_.rows[k]->is_part_fixed() || earlier.range || depends_on_time(earlier.kind))
-        continue;
+      if (!asked_.rows[k] || earlier.range || depends_on_time(earlier.kind)) continue;
       const CasesNow& c = *asked_.rows[k];
-      set_part_fixed(earlier, fmt::format("{} of the {} of the baseline: gone", count_text(c.gone),
-                                          plural_text(c.asked, "kept case")));
+      if (c.is_part_fixed()) {
+        set_part_fixed(earlier, fmt::format("{} of the {} of the baseline: gone", count_text(c.gone),
+                                            plural_text(c.asked, "kept case")));
+      } else {
+        note_smaller_error(earlier);
+      }
     }
     for (const auto& [of, cases] : asked_.right_now) {
       if (cases == 0 || has_breakages(of) || is_fixed_in_part(of)) continue;
@@ -398,17 +405,29 @@ class Comparison {
     }
     return most;
   }
-  /// The subject, asked the worst case of the baseline again, errs by much more than then.
-  bool errs_more(const TriagedSignature& earlier, TriagedSignature& now) {
-    if (!earlier.case_of_worst || earlier.size.relative == 0 || earlier.range) return false;
+  /// The size of the error of the worst case of the baseline now; empty where it has not the row's fault any more.
+  std::optional<double> size_of_worst(const TriagedSignature& earlier) {
+    if (!earlier.case_of_worst || earlier.size.relative == 0 || earlier.range) return std::nullopt;
     const std::optional<Finding> f = finding_now(*earlier.case_of_worst, earlier.kind, workers_);
     const std::optional<FindingClass> wrong = class_now(f, *earlier.case_of_worst, earlier.kind);
-    if (!wrong || !has_part_of(earlier, *wrong)) return false;
-    const double size = error_size(*earlier.case_of_worst, *f).relative;
-    if (size < much_worse * earlier.size.relative) return false;
-    now.why = fmt::format("the worst case of the baseline errs by {}, then by {}", share_text(size),
-                          share_text(earlier.size.relative));
+    if (!wrong || !has_part_of(earlier, *wrong)) return std::nullopt;
+    return error_size(*earlier.case_of_worst, *f).relative;
+  }
+  static std::string sizes_text(const TriagedSignature& earlier, double now) {
+    return fmt::format("the worst case of the baseline errs by {}, then by {}", share_text(now),
+                       share_text(earlier.size.relative));
+  }
+  /// The subject, asked the worst case of the baseline again, errs by much more than then.
+  bool errs_more(const TriagedSignature& earlier, TriagedSignature& now) {
+    const std::optional<double> size = size_of_worst(earlier);
+    if (!size || *size < much_worse * earlier.size.relative) return false;
+    now.why = sizes_text(earlier, *size);
     return true;
+  }
+  /// It errs by much less.
+  void note_smaller_error(const TriagedSignature& earlier) {
+    const std::optional<double> size = size_of_worst(earlier);
+    if (size && much_worse * *size <= earlier.size.relative) set_part_fixed(earlier, sizes_text(earlier, *size));
   }
 
   const Baseline& before_;

@@ -24,8 +24,7 @@ using nlohmann::json;
 
 constexpr int examined_schema_version = 1;
 
-/// The parts of the time that the search for a simpler case and the ranges of its numbers may take each; the cause may
-/// take the rest.
+/// The part of the time that the search for a simpler case may take; the cause may take the rest.
 constexpr double share_of_minimising = 0.25;
 
 }  // namespace
@@ -57,11 +56,11 @@ std::optional<ExaminedCase> ExaminedCases::earlier(const FiledReport& of) try {
 std::optional<ExaminedCase> ExaminedCases::examine(const FiledReport& of, const Case& plain,
                                                    std::chrono::duration<double> time,
                                                    const std::function<void(std::uint64_t)>& tick) {
-  const MinimiseLimits limits{MinimiseLimits().questions, share_of_minimising * time, true};
+  const MinimiseLimits limits{MinimiseLimits().questions, share_of_minimising * time, true, false};
   std::optional<Minimised> m = minimise(plain, *of.subject, limits, workers_, tick);
   if (!m || interrupted()) return std::nullopt;
   Report& r = m->report;
-  const CauseLimits cause_limits{CauseLimits().questions, (1 - 2 * share_of_minimising) * time};
+  const CauseLimits cause_limits{CauseLimits().questions, (1 - share_of_minimising) * time};
   ExaminedCase e{r.question,
                  {},
                  r.finding.branches,
@@ -84,6 +83,17 @@ std::optional<ExaminedCase> ExaminedCases::examine(const FiledReport& of, const 
                                        {"nearmiss", version()},
                                        {"simplest", below.generic_string()}}));
   return e;
+}
+
+void ExaminedCases::add_ranges(const ExaminedCase& e, const Subject& subject, std::chrono::duration<double> time,
+                               const std::function<void(std::uint64_t)>& tick) {
+  nlohmann::ordered_json report = nlohmann::ordered_json::parse(read_file(e.file), nullptr, false);
+  if (!report.is_object() || !report.contains("minimised") || !report["minimised"]["same_finding"].empty()) return;
+  const std::optional<Minimised> m = ranges_around(e.simplest, subject, time, workers_, tick);
+  if (!m) return;
+  report["minimised"]["same_finding"] = ranges_to_json(m->ranges, e.simplest);
+  report["minimised"]["questions"] = report["minimised"]["questions"].get<std::uint64_t>() + m->questions;
+  write_file(e.file, pretty_json(report));
 }
 
 }  // namespace nearmiss

@@ -34,6 +34,10 @@ class ExaminedCases {
   /// time. Empty where the subject is right now, or after an interrupt.
   std::optional<ExaminedCase> examine(const FiledReport& of, const Case& plain, std::chrono::duration<double> time,
                                       const std::function<void(std::uint64_t)>& tick);
+  /// Adds the ranges of the numbers to the report of the simplest case, which examine() leaves out: most simplest cases
+  /// are no row's. A report that has ranges stays as it is.
+  void add_ranges(const ExaminedCase& e, const Subject& subject, std::chrono::duration<double> time,
+                  const std::function<void(std::uint64_t)>& tick);
 
  private:
   std::filesystem::path file_of(const FiledReport& r) const { return folder_ / "examined" / (r.id + ".json"); }

@@ -147,8 +147,8 @@ class Range {
 bool has_range(const Field& f) { return !is_discrete(f.role); }
 
 /// The ranges of the numbers, in order, as far as the time suffices.
-std::vector<SameFinding> ranges_of(const Case& c, const MinimiseLimits& limits, SameFault& fault) {
-  fault.give(limits.time);
+std::vector<SameFinding> ranges_of(const Case& c, std::chrono::duration<double> time, SameFault& fault) {
+  fault.give(time);
   std::vector<SameFinding> ranges;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (!has_range(c.fields()[i])) continue;
@@ -171,11 +171,22 @@ std::optional<Minimised> minimise(const Case& question, const Subject& subject, 
   Minimised m;
   Case found = simplest(question, limits, fault, m.end);
   const Answer answer = fault.kept();  // after an interrupt the subject cannot be asked again
-  m.ranges = ranges_of(found, limits, fault);
-  m.all_ranges = !fault.has_ended();
+  if (limits.finds_ranges) m.ranges = ranges_of(found, limits.time, fault);
+  m.all_ranges = limits.finds_ranges && !fault.has_ended();
   if (interrupted()) m.end = Minimised::End::interrupted;
   m.questions = fault.questions();
   m.report = examine(found, subject, answer, workers);
+  return m;
+}
+
+std::optional<Minimised> ranges_around(const Case& question, const Subject& subject, std::chrono::duration<double> time,
+                                       Workers& workers, const std::function<void(std::uint64_t)>& tick) {
+  SameFault fault(subject, workers, tick);
+  if (!fault.begin(question) || interrupted()) return std::nullopt;
+  Minimised m;
+  m.ranges = ranges_of(question, time, fault);
+  m.all_ranges = !fault.has_ended();
+  m.questions = fault.questions();
   return m;
 }
 
@@ -201,17 +212,23 @@ Minimised::End end_in(const FileValue& words) {
 
 }  // namespace
 
+nlohmann::ordered_json ranges_to_json(const std::vector<SameFinding>& ranges, const Case& question) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const SameFinding& r : ranges) {
+    all.push_back({{"number", question.name(r.number)},
+                   {"low", r.low},
+                   {"high", r.high},
+                   {"to_lowest", r.to_lowest},
+                   {"to_highest", r.to_highest}});
+  }
+  return all;
+}
+
 nlohmann::ordered_json minimised_to_json(const Minimised& m) {
   nlohmann::ordered_json j = report_to_json(m.report);
-  nlohmann::ordered_json ranges = nlohmann::ordered_json::array();
-  for (const SameFinding& r : m.ranges) {
-    ranges.push_back({{"number", m.report.question.name(r.number)},
-                      {"low", r.low},
-                      {"high", r.high},
-                      {"to_lowest", r.to_lowest},
-                      {"to_highest", r.to_highest}});
-  }
-  j["minimised"] = {{"questions", m.questions}, {"ended_by", name_of(m.end)}, {"same_finding", ranges}};
+  j["minimised"] = {{"questions", m.questions},
+                    {"ended_by", name_of(m.end)},
+                    {"same_finding", ranges_to_json(m.ranges, m.report.question)}};
   return j;
 }
 

@@ -46,6 +46,7 @@ struct MinimiseLimits {
   /// other. So the simplest case of one mistake does not become a case of another, and its regions are those that the
   /// finding needs.
   bool stays_in_regions = false;
+  bool finds_ranges = true;  ///< false: `ranges` stays empty; add_ranges() finds them
 };
 
 /// Empty where nothing is to be found against the subject's answer. The subject must offer the query, and the case must
@@ -54,7 +55,14 @@ struct MinimiseLimits {
 std::optional<Minimised> minimise(const Case& question, const Subject& subject, const MinimiseLimits& limits,
                                   Workers& workers, const std::function<void(std::uint64_t)>& tick);
 
+/// The ranges of the numbers of a case, for at most this time, and how often the subject was asked for them. Empty
+/// where nothing is to be found against the subject's answer.
+std::optional<Minimised> ranges_around(const Case& question, const Subject& subject, std::chrono::duration<double> time,
+                                       Workers& workers, const std::function<void(std::uint64_t)>& tick);
+
 std::string_view name_of(Minimised::End end);
+/// A list for the member "same_finding" of "minimised".
+nlohmann::ordered_json ranges_to_json(const std::vector<SameFinding>& ranges, const Case& question);
 /// The report with the member "minimised" (reports/report.schema.json).
 nlohmann::ordered_json minimised_to_json(const Minimised& m);
 /// The inverse for the member "minimised" of a report. A number that the query does not have is left out. Throws
