@@ -284,10 +284,16 @@ class Comparison {
       const bool is_told = std::any_of(now_.signatures.begin(), now_.signatures.end(), [&](const auto& s) {
         return s.change == SignatureChange::fresh && !s.range && has_part_of(s, of.first, of.second);
       });
-      if (is_told) continue;
+      if (is_told || !has_more_wrong(of)) continue;
       std::optional<TriagedSignature> row = row_of_wrong_now(of, in_order(cases));
       if (row) now_.signatures.push_back(std::move(*row));
     }
+  }
+  /// More cases have become wrong than right. The mend of one mistake may show another where it hid it: these are
+  /// fewer.
+  bool has_more_wrong(const Of& of) const {
+    const auto right = asked_.right_now.find(of);
+    return right == asked_.right_now.end() || asked_.wrong_now.at(of).size() > right->second;
   }
   /// Ordinary scenes first, then the plainest.
   static std::vector<Case> in_order(std::vector<Case> cases) {
@@ -321,8 +327,7 @@ class Comparison {
     s.id = name_of_wrong_now(of.first, of.second);
     s.names = {s.id};
     s.change = SignatureChange::fresh;
-    s.why = fmt::format("{}{} of the baseline's run: right then, wrong now",
-                        cases.size() < AskedAgain::most_kept ? "" : "more than ", plural_text(cases.size(), "case"));
+    s.why = fmt::format("{} of the baseline's run: right then, wrong now", plural_text(cases.size(), "case"));
     return s;
   }
   /// The plainest case, its error and its cause.

@@ -97,7 +97,7 @@ class ChangedAnswers : public Sink {
     if (!before_ || !WrongCases::may_have(e.question) || e.answer.late()) return;
     const bool was_wrong = before_->has(e.question), is_wrong = is_bad(e.finding);
     right_now += was_wrong && !is_wrong;
-    if (!was_wrong && is_wrong && wrong_now.size() < AskedAgain::most_kept) wrong_now.push_back(e.question);
+    if (!was_wrong && is_wrong) wrong_now.push_back(e.question);
   }
   bool needs_second(const Examined&) const override { return false; }
 

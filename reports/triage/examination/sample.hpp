@@ -67,10 +67,9 @@ bool can_be_drawn_again(const Sample& s);
 struct AskedAgain {
   Sample sample;          ///< empty where not all were asked
   bool is_whole = false;  ///< false where the time was over before the last case, or an interrupt came
-  /// Cases that the subject answered right and that are wrong now; the first `most_kept`. Late answers are none.
+  /// Cases that the subject answered right and that are wrong now. Late answers are none.
   std::vector<Case> wrong_now;
   std::uint64_t right_now = 0;  ///< the number of cases that it answered wrong and that are right now
-  static constexpr std::size_t most_kept = 1024;
 };
 
 /// Asks a subject the cases of a sample again. Empty where they cannot be asked.
