@@ -673,8 +673,8 @@ exit 1
   EXPECT_EQ(o.passed, o.seeds.size());
   EXPECT_EQ(o.failed, std::vector<std::string>(o.seeds.size(), "Agreement/EveryTier.Answers/two"));
   EXPECT_EQ(o.ended, "");
-  EXPECT_EQ(
-      read_file(folder / "r/properties/41.log").find("41 " + (folder / "r").string() + " seed=41 max_success=4 "), 0u);
+  EXPECT_EQ(read_file(folder / "r/properties/41.log").find("41 " + (folder / "r").string() + " seed=41 max_success=4 "),
+            0u);
   EXPECT_EQ(
       read_file(folder / "r/properties/42.log").find("42 " + (folder / "r").string() + " seed=42 max_success=200 "),
       0u);
