@@ -173,16 +173,18 @@ std::string declare_all(const nearmiss_declaration* list, Subject& subject) {
     const std::string name = text_or_none(list[i].convention), query = text_or_none(list[i].query);
     if (i == most_declarations) return "its declarations have no end";
     const auto convention = convention_named(name);
-    if (!convention) return "it declares '" + name + "', which is none of " + convention_names();
+    std::string fault = "it declares '";
+    fault.append(name).append("'");
+    if (!convention) return fault.append(", which is none of ").append(convention_names());
     bool is_about_any = false;
     for (Offering& o : subject.offerings) {
       if (!is_declared_for(list[i], o)) continue;
       o.declare({{*convention, text_or_none(list[i].sentence)}});
       is_about_any = true;
     }
-    if (!is_about_any && list[i].query != nullptr)
-      return "it declares '" + name + "' for " + query + ", which it does not offer";
-    if (!is_about_any) return "it declares '" + name + "', which has no effect on a query that it offers";
+    if (is_about_any) continue;
+    if (list[i].query == nullptr) return fault.append(", which has no effect on a query that it offers");
+    return fault.append(" for ").append(query).append(", which it does not offer");
   }
   return {};
 }
