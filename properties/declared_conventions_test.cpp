@@ -205,7 +205,7 @@ Answer answer_of(const Query& query, const Alternative& right_one) {
 }
 
 class EveryDeclared : public testing::TestWithParam<NamedQuery> {};
-INSTANTIATE_FOR_EVERY_QUERY(Queries, EveryDeclared, testing::ValuesIn(every_query()));
+INSTANTIATE_FOR_EVERY_QUERY(Every, EveryDeclared, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
 
 /// What is right by a convention is never accused, and the opposite decision is not called right.
 TEST_P(EveryDeclared, RightAnswersAreNeverAccused) {
