@@ -112,9 +112,8 @@ std::string_view name_of(Breach b) {
 }
 
 bool claims_same_bits(const Subject& subject) {
-  return subject.own && std::none_of(subject.offerings.begin(), subject.offerings.end(), [](const Offering& o) {
-           return o.contract.exact_decisions && !promises_every_digit(o.contract);
-         });
+  return subject.own && std::none_of(subject.offerings.begin(), subject.offerings.end(),
+                                     [](const Offering& o) { return o.contract.exact_decisions; });
 }
 
 bool offers_all(const Subject& subject, const FollowUps& follow_ups) {

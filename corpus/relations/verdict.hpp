@@ -42,7 +42,8 @@ RelationFinding relate(const Relation& relation, const FollowUps& follow_ups, co
                        std::vector<Answer> answers, const Subject& subject, bool bit_for_bit);
 
 /// Whether the subject claims bitwise equal answers to scaled cases: the tiers of `collide` do, but for those that
-/// promise exact decisions alone. Such a tier takes its numbers from one of two computations, by the size of the case.
+/// promise exact decisions. Such a tier takes its numbers from one of several computations, by the size of the case:
+/// a filter answers for lengths up to 2^60, say, and exact arithmetic beyond.
 bool claims_same_bits(const Subject& subject);
 
 using Ask = std::function<Answer(const Case&)>;
