@@ -96,7 +96,7 @@ std::string signature_text(const TriagedSignature& s) {
   const std::string findings = findings_text(s);
   text += wrapped_text(size_text(s.size) + (findings.empty() ? "" : "; " + findings), "     ");
   if (!s.why.empty()) text += wrapped_text(s.why, "     ");
-  if (!s.asked_as.empty()) text += wrapped_text("asked as: " + s.asked_as, "     ");
+  if (!s.asked_as.empty()) text += fmt::format("     asked as: {}\n", s.asked_as);  // a line of its own: foreign text
   if (const std::string queries = queries_text(s); !queries.empty()) text += wrapped_text(queries, "     ");
   text += wrapped_text(sentences_of(s.cause) + (s.range ? "" : needs_text(s)), "     ");
   if (!s.simplest.empty()) text += fmt::format("     {}\n", path_text(s.simplest));

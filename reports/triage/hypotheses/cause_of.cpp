@@ -67,7 +67,7 @@ class CausesOfCase {
       evidence_.push_back({"The subject was asked again.", "The finding is gone."});
       return {};
     }
-    asked_.roundings(), asked_.scans();
+    asked_.roundings(), asked_.scans(), asked_.similar();
     if (first_of(shown_by_answers) || all_of(inferred) || first_of(left_over)) return named_;
     return {};
   }
