@@ -12,6 +12,7 @@
 #include "impl/subject/floating_point.hpp"
 #include "oracles/derived_case.hpp"
 #include "oracles/exact_decision.hpp"
+#include "oracles/motion_numbers.hpp"
 #include "oracles/requirements.hpp"
 #include "oracles/seen_from_behind.hpp"
 #include "oracles/touch.hpp"
@@ -98,29 +99,17 @@ void set_number(Alternative& a, std::size_t i, double x) {
   a.values[i] = {x, x}, a.nearest[i] = x, a.decimals[i] = fmt::format("{}", x);
 }
 
-/// The case without a limit of time beyond 1.
-Case with_limit_of_one(Case c) {
+/// The case whose limit of time counts: no flag says that there is none.
+Case with_limit(Case c) {
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (c.role(i) == Role::flag) c.values[i] = 0;
   }
   return c;
 }
 
-/// The first numbers of a motion: where it starts, and its velocity or the direction of a ray.
-struct Motion {
-  std::size_t place, way;
-};
-std::optional<Motion> motion_of(const Case& c) {
-  const Operands& parts = c.operands();
-  if (!parts.start) return std::nullopt;
-  if (!parts.velocities.empty()) return Motion{parts.start->place, parts.velocities[0]};
-  if (!parts.directions.empty()) return Motion{parts.start->place, parts.directions[0]};
-  return std::nullopt;
-}
-
 /// A power of two that is several times as long as the motion needs to leave everything in the case; empty where
 /// nothing moves, or where that number overflows.
-std::optional<double> time_beyond_all(const Case& c, const Motion& m) {
+std::optional<double> time_beyond_all(const Case& c, const MotionNumbers& m) {
   double reach = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const Role role = c.role(i);
@@ -148,7 +137,7 @@ DeclaredOracle::DeclaredOracle(const Case& question, const Answer& answer, Conve
   }
   if (declared_.empty()) return;
   const bool ends_by_limit = has(Convention::ends_at_time_one) && question.query->kind != Kind::impact;
-  Case meant = ends_by_limit ? with_limit_of_one(question) : question;
+  Case meant = ends_by_limit ? with_limit(question) : question;
   if (ends_by_limit) {
     const std::size_t limit = *index_of_role(question.fields(), Role::time);
     const bool is_forever = meant.values != question.values;
@@ -265,7 +254,7 @@ DeclaredOracle::Result DeclaredOracle::of_view(const View& view, const Asked& as
 DeclaredOracle::Result DeclaredOracle::with_center(Result r, const View& view, const Asked& asked) const {
   const Part& place = *part(Role::position);
   const std::size_t time = part(Role::time)->begin;
-  const Motion m = *motion_of(view.question);
+  const MotionNumbers m = *motion_numbers_of(view.question);
   const auto number = [&](std::size_t i) { return Range::within(view.question.values[i], asked.widening[i]); };
   for (Alternative& a : r.right) {
     if (!a.yes || a.count < place.end) continue;
@@ -323,6 +312,9 @@ DeclaredOracle::Result DeclaredOracle::by_start(Result r, const Asked& asked) co
     auto exit = where_it_leaves(asked);
     if (!exit) return r;
     other = std::move(*exit);
+    for (Alternative& a : other.right) {
+      if (has(Convention::normal_reversed)) reverse_normals(*question_.query, a);
+    }
   } else {
     other = hit_at_start(r);
   }
@@ -384,7 +376,7 @@ std::optional<DeclaredOracle::Result> DeclaredOracle::where_it_leaves(const Aske
     hollow.values[*solid] = 0;
     return ask(hollow, view.answer, asked);
   }
-  const auto motion = motion_of(view.question);
+  const auto motion = motion_numbers_of(view.question);
   if (!motion) return std::nullopt;
   const auto beyond = time_beyond_all(view.question, *motion);
   if (!beyond) return std::nullopt;

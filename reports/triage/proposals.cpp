@@ -11,13 +11,11 @@
 #include "oracles/judge.hpp"
 #include "oracles/scene_limits.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/triage/causes/tested.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-/// At least 9 in 10.
-bool is_nearly_all(std::size_t part, std::size_t all) { return all > 0 && 10 * part >= 9 * all; }
 
 /// The answer is proved wrong. Under the convention, where there is one.
 bool is_wrong(const Case& c, const Answer& a, Standard standard, std::optional<Convention> declared = std::nullopt) {
@@ -116,9 +114,9 @@ class Proposals {
       ++seen;
       right += may_be_declared(s, *question.query, convention) && c.answer.status == Answer::Status::answered &&
                !is_wrong(question, c.answer, s.standard_for(question.query->name), convention);
-      if (!is_nearly_all(right + all - seen, all)) return false;
+      if (!nearly_all(right + all - seen, all)) return false;
     }
-    return is_nearly_all(right, seen);
+    return nearly_all(right, seen);
   }
   /// True where declaring it for all queries that it concerns makes no right answer wrong.
   bool is_harmless_elsewhere(const Subject& s, const ProposedConvention& p) {

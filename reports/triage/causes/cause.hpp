@@ -32,6 +32,7 @@ struct Evidence {
   std::vector<CauseKind> against{};  ///< causes of these kinds are not named beside it
 };
 
+/// A cause without what was seen.
 struct CauseName {
   CauseKind kind = CauseKind::unexplained;
   std::string key;   ///< tells two bugs of a kind apart, stable within one bug: "normal reversed"; may be empty

@@ -143,7 +143,7 @@ std::uint64_t findings_in(const Sample& s) {
   return all;
 }
 
-/// "new, …; fixed, …": the rows with one of these changes, at most so many of them.
+/// The texts of the rows that are shown, at most so many, and how many more there are.
 std::string rows_text(const Triage& t, std::size_t most, const std::function<bool(const TriagedSignature&)>& is_shown,
                       const std::function<std::string(const TriagedSignature&)>& text_of) {
   std::string text;

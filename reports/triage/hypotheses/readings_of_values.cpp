@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "oracles/motion_numbers.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/triage/hypotheses/readings.hpp"
 
@@ -23,42 +24,29 @@ Answer only(const Answer& a, const Layout::Part& p) {
   return other;
 }
 
-/// Where a motion starts, and its velocity; a ray has a direction in its place.
-struct Motion {
-  std::size_t start, velocity;
-};
-
-std::optional<Motion> motion_of(const Case& c) {
-  const Operands& parts = c.operands();
-  if (!parts.start) return std::nullopt;
-  if (!parts.velocities.empty()) return Motion{parts.start->place, parts.velocities[0]};
-  if (!parts.directions.empty()) return Motion{parts.start->place, parts.directions[0]};
-  return std::nullopt;
-}
-
 /// A power of two that is longer than the motion needs to pass everything that the case has; empty where nothing moves.
-std::optional<double> time_beyond_all(const Case& c, const Motion& m) {
+std::optional<double> time_beyond_all(const Case& c, const MotionNumbers& m) {
   double reach = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     const Role role = c.role(i);
     if (role == Role::position || role == Role::size || role == Role::offset) reach += std::abs(c.values[i]);
   }
-  const double* v = &c.values[m.velocity];
+  const double* v = &c.values[m.way];
   const double time = std::exp2(std::ceil(std::log2(reach / std::hypot(v[0], v[1], v[2]))) + 1);
   return std::isfinite(time) && time > 0 ? std::optional(time) : std::nullopt;
 }
 
 /// The case `time` later, in double.
-Case later(const Case& c, const Motion& m, double time) {
+Case later(const Case& c, const MotionNumbers& m, double time) {
   Case other = c;
   other.scalar = Scalar::float64;
-  for (std::size_t k = 0; k < 3; ++k) other.values[m.start + k] += time * c.values[m.velocity + k];
+  for (std::size_t k = 0; k < 3; ++k) other.values[m.place + k] += time * c.values[m.way + k];
   return other;
 }
 
 /// A contact before the start, judged as that of a motion which starts earlier.
 Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto motion = motion_of(c);
+  const auto motion = motion_numbers_of(c);
   if (!motion || !answers_yes(a)) return std::nullopt;
   const Layout::Part* place = given_part(c, a, Role::position);
   const Layout::Part* time = given_part(c, a, Role::time);
@@ -66,7 +54,7 @@ Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
   if (!earlier || place == nullptr) return std::nullopt;
   double along = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    along += (a.values[place->begin + k] - c.values[motion->start + k]) * c.values[motion->velocity + k];
+    along += (a.values[place->begin + k] - c.values[motion->place + k]) * c.values[motion->way + k];
   const bool is_before = time == nullptr ? along < 0 : a.values[time->begin] < 0;
   if (!is_before) return std::nullopt;
   Answer other = a;
@@ -80,14 +68,14 @@ Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
 
 /// The place and the time, judged as those of the reversed motion that comes from beyond everything.
 Fits where_it_leaves(const Case& c, const Answer& a, const IsRight& is_right) {
-  const auto motion = motion_of(c);
+  const auto motion = motion_numbers_of(c);
   if (!motion || !answers_yes(a) || c.query->traits.one_sided) return std::nullopt;
   const Layout::Part* place = given_part(c, a, Role::position);
   const Layout::Part* time = given_part(c, a, Role::time);
   const auto beyond = time_beyond_all(c, *motion);
   if (place == nullptr || !beyond || is_right(c, only(a, *place))) return std::nullopt;
   Case back = later(c, *motion, *beyond);
-  for (std::size_t k = 0; k < 3; ++k) back.values[motion->velocity + k] = -c.values[motion->velocity + k];
+  for (std::size_t k = 0; k < 3; ++k) back.values[motion->way + k] = -c.values[motion->way + k];
   if (c.query->broken(back.values)) return std::nullopt;
   Answer other = a;
   other.given &= bits_of(*place) | (time == nullptr ? 0 : bits_of(*time));
