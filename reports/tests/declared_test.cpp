@@ -119,7 +119,8 @@ TEST(Declared, ByAProgram) {
       folder, R"(["start in contact is a miss", {"convention": "normal reversed", "sentence": "Into the box."}])");
   const Ran ran = nearmiss({"list", "--json", "--command", program});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  for (const json& q : json::parse(ran.out).at("queries")) {
+  const json listed = json::parse(ran.out);
+  for (const json& q : listed.at("queries")) {
     if (q.at("query") != "moving_point_box") continue;
     EXPECT_EQ(
         q.at("declared").at("told").dump(),
