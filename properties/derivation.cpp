@@ -75,7 +75,7 @@ VR RefBox::world(const VR& local) const {
 }
 
 Derivation derivation_of(const Query& query) {
-  for (const auto table : {of_shapes(), of_boxes(), of_moving_points(), of_moving_spheres()}) {
+  for (const auto table : {of_shapes(), of_boxes(), of_grid(), of_moving_points(), of_moving_spheres()}) {
     for (const Derived& d : table) {
       if (query.name == d.query) return d.derivation;
     }

@@ -153,6 +153,7 @@ struct Derived {
 };
 std::span<const Derived> of_shapes();
 std::span<const Derived> of_boxes();
+std::span<const Derived> of_grid();
 std::span<const Derived> of_moving_points();
 std::span<const Derived> of_moving_spheres();
 

@@ -72,6 +72,32 @@ void put(CaseBuilder& d, const Operand& operand, const Placed& at) {
   }
 }
 
+/// A position of the operand, or a point between its positions.
+Numbers point_of(CaseBuilder& d, const Operand& operand) {
+  Numbers sum{};
+  double weights = 0;
+  for (std::size_t v : operand.positions) {
+    const double w = d.random.uniform(0.01, 1);
+    sum = plus(sum, d.vector(v), w);
+    weights += w;
+  }
+  for (double& x : sum) x /= weights;
+  return sum;
+}
+
+/// Two flat operands, which meet where an edge of one passes through the other.
+bool are_flat(const std::vector<Operand>& operands) {
+  const auto is_flat = [](const Operand& o) { return o.sizes.empty() && !o.traits().edges.empty(); };
+  return operands.size() == 2 && is_flat(operands[0]) && is_flat(operands[1]);
+}
+
+/// Moves the second operand so that a point of it is a point of the first one, but for rounding.
+void let_meet(CaseBuilder& d) {
+  const Operand& moved = d.plan.operands[1];
+  const Numbers way = plus(point_of(d, d.plan.operands[0]), point_of(d, moved), -1);
+  for (std::size_t v : moved.positions) d.set_vector(v, plus(d.vector(v), way));
+}
+
 /// Places the first operand near the origin, the others at distances comparable with the extents of both.
 std::vector<Placed>& place_operands(CaseBuilder& d) {
   static thread_local std::vector<Placed> placed;
@@ -92,20 +118,8 @@ std::vector<Placed>& place_operands(CaseBuilder& d) {
     put(d, operand, p);
     placed.push_back(p);
   }
+  if (chance && are_flat(d.plan.operands) && d.random.one_in(3)) let_meet(d);
   return placed;
-}
-
-/// A position of the operand, or a point between its positions.
-Numbers point_of(CaseBuilder& d, const Operand& operand) {
-  Numbers sum{};
-  double weights = 0;
-  for (std::size_t v : operand.positions) {
-    const double w = d.random.uniform(0.01, 1);
-    sum = plus(sum, d.vector(v), w);
-    weights += w;
-  }
-  for (double& x : sum) x /= weights;
-  return sum;
 }
 
 void aim(CaseBuilder& d, std::size_t velocity, const std::vector<Placed>& placed) {

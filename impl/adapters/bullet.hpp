@@ -239,7 +239,7 @@ struct BulletInDoubles : private BulletShapes {
     requires BulletKnows<First<Q>> && BulletKnows<Second<Q>>
   static auto answer(const Q& q) {
     const auto& [a, b] = shapes_of(q);
-    if constexpr (is_triangle<Second<Q>>) {
+    if constexpr (is_sphere<First<Q>> && is_triangle<Second<Q>>) {
       return decided_alone<Q>(BulletSphereTriangle(a, b).meet());
     } else {
       return decided_alone<Q>(BulletAlgorithm(a, b).deepest().yes());

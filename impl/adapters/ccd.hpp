@@ -50,6 +50,7 @@ struct CcdShapes {
   };
 
   static Convex convex(const collide::Sphere<double>& s) { return {1, {s.center}, {}, {}, s.radius}; }
+  static Convex convex(const collide::Segment<double>& s) { return {2, {s.v0, s.v1}, {}, {}, 0}; }
   static Convex convex(const collide::Triangle<double>& t) { return {3, {t.v0, t.v1, t.v2}, {}, {}, 0}; }
   static Convex convex(const collide::Capsule<double>& c) { return {2, {c.p0, c.p1}, {}, {}, c.radius}; }
   static Convex convex(const collide::Box<double>& b) {

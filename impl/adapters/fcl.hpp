@@ -140,6 +140,8 @@ struct Fcl : FclShapes {
     if constexpr (
         requires(const Q& q) { q.velocity, q.triangle; } || requires(const Q& q) { q.velocity, q.rectangle; }) {
       return "FCL moves nothing against a single triangle, which it has only as a part of meshes";
+    } else if constexpr (is_triangle<First<Q>> && is_triangle<Second<Q>>) {
+      return "FCL tests two triangles only as parts of meshes";
     } else if constexpr (
         requires(const Q& q) { q.point, q.velocity; } || requires(const Q& q) { q.ray; }) {
       return "FCL casts no rays";
@@ -161,6 +163,12 @@ struct Fcl : FclShapes {
     requires FclKnows<First<Q>> && is_triangle<Second<Q>>
   static auto answer(const Q& q) {
     const auto& [body, triangle] = shapes_of(q);
+    return decided_alone<Q>(meets(body, triangle));
+  }
+  template <AsksOverlap Q>
+    requires is_triangle<First<Q>> && FclKnows<Second<Q>>
+  static auto answer(const Q& q) {
+    const auto& [triangle, body] = shapes_of(q);
     return decided_alone<Q>(meets(body, triangle));
   }
   static auto answer(const in::aabox_triangle_overlap<double>& q) -> Reply<collide::Decision<double>> {

@@ -94,7 +94,7 @@ struct Ode : private OdeShapes {
   template <class Q>
   static std::string why_not() {
     if constexpr (
-        requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
+        asks_of_triangle<Q> || requires(const Q& q) { q.triangle; } || requires(const Q& q) { q.rectangle; }) {
       return "ODE has triangles only as parts of meshes";
     } else if constexpr (requires(const Q& q) { q.sphere, q.velocity; }) {
       return "ODE knows no motions";

@@ -70,6 +70,9 @@ using Second = typename detail::ShapeAt<ShapesOf<Q>, 1>::Type;
 
 template <class Q>
 concept OfTwoShapes = std::tuple_size_v<ShapesOf<Q>> == 2;
+/// One of the first two shapes is a triangle.
+template <class Q>
+inline constexpr bool asks_of_triangle = is_triangle<First<Q>> || is_triangle<Second<Q>>;
 template <class Q>
 concept OfMotion = requires(const Q& q) { q.velocity; };
 template <class Q, Kind kind>

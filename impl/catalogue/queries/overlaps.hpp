@@ -1,0 +1,84 @@
+/// Whether two shapes overlap: the queries of grid.def.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "impl/catalogue/inputs.hpp"
+
+namespace nearmiss::inputs {
+
+namespace overlaps {
+
+/// The shapes by their names in shapes.def.
+#define NEARMISS_SHAPE(name, type, words, edges, faces) \
+  template <class T>                                    \
+  using name = collide::type<T>;
+#include "impl/catalogue/shapes.def"
+#undef NEARMISS_SHAPE
+
+constexpr Role role_of(std::string_view shape) { return shape == "point" ? Role::position : Role::inherited; }
+
+/// The same question about two other shapes: a point is a sphere of radius 0, and a segment is a capsule of radius 0.
+constexpr Link as_rounded(QueryId to, std::array<Link::Renamed, 3> renamed) {
+  return {.kind = Link::Kind::same_decision, .to = to, .renamed = renamed};
+}
+/// A capsule whose ends are one point is a sphere.
+constexpr Link as_sphere(QueryId to, std::array<Link::Renamed, 3> renamed) {
+  return {.kind = Link::Kind::capsule_as_sphere, .to = to, .renamed = renamed};
+}
+
+/// The links of a query, by its name.
+constexpr Link of_point_sphere[] = {
+    as_rounded(query_id("sphere_sphere_overlap"), {{{"sphere1.center", "point"}, {"sphere2", "sphere"}}})};
+constexpr Link of_point_capsule[] = {as_rounded(query_id("sphere_capsule_overlap"), {{{"sphere.center", "point"}}})};
+constexpr Link of_point_box[] = {as_rounded(query_id("sphere_box_overlap"), {{{"sphere.center", "point"}}})};
+constexpr Link of_sphere_segment[] = {
+    as_rounded(query_id("sphere_capsule_overlap"), {{{"capsule.p0", "segment.v0"}, {"capsule.p1", "segment.v1"}}})};
+constexpr Link of_sphere_capsule[] = {
+    as_sphere(query_id("sphere_sphere_overlap"),
+              {{{"sphere1", "sphere"}, {"sphere2.center", "capsule.p0"}, {"sphere2.radius", "capsule.radius"}}})};
+constexpr Link of_segment_capsule[] = {
+    as_rounded(query_id("capsule_capsule_overlap"),
+               {{{"capsule1.p0", "segment.v0"}, {"capsule1.p1", "segment.v1"}, {"capsule2", "capsule"}}})};
+constexpr Link of_segment_triangle[] = {
+    as_rounded(query_id("capsule_triangle_overlap"), {{{"capsule.p0", "segment.v0"}, {"capsule.p1", "segment.v1"}}})};
+constexpr Link of_segment_box[] = {
+    as_rounded(query_id("capsule_box_overlap"), {{{"capsule.p0", "segment.v0"}, {"capsule.p1", "segment.v1"}}})};
+constexpr Link of_capsule_capsule[] = {
+    as_sphere(query_id("sphere_capsule_overlap"),
+              {{{"sphere.center", "capsule1.p0"}, {"sphere.radius", "capsule1.radius"}, {"capsule", "capsule2"}}})};
+constexpr Link of_capsule_triangle[] = {as_sphere(
+    query_id("sphere_triangle_overlap"), {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
+constexpr Link of_capsule_box[] = {
+    as_sphere(query_id("sphere_box_overlap"), {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}}),
+    {.kind = Link::Kind::box_as_point,
+     .to = query_id("sphere_capsule_overlap"),
+     .renamed = {{{"sphere.center", "box.center"}, {"sphere.radius", "-"}}}}};
+constexpr std::span<const Link> of_triangle_triangle{}, of_triangle_box{};
+
+}  // namespace overlaps
+
+#define NEARMISS_OVERLAP(first, second)                                                                       \
+  template <class T>                                                                                          \
+  struct first##_##second##_overlap {                                                                         \
+    using Answer = collide::Decision<T>;                                                                      \
+                                                                                                              \
+    overlaps::first<T> a{};                                                                                   \
+    overlaps::second<T> b{};                                                                                  \
+                                                                                                              \
+    static constexpr bool alike = std::string_view(#first) == #second;                                        \
+    static constexpr auto members() {                                                                         \
+      return std::tuple(                                                                                      \
+          member(alike ? #first "1" : #first, &first##_##second##_overlap::a, overlaps::role_of(#first)),     \
+          member(alike ? #second "2" : #second, &first##_##second##_overlap::b, overlaps::role_of(#second))); \
+    }                                                                                                         \
+                                                                                                              \
+    static constexpr Traits traits{.grows = true,                                                             \
+                                   .exchange = alike ? Exchange::always : Exchange::none,                     \
+                                   .links = overlaps::of_##first##_##second};                                 \
+  };
+#include "impl/catalogue/grid.def"
+
+}  // namespace nearmiss::inputs
