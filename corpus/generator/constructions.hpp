@@ -15,6 +15,9 @@ inline constexpr int whole_diagonals[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7},   {1, 4
 bool true_rectangle(CaseBuilder& d);
 /// The moving operand touches another operand, or the plane, at the start. It moves in, along the surface or out.
 bool start_on_surface(CaseBuilder& d);
+/// A vertex of the first operand touches the second one, and its other vertices lead away. For two operands at rest, of
+/// which the first one is no box.
+void touch_at_rest(CaseBuilder& d);
 /// The moving operand meets another operand exactly at the query's time, or that time is an ulp off.
 bool limit_at_contact(CaseBuilder& d);
 

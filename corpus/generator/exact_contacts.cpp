@@ -228,6 +228,16 @@ bool start_on_surface(CaseBuilder& d) {
   return true;
 }
 
+void touch_at_rest(CaseBuilder& d) {
+  const Operand& first = d.plan.operands[0];
+  const Contact c = touch_operand(d, first, d.plan.operands[1]);
+  for (std::size_t i = 0; i < first.positions.size(); ++i) {
+    const Numbers away = i == 0 ? Numbers{} : plus(draw_along(d, c.outward), c.outward, d.random.between(0, 3));
+    d.set_vector(first.positions[i],
+                 plus(c.place, c.block.frame.in_space(away), c.block.step * d.random.power_of_two(0, 3)));
+  }
+}
+
 bool limit_at_contact(CaseBuilder& d) {
   const auto &times = d.plan.numbers[std::size_t(Role::time)], &flags = d.plan.numbers[std::size_t(Role::flag)];
   const Operand* mover = mover_of(d);

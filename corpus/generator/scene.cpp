@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corpus/generator/case_builder.hpp"
+#include "corpus/generator/constructions.hpp"
 
 namespace nearmiss {
 
@@ -122,6 +122,13 @@ std::vector<Placed>& place_operands(CaseBuilder& d) {
   return placed;
 }
 
+/// Two operands at rest of which one has an axis: they touch hardly ever by chance.
+bool may_touch_at_rest(const Plan& plan) {
+  const auto has_axis = [](const Operand& o) { return o.traits().edges.size() == 1; };
+  return plan.query->kind == Kind::decision && plan.velocities.empty() && plan.operands.size() == 2 &&
+         std::any_of(plan.operands.begin(), plan.operands.end(), has_axis);
+}
+
 void aim(CaseBuilder& d, std::size_t velocity, const std::vector<Placed>& placed) {
   if (placed.size() < 2 || d.random.one_in(8)) return d.set_vector(velocity, d.random_vector(2 * d.unit));
   const std::size_t target = 1 + d.random.below(placed.size() - 1);
@@ -179,6 +186,7 @@ void draw_scene(CaseBuilder& d) {
   for (std::size_t v : d.plan.directions) d.set_vector(v, d.random.one_in(2) ? draw_direction(d) : d.random_vector(2));
   for (std::size_t begin : d.plan.rotations) draw_rotation(d, begin);
   for (std::size_t i : d.plan.lone) d.set(i, draw_lone(d, i));
+  if (may_touch_at_rest(d.plan) && d.random.one_in(16)) touch_at_rest(d);
   d.repair();
 }
 

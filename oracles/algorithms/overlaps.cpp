@@ -18,6 +18,8 @@ struct Core {
     Vector<N> along;
   };
   std::vector<Vector<N>> vertices;
+  Vector<N> center;              ///< of a box
+  std::vector<Vector<N>> reach;  ///< of a box: from its center to three of its faces
   std::vector<Edge> edges;
   std::vector<Vector<N>> directions;  ///< of the edges, each once
   std::vector<Vector<N>> normals;     ///< of the faces
@@ -87,17 +89,29 @@ Core<N> core_of(const collide::Box<N>& box) {
   Core<N> core;
   const auto [axes, unit] = axes_of(box.orientation);
   const Vector<N> half = vector(box.half);
+  core.center = times(vector(box.center), unit);
   for (std::size_t corner = 0; corner < 8; ++corner) {
     Vector<N> local = half;
+    bool is_again = false;  // in a box without extent along an axis, two exact corners are one
     for (std::size_t k = 0; k < 3; ++k) {
-      if ((corner >> k & 1) != 0) continue;
+      const bool is_flat = !is_enclosure<N> && surely_zero(half[k]);
+      if ((corner >> k & 1) != 0) {
+        is_again = is_again || is_flat;
+        continue;
+      }
       local[k] = -half[k];
-      core.edges.push_back({corner, axes[k]});
     }
-    core.vertices.push_back(plus(times(vector(box.center), unit), out_of(axes, local)));
+    if (is_again) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_flat = !is_enclosure<N> && surely_zero(half[k]);
+      if ((corner >> k & 1) == 0 && !is_flat) core.edges.push_back({core.vertices.size(), axes[k]});
+    }
+    core.vertices.push_back(plus(core.center, out_of(axes, local)));
   }
+  for (std::size_t k = 0; k < 3; ++k) core.reach.push_back(times(axes[k], half[k]));
   core.unit = unit;
-  core.directions = core.normals = {axes[0], axes[1], axes[2]};
+  core.directions.assign(axes.begin(), axes.end());
+  core.normals = core.directions;
   core.has_volume = std::none_of(half.begin(), half.end(), [](const N& h) { return may_be_at_most_zero(h); });
   return core;
 }
@@ -114,94 +128,238 @@ const Vector<Exact>& place_near(const Core<Exact>& core) { return core.vertices.
 template <class N>
 Core<N> relative_to(const Vector<N>& place, Core<N> core) {
   for (Vector<N>& v : core.vertices) v = minus(v, place);
+  if (!core.reach.empty()) core.center = minus(core.center, place);
   return core;
 }
 
-/// Which decisions the directions that were tried allow.
-template <class N>
-class Directions {
- public:
-  Directions(const Core<N>& a, const Core<N>& b) : a_(a), b_(b), radius2_(square(N(a.radius + b.radius))) { try_all(); }
-  bool may_be_apart() const { return may_be_apart_; }
-  bool may_meet() const { return !surely_apart_; }
-
- private:
-  void try_all() {
-    for (const Vector<N>& normal : a_.normals) separates(normal);
-    for (const Vector<N>& normal : b_.normals) separates(normal);
-    for (const Vector<N>& d : a_.directions) {
-      for (const Vector<N>& e : b_.directions) separates(cross(d, e));
-    }
-    // Without a radius, the facets of a Minkowski difference with a volume suffice.
-    if ((a_.has_volume || b_.has_volume) && surely_zero(radius2_)) return;
-    across_edges(a_, b_);
-    across_edges(b_, a_);
-    for (const Vector<N>& v : a_.vertices) {
-      for (const Vector<N>& w : b_.vertices) separates(minus(w, v));
+/// Calls f for every direction that may be that of the shortest way between the cores, until it returns true: those of
+/// the facets of their Minkowski difference, then, unless the facets suffice, the others.
+template <class N, class F>
+bool any_direction(const Core<N>& a, const Core<N>& b, bool facets_suffice, F&& f) {
+  for (const Vector<N>& normal : a.normals) {
+    if (f(normal)) return true;
+  }
+  for (const Vector<N>& normal : b.normals) {
+    if (f(normal)) return true;
+  }
+  for (const Vector<N>& d : a.directions) {
+    for (const Vector<N>& e : b.directions) {
+      if (f(cross(d, e))) return true;
     }
   }
-  void across_edges(const Core<N>& one, const Core<N>& other) {
-    for (const auto& [from, along] : one.edges) {
+  if (facets_suffice) return false;
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& [from, along] : one->edges) {
       const N length2 = norm2(along);
-      for (const Vector<N>& v : other.vertices) {
-        const Vector<N> way = minus(v, one.vertices[from]);
-        separates(minus(times(way, length2), times(along, dot(way, along))));
+      for (const Vector<N>& v : other->vertices) {
+        const Vector<N> way = minus(v, one->vertices[from]);
+        if (f(minus(times(way, length2), times(along, dot(way, along))))) return true;
       }
     }
   }
-  /// Tries the direction and its opposite.
-  void separates(const Vector<N>& normal) {
-    if (surely_apart_) return;
-    const Shadow a = shadow(normal, a_), b = shadow(normal, b_);
-    for (const N& gap : {N(b.low - a.high), N(a.low - b.high)}) {
-      if (!may_be_positive(gap)) continue;
-      const N beyond = square(assume_at_least_zero(gap)) - radius2_ * norm2(normal);
-      if (!may_be_positive(beyond)) continue;
-      may_be_apart_ = true;
-      surely_apart_ = surely_apart_ || (!may_be_at_most_zero(gap) && !may_be_at_most_zero(beyond));
+  for (const Vector<N>& v : a.vertices) {
+    for (const Vector<N>& w : b.vertices) {
+      if (f(minus(w, v))) return true;
     }
   }
-  struct Shadow {
-    N low, high;
-  };
-  static Shadow shadow(const Vector<N>& normal, const Core<N>& core) {
-    const N first = dot(normal, core.vertices.front());
-    Shadow s{first, first};
-    for (const Vector<N>& v : core.vertices) {
-      const N at = dot(normal, v);
-      s.low = lesser(s.low, at);
-      s.high = -lesser(N(-s.high), N(-at));
-    }
-    return s;
-  }
+  return false;
+}
 
-  const Core<N>& a_;
-  const Core<N>& b_;
-  N radius2_;
-  bool may_be_apart_ = false, surely_apart_ = false;
+/// The ends of a projection on a direction.
+template <class N>
+struct Projection {
+  N low, high;
 };
+template <class N>
+Projection<N> projection(const Vector<N>& direction, const Core<N>& core) {
+  if (!core.reach.empty()) {
+    const N middle = dot(direction, core.center);
+    N around(0);
+    for (const Vector<N>& r : core.reach) around = around + magnitude(dot(direction, r));
+    return {middle - around, middle + around};
+  }
+  const N first = dot(direction, core.vertices.front());
+  Projection<N> p{first, first};
+  for (const Vector<N>& v : core.vertices) {
+    const N at = dot(direction, v);
+    p.low = lesser(p.low, at);
+    p.high = -lesser(N(-p.high), N(-at));
+  }
+  return p;
+}
+
+/// The gap between the projections on a direction, times its length, and the same for its opposite.
+template <class N>
+std::array<N, 2> gaps(const Vector<N>& direction, const Core<N>& a, const Core<N>& b) {
+  const Projection<N> of_a = projection(direction, a), of_b = projection(direction, b);
+  return {N(of_b.low - of_a.high), N(of_a.low - of_b.high)};
+}
+
+/// Which decisions are possible.
+struct Decisions {
+  bool may_be_apart = false, may_meet = true;
+};
+
+/// By the directions that separate.
+template <class N>
+Decisions by_directions(const Core<N>& a, const Core<N>& b) {
+  const N radius2 = square(N(a.radius + b.radius));
+  Decisions d;
+  d.may_meet = !any_direction(a, b, (a.has_volume || b.has_volume) && surely_zero(radius2), [&](const Vector<N>& n) {
+    for (const N& gap : gaps(n, a, b)) {
+      if (!may_be_positive(gap)) continue;
+      const N beyond = square(assume_at_least_zero(gap)) - radius2 * norm2(n);
+      if (!may_be_positive(beyond)) continue;
+      d.may_be_apart = true;
+      if (!may_be_at_most_zero(gap) && !may_be_at_most_zero(beyond)) return true;
+    }
+    return false;
+  });
+  return d;
+}
+
+/// Whether the Minkowski difference of the cores certainly has a volume: three of their edges span the space.
+template <class N>
+bool surely_spans(const Core<N>& a, const Core<N>& b) {
+  std::vector<Vector<N>> extents;
+  for (const Core<N>* core : {&a, &b}) {
+    const auto& of_core = core->reach.empty() ? core->directions : core->reach;
+    extents.insert(extents.end(), of_core.begin(), of_core.end());
+  }
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector<N> across = cross(extents[i], extents[j]);
+      for (std::size_t k = 0; k < j; ++k) {
+        if (!may_be_zero(dot(across, extents[k]))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Encloses the signed distance of two cores: the greatest gap over the directions of length 1. Where it is negative, a
+/// direction of a facet has it, if the Minkowski difference has a volume; without a volume it is not negative.
+/// nullopt: a direction may be zero, so that the intervals cannot tell. The cores are in units of 1 / unit.
+template <class N>
+std::optional<Bounds> signed_distance(const Core<N>& a, const Core<N>& b, const N& unit = N(1)) {
+  Bounds s{-HUGE_VAL, surely_spans(a, b) ? -HUGE_VAL : 0.0};
+  N greatest(0), length2(0);  // of exact numbers: gap and direction
+  bool any = false;
+  const bool unknown = any_direction(a, b, false, [&](const Vector<N>& n) {
+    const N n2 = norm2(n);
+    if (surely_zero(n2)) return false;
+    if (may_be_zero(n2)) return true;
+    for (const N& gap : gaps(n, a, b)) {
+      if constexpr (is_enclosure<N>) {
+        const Bounds by = bounds(N(gap / root(n2)));
+        s = {std::max(s.low, by.low), std::max(s.high, by.high)};
+      } else {  // |gap| gap / n2 grows with gap / |n|
+        const auto signed_square = [](const N& x) { return may_be_negative(x) ? N(-square(x)) : square(x); };
+        if (any && !may_be_less(N(signed_square(greatest) * n2), N(signed_square(gap) * length2))) continue;
+        greatest = gap, length2 = n2, any = true;
+      }
+    }
+    return false;
+  });
+  if (unknown) return std::nullopt;
+  if constexpr (!is_enclosure<N>) {
+    if (any) {
+      const Bounds by = bounds(N(N(greatest / N(length2 * unit)) * root(length2)));
+      s = {std::max(s.low, by.low), std::max(s.high, by.high)};
+    }
+  }
+  return s;
+}
+
+/// How far a vertex of the core moves at most from where it is for the inputs in the middle.
+double movement(const Core<Interval>& core, const Core<Interval>& middle) {
+  double furthest2 = 0;
+  for (std::size_t i = 0; i < core.vertices.size(); ++i) {
+    furthest2 = std::max(furthest2, norm2(minus(core.vertices[i], middle.vertices[i])).sup());
+  }
+  return root(Interval(furthest2)).sup() + magnitude(core.radius - middle.radius).sup();
+}
+
+/// The inputs without numbers that are below 2^-100 of the largest length, or of the largest component of a rotation:
+/// exact arithmetic on the others is cheap.
+template <class Q>
+std::vector<double> without_tiny_numbers(std::span<const double> inputs) {
+  const std::vector<Role> roles = roles_of(Q{});
+  std::array<double, 2> largest{};
+  const auto of = [&](std::size_t i) -> double& { return largest[roles[i] == Role::rotation ? 1 : 0]; };
+  for (std::size_t i = 0; i < inputs.size(); ++i) of(i) = std::max(of(i), std::abs(inputs[i]));
+  std::vector<double> kept(inputs.begin(), inputs.end());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (std::abs(kept[i]) < 0x1p-100 * of(i)) kept[i] = 0;
+  }
+  return kept;
+}
+template <class Q>
+Q inputs_at(const std::vector<double>& values) {
+  Q q;
+  std::size_t i = 0;
+  collide::for_each_leaf(q, [&](Interval& x, Role) { x = Interval(values[i++]); });
+  return q;
+}
 
 /// In units of 1 / unit. A direction has no unit.
 template <class N>
 Core<N> times(const N& unit, Core<N> core) {
   for (Vector<N>& v : core.vertices) v = times(v, unit);
+  for (Vector<N>& v : core.reach) v = times(v, unit);
+  if (!core.reach.empty()) core.center = times(core.center, unit);
   core.radius = core.radius * unit;
   return core;
 }
 
-template <class N, class Out>
-void overlap(Core<N> a, Core<N> b, Out& out) {
+template <template <class> class Q>
+Bounds exact_signed_distance(const std::vector<double>& inputs) {
+  static thread_local std::vector<double> last_inputs;  // a search asks many widenings of the same inputs
+  static thread_local Bounds last;
+  if (inputs == last_inputs) return last;
+  last_inputs = inputs;
+  const FloatingPointScope standard_modes;
+  arithmetic_barrier();
+  const auto exact = exact_inputs<Q<Exact>>(inputs);
+  const Core<Exact> a = core_of(exact.a), b = core_of(exact.b);
+  last = *signed_distance(times(b.unit, a), times(a.unit, b), Exact(a.unit * b.unit));
+  arithmetic_barrier();
+  return last;
+}
+
+/// By the signed distance for the inputs in the middle: where each vertex moves by at most so much, and each radius,
+/// the signed distance changes by at most as much.
+template <template <class> class Q>
+Decisions by_distance(const Q<Interval>& q, std::span<const double> inputs) {
+  const std::vector<double> middle = without_tiny_numbers<Q<double>>(inputs);
+  const auto point = inputs_at<Q<Interval>>(middle);
+  const Core<Interval> a = core_of(point.a), b = core_of(point.b);
+  const Vector<Interval> place = place_near(a);
+  std::optional<Bounds> s = signed_distance(relative_to(place, a), relative_to(place, b));
+  if (!s) s = exact_signed_distance<Q>(middle);
+  const Interval reach = Interval(movement(core_of(q.a), a)) + Interval(movement(core_of(q.b), b));
+  const Interval radii = a.radius + b.radius;
+  return {(of_bound(s->high) - radii + reach).sup() > 0, (of_bound(s->low) - radii - reach).inf() <= 0};
+}
+
+template <class N, template <class> class Q, class Out>
+void overlap(const Q<N>& q, Out& out) {
+  Core<N> a = core_of(q.a), b = core_of(q.b);
   if constexpr (!is_enclosure<N>) {
     const N of_a = a.unit, of_b = b.unit;
     a = times(of_b, std::move(a));
     b = times(of_a, std::move(b));
   }
   const Vector<N> place = place_near(a);
-  a = relative_to(place, std::move(a));
-  b = relative_to(place, std::move(b));
-  const Directions<N> tried(a, b);
-  if (tried.may_be_apart()) out.no();
-  if (tried.may_meet()) out.yes({true});
+  Decisions d = by_directions(relative_to(place, a), relative_to(place, b));
+  if constexpr (is_enclosure<N>) {
+    if (d.may_be_apart && d.may_meet && !out.middle().empty()) {
+      const Decisions by = by_distance(q, out.middle());
+      d = {d.may_be_apart && by.may_be_apart, d.may_meet && by.may_meet};
+    }
+  }
+  if (d.may_be_apart) out.no();
+  if (d.may_meet) out.yes({true});
 }
 
 }  // namespace
@@ -209,7 +367,7 @@ void overlap(Core<N> a, Core<N> b, Out& out) {
 #define NEARMISS_OVERLAP(first, second)                                                       \
   template <class N, class Out>                                                               \
   void first##_##second##_overlap(const inputs::first##_##second##_overlap<N>& q, Out& out) { \
-    overlap(core_of(q.a), core_of(q.b), out);                                                 \
+    overlap(q, out);                                                                          \
   }                                                                                           \
   NEARMISS_ORACLE(first##_##second##_overlap)
 #include "impl/catalogue/grid.def"

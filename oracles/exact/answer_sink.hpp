@@ -80,6 +80,9 @@ class EnclosureAccumulator {
   void list_in(std::vector<Alternative>* list) { list_ = list; }
   /// The units in which the oracle reports. `scaling` must outlive this object.
   void measure_in(const Scaling& scaling) { scaling_ = scaling.any() ? &scaling : nullptr; }
+  /// The inputs in the middle of those that are enclosed; empty where the oracle reports in other units.
+  void widened_from(std::span<const double> middle) { middle_ = middle; }
+  std::span<const double> middle() const { return scaling_ == nullptr ? middle_ : std::span<const double>(); }
 
  protected:
   /// Includes one possible answer; its first `given` numbers are compared with the given answer. If it stands for a
@@ -103,6 +106,7 @@ class EnclosureAccumulator {
   const Layout& layout_;
   std::vector<Alternative>* list_ = nullptr;
   const Scaling* scaling_ = nullptr;  ///< nullptr: the units of the input
+  std::span<const double> middle_{};
 
   /// The given normal divided by its length, as a sum of two doubles within `direction_slack` of it in each component.
   /// `high` is below 1 where the component is. Unknown if there is no normal, or if it has no direction: it is zero, or
@@ -439,6 +443,7 @@ struct Stages {
     arithmetic_barrier();
     AnswerSink<Interval, A<Interval>> out(about, scalar, layout());
     out.measure_in(scaling);
+    out.widened_from(values);
     run(widened<Inputs<Interval>>(values, widening, scaling), out);
     arithmetic_barrier();
     if (scope.any_invalid()) out.everything();

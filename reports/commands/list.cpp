@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "corpus/storage/store.hpp"
 #include "reports/commands/command.hpp"
@@ -131,6 +136,68 @@ std::string queries_table() {
   return table_text(rows);
 }
 
+/// What is asked about two shapes. A query with another number of operands, or about their parts, is none of these.
+enum class PairOperation { overlap, penetration, contact, path };
+constexpr std::pair<PairOperation, std::string_view> pair_operations[] = {
+    {PairOperation::overlap, "whether two shapes overlap"},
+    {PairOperation::penetration, "how deep two shapes overlap"},
+    {PairOperation::contact, "when the first shape, moving, meets the second"},
+    {PairOperation::path, "whether the first shape, moving, meets the second"}};
+
+std::optional<PairOperation> pair_operation_of(const Query& q) {
+  if (q.operands.size() != 2) return std::nullopt;
+  const bool moves = !q.operands.velocities.empty();
+  if (q.kind == Kind::impact && moves) return PairOperation::contact;
+  if (q.kind == Kind::depth) return PairOperation::penetration;
+  if (q.kind != Kind::decision || !q.traits.touching_is_yes || q.traits.projects) return std::nullopt;
+  return moves ? PairOperation::path : PairOperation::overlap;
+}
+
+/// The letters of the subjects that answer one of the queries, neighbours as a range: "A-H K".
+std::string letters_of(const std::vector<const Query*>& queries) {
+  std::vector<bool> answers;
+  for (const Subject& s : subjects_at_hand()) {
+    answers.push_back(std::any_of(queries.begin(), queries.end(), [&](const Query* q) {
+      return s.started && s.offering(q->name).offer != Offer::not_offered;
+    }));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i]) continue;
+    std::size_t last = i;
+    while (last + 1 < answers.size() && answers[last + 1]) ++last;
+    text += (text.empty() ? "" : " ") + letter(i);
+    if (last > i) text += (last > i + 1 ? "-" : " ") + letter(last);
+    i = last;
+  }
+  return text;
+}
+
+/// For each operation a table of the pairs of shapes: a row for the first, a column for the second.
+std::string pairs_tables() {
+  std::string text;
+  for (const auto& [operation, words] : pair_operations) {
+    std::map<std::pair<Shape, Shape>, std::vector<const Query*>> cells;
+    std::set<Shape> first, second;
+    for (const Query& q : catalogue()) {
+      if (pair_operation_of(q) != operation) continue;
+      cells[{q.operands[0].shape, q.operands[1].shape}].push_back(&q);
+      first.insert(q.operands[0].shape), second.insert(q.operands[1].shape);
+    }
+    std::vector<std::vector<std::string>> rows{{""}};
+    for (const Shape column : second) rows[0].emplace_back(traits_of(column).words);
+    for (const Shape row : first) {
+      rows.push_back({std::string(traits_of(row).words)});
+      for (const Shape column : second) {
+        const auto cell = cells.find({row, column});
+        rows.back().push_back(cell == cells.end() ? "" : letters_of(cell->second));
+      }
+    }
+    text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", words, table_text(rows));
+  }
+  return text;
+}
+
 std::string declared_cell(const Subject& s, const Query& query) {
   const std::vector<Declaration> declared = s.declared_for(query.name);
   return declared.empty() ? "-" : declarations_text(declared);
@@ -179,6 +246,7 @@ class ListCommand : public Command {
              "does a command that asks it), the number of stored cases in its seed corpus, and the number of "
              "properties that are tested. Subjects that are marked as referees also give second "
              "opinions in reports.",
+             "--pairs shows the queries about two shapes as tables of shapes, with the subjects that answer each.",
              "--why shows for each query and subject the equivalent operation, or why the query is not offered, "
              "the preconditions of the subject, and the conventions that it declares: it is not asked cases that do "
              "not meet "
@@ -189,6 +257,7 @@ class ListCommand : public Command {
              "\"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
+             {"nearmiss list --pairs", "Who answers what about which two shapes."},
              {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},
              {"nearmiss list --members moving_point_sphere", "The inputs and outputs of a plugin's function."},
              {"nearmiss list --json", "For programs."}}};
@@ -199,6 +268,10 @@ class ListCommand : public Command {
     app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")
         ->excludes("--json")
         ->disable_flag_override();
+    app.add_flag("--pairs", pairs_, "Print tables of the queries about two shapes")
+        ->excludes("--json")
+        ->excludes("--why")
+        ->disable_flag_override();
     app.add_option("--names", names_, "Print only the names of all queries or of all subjects, one a line")
         ->type_name("queries|subjects")
         ->check(CLI::Validator(
@@ -207,12 +280,14 @@ class ListCommand : public Command {
             },
             ""))
         ->excludes("--json")
-        ->excludes("--why");
+        ->excludes("--why")
+        ->excludes("--pairs");
     app.add_option("--members", members_, "Print the numbers of this query and of its answer, in their order")
         ->type_name("QUERY")
         ->check(known_query())
         ->excludes("--json")
         ->excludes("--why")
+        ->excludes("--pairs")
         ->excludes("--names");
   }
   int run(const CLI::App&) override {
@@ -220,6 +295,8 @@ class ListCommand : public Command {
       say("{}", pretty_json(list_json()));
     } else if (why_) {
       say("{}", reasons_table());
+    } else if (pairs_) {
+      say("{}\n{}", subjects_table(), pairs_tables());
     } else if (!members_.empty()) {
       say("{}", members_table(*find_query(members_)));
     } else if (!names_.empty()) {
@@ -234,7 +311,7 @@ class ListCommand : public Command {
   }
 
  private:
-  bool json_ = false, why_ = false;
+  bool json_ = false, why_ = false, pairs_ = false;
   std::string names_, members_;
 };
 

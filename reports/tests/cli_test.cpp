@@ -63,6 +63,32 @@ TEST(List, ShowsEveryQueryAndSubject) {
   EXPECT_NE(why.out.find("not offered"), std::string::npos);
 }
 
+TEST(List, PairsShowsWhoAnswersWhatAboutTwoShapes) {
+  const Ran pairs = nearmiss({"list", "--pairs"});
+  ASSERT_EQ(pairs.exit_code, 0) << pairs.err;
+  const auto table_of = [&](const std::string& title) {
+    const std::size_t at = pairs.out.find(title + ":\n");
+    EXPECT_NE(at, std::string::npos) << pairs.out;
+    return pairs.out.substr(at, pairs.out.find("\n\n", at) - at);
+  };
+  const auto row_of = [](const std::string& table, const std::string& shape) {
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with(shape + " ")) return line;
+    }
+    return std::string();
+  };
+  const std::string overlaps = table_of("whether two shapes overlap");
+  for (const char* shape : {"point", "sphere", "segment", "capsule", "triangle", "box"}) {
+    EXPECT_NE(row_of(overlaps, shape).find("A-H"), std::string::npos) << shape << overlaps;  // the tiers of collide
+  }
+  // A cell for each column: a point is asked about no segment.
+  const std::string columns = overlaps.substr(overlaps.find('\n') + 1, overlaps.find('\n', overlaps.find('\n') + 1));
+  EXPECT_EQ(row_of(overlaps, "point").compare(columns.find("segment"), 3, "   "), 0) << overlaps;
+  EXPECT_NE(row_of(table_of("when the first shape, moving, meets the second"), "sphere").find("A-H"),
+            std::string::npos);
+}
+
 /// "SUITE.TEST" for each test of properties/ that runs for the query.
 std::map<std::string, std::set<std::string>> tests_by_query() {
   const Ran ran = run_program(properties_program(), {"--gtest_list_tests"});

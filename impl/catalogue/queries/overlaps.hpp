@@ -18,6 +18,7 @@ namespace overlaps {
 #include "impl/catalogue/shapes.def"
 #undef NEARMISS_SHAPE
 
+constexpr bool has_size(std::string_view shape) { return shape == "sphere" || shape == "capsule" || shape == "box"; }
 constexpr Role role_of(std::string_view shape) { return shape == "point" ? Role::position : Role::inherited; }
 
 /// The same question about two other shapes: a point is a sphere of radius 0, and a segment is a capsule of radius 0.
@@ -75,7 +76,7 @@ constexpr std::span<const Link> of_triangle_triangle{}, of_triangle_box{};
           member(alike ? #second "2" : #second, &first##_##second##_overlap::b, overlaps::role_of(#second))); \
     }                                                                                                         \
                                                                                                               \
-    static constexpr Traits traits{.grows = true,                                                             \
+    static constexpr Traits traits{.grows = overlaps::has_size(#first) || overlaps::has_size(#second),        \
                                    .exchange = alike ? Exchange::always : Exchange::none,                     \
                                    .links = overlaps::of_##first##_##second};                                 \
   };

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include <collide/answers.hpp>
 #include <collide/contract.hpp>
@@ -49,15 +50,18 @@ struct Core {
   T radius{};
 };
 
-/// A direction of a length near 1, for numbers whose products may overflow.
+/// The same direction, multiplied by a power of two (so without rounding) if its length is so extreme that products
+/// would overflow or underflow.
 template <class T>
 Vec3<T> of_moderate_length(const Vec3<T>& v) {
   if constexpr (MachineNumber<T>) {
     const T largest = larger(larger(abs(v.x), abs(v.y)), abs(v.z));
-    return largest > T(0) ? v / largest : v;
-  } else {
-    return v;
+    if (largest > T(0) && largest <= std::numeric_limits<T>::max() && !(largest >= T(0.0625) && largest <= T(16))) {
+      const int down = -detail::ilogb(largest);
+      return {detail::ldexp(v.x, down), detail::ldexp(v.y, down), detail::ldexp(v.z, down)};
+    }
   }
+  return v;
 }
 
 template <class Tier, class T>
@@ -120,17 +124,16 @@ const Vec3<T>& any_point_of(const Triangle<T>& triangle) {
   return triangle.v0;
 }
 
-/// The part of `v` that is perpendicular to `direction`; `v` where that is zero. The rounding errors of the first pass
-/// leave a part along the direction that may be as large as the result; the second pass removes it.
+/// The part of `v` that is perpendicular to `direction`, times the squared length of `direction`. The rounding errors
+/// of the first pass leave a part along the direction that may be as large as the result; the second pass removes it.
 template <class Tier, class T>
 Vec3<T> perpendicular_part(const Vec3<T>& v, const Vec3<T>& direction) {
   const T length2 = Tier::dot(direction, direction);
+  const Vec3<T> part = v * length2 - direction * Tier::dot(v, direction);
   if constexpr (MachineNumber<T>) {
-    if (!(length2 > T(0))) return v;
-    const Vec3<T> part = v - direction * (Tier::dot(v, direction) / length2);
-    return part - direction * (Tier::dot(part, direction) / length2);
+    return part * length2 - direction * Tier::dot(part, direction);
   } else {
-    return v * length2 - direction * Tier::dot(v, direction);
+    return part;
   }
 }
 
@@ -211,10 +214,12 @@ class SeparationOfCores {
   bool separates(const Vec3<T>& normal) const {
     const ProjectedRange<T> a = projected<Tier>(a_, normal), b = projected<Tier>(b_, normal);
     const T gap = larger(b.least - a.most, a.least - b.most);
+    if (!(gap > T(0))) return false;
+    if (radius_ == T(0)) return true;
     if constexpr (MachineNumber<T>) {
       return gap > radius_ * sqrt(Tier::dot(normal, normal));
     } else {
-      return gap > T(0) && gap * gap > radius_ * radius_ * Tier::dot(normal, normal);
+      return gap * gap > radius_ * radius_ * Tier::dot(normal, normal);
     }
   }
 
@@ -250,7 +255,7 @@ namespace contracts {
 /// bodies. A direction has an error of 4 eps after the second pass, times the extent of both bodies, at most 8 G.
 template <class Tier, class T>
 constexpr Contract overlap() {
-  return Tier::template contract<T>({.backward = 128, .lowest = lowest_for<T>(2), .highest = highest_for<T>(2)});
+  return Tier::template contract<T>({.backward = 128, .lowest = lowest_for<T>(3), .highest = highest_for<T>(3)});
 }
 
 }  // namespace contracts
