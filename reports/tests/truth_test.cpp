@@ -43,16 +43,17 @@ Ran in_bash(const std::string& script) {
   return run_program("bash", {"-c", script}, {"nearmiss=" + nearmiss_program()});
 }
 
-std::string spheres(const std::string& numbers, const std::string& query = "sphere_sphere_penetration") {
+/// A case with its numbers in a row.
+std::string case_line(const std::string& numbers, const std::string& query = "sphere_sphere_penetration") {
   return R"({"query": ")" + query + R"(", "values": [)" + numbers + "]}\n";
 }
-const std::string touching = spheres("0, 0, 0, 1, 2, 0, 0, 1", "sphere_sphere_overlap");
-const std::string apart = spheres("0, 0, 0, 1, 3, 0, 0, 1", "sphere_sphere_overlap");
+const std::string touching = case_line("0, 0, 0, 1, 2, 0, 0, 1", "sphere_sphere_overlap");
+const std::string apart = case_line("0, 0, 0, 1, 3, 0, 0, 1", "sphere_sphere_overlap");
 
 /// The depth of two points at the distance of (x, y, z).
 std::string depth_of_points(const std::string& x, const std::string& y, const std::string& z, int digits) {
   const std::vector<json> t =
-      truths(spheres(fmt::format("0, 0, 0, 0, {}, {}, {}, 0", x, y, z)), {"--digits", std::to_string(digits)});
+      truths(case_line(fmt::format("0, 0, 0, 0, {}, {}, {}, 0", x, y, z)), {"--digits", std::to_string(digits)});
   return t.at(0).at("alternatives").at(0).at("decimals").at("depth");
 }
 
@@ -73,6 +74,22 @@ TEST(Truth, AnswersEveryStoredCaseInItsPlace) {
     EXPECT_EQ(answers[i], expected) << case_to_json(asked[i]).dump();
     EXPECT_EQ(complaints(answers[i], "truth.schema.json"), "") << answers[i].dump();
   }
+}
+
+TEST(Truth, KeepsTheOrderOfSlowAndQuickCases) {
+  const std::string slow =
+      case_line("0, 0, 0, 1, 2, 3, 1, 2, 3, 4,  3, 1, 2, 1, 1, 1, 4, 3, 2, 1, -1", "box_box_overlap");
+  std::string cases;
+  std::vector<std::string> asked;
+  for (const std::string& line : {slow, touching, slow, apart}) {  // each 100 KiB: more than is read at once
+    for (std::size_t bytes = 0; bytes < 100'000; bytes += line.size()) {
+      cases += line;
+      asked.push_back(line == slow ? "box_box_overlap" : "sphere_sphere_overlap");
+    }
+  }
+  const std::vector<json> answers = truths(cases, {"--jobs", "3"});
+  ASSERT_EQ(answers.size(), asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) ASSERT_EQ(answers[i].at("query"), asked[i]) << i;
 }
 
 TEST(Truth, HasTheEnclosuresThatReportsHave) {
@@ -105,7 +122,8 @@ TEST(Truth, TellsTheMarginInEpsilonOfTheScalar) {
 
 TEST(Truth, HasEveryRightAnswer) {
   // The center is in the middle of a cube: the sphere leaves it by any face.
-  const std::vector<json> t = truths(spheres("0, 0, 0, 1,  0, 0, 0,  2, 2, 2,  0, 0, 0, 1", "sphere_box_penetration"));
+  const std::vector<json> t =
+      truths(case_line("0, 0, 0, 1,  0, 0, 0,  2, 2, 2,  0, 0, 0, 1", "sphere_box_penetration"));
   EXPECT_EQ(t.at(0).at("alternatives").size(), 6u) << t.at(0).dump(2);
   for (const json& a : t.at(0).at("alternatives")) {
     EXPECT_LE(a.at("values").at("depth").at(0), 3);
@@ -129,7 +147,7 @@ TEST(Truth, RoundsDecimalsCorrectly) {
   EXPECT_EQ(depth_of_points("0.5", "0", "0", 9), "-0.5") << "exact, so these are all";
   EXPECT_EQ(depth_of_points("0", "0", "0", 9), "0");
   EXPECT_EQ(depth_of_points("1", "1", "0", 1000).size(), 1002u);
-  const json t = truths(spheres("0, 0, 0, 1, 1, 1, 0, 1"), {"--digits", "25"}).at(0);
+  const json t = truths(case_line("0, 0, 0, 1, 1, 1, 0, 1"), {"--digits", "25"}).at(0);
   EXPECT_EQ(complaints(t, "truth.schema.json"), "") << t.dump();
   const json& right = t.at("alternatives").at(0);
   EXPECT_EQ(right.at("decimals").at("normal"),
@@ -154,9 +172,9 @@ TEST(Truth, EndsAtABadLineAfterTheAnswersBeforeIt) {
   const std::pair<std::string, std::vector<std::string>> bad_lines[] = {
       {"{\"query\": ", {"each line must hold one whole case"}},
       {"[1, 2]", {"the case is [1,2]", "an object"}},
-      {spheres("0, 0, 0, -1, 1, 0, 0, 1"), {"inputs.sphere1.radius", "-1"}},
-      {spheres("0, 0, 0, 1, 1, 0, 0"), {"values has 7 numbers", "8"}},
-      {spheres("0", "sphere_sphere_overlaps"), {"unknown query", "did you mean sphere_sphere_overlap"}},
+      {case_line("0, 0, 0, -1, 1, 0, 0, 1"), {"inputs.sphere1.radius", "-1"}},
+      {case_line("0, 0, 0, 1, 1, 0, 0"), {"values has 7 numbers", "8"}},
+      {case_line("0", "sphere_sphere_overlaps"), {"unknown query", "did you mean sphere_sphere_overlap"}},
       {R"({"query": "sphere_sphere_overlap", "inputs": [0, 0, 0, 1, 1, 0, 0, 1]})", {"inputs is", "\"values\""}},
       {R"({"query": "sphere_sphere_overlap", "scalar": "half", "values": []})", {"scalar is \"half\""}},
       {std::string(2u << 20, '['), {"longer than 1 MiB"}},
@@ -173,7 +191,8 @@ TEST(Truth, EndsAtABadLineAfterTheAnswersBeforeIt) {
 }
 
 TEST(Truth, EndsAtABadLineOfAProgramThatGoesOn) {
-  const Ran ran = in_bash("coproc $nearmiss truth --jobs 4; exec 5>&${COPROC[1]}; echo '[]' >&5; wait $COPROC_PID");
+  const Ran ran =
+      in_bash("coproc timeout 60 $nearmiss truth --jobs 4; exec 5>&${COPROC[1]}; echo '[]' >&5; wait $COPROC_PID");
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_NE(ran.err.find("standard input:1: "), std::string::npos) << ran.err;
 }
