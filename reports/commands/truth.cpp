@@ -49,7 +49,8 @@ class LineAnswers {
       std::optional<LineBlock> block;
       Answered answered;
       try {
-        if (at_end_ || !(block = reader_.next())) at_end_ = true;
+        if (!at_end_) block = reader_.next();
+        at_end_ = !block;
       } catch (...) {
         answered.failure = std::current_exception();
         at_end_ = true;

@@ -180,7 +180,7 @@ TEST(Truth, EndsAtABadLineAfterTheAnswersBeforeIt) {
       {std::string(2u << 20, '['), {"longer than 1 MiB"}},
   };
   for (const auto& [bad, says] : bad_lines) {
-    const std::string file = folder.file("bad.jsonl", "\n" + touching + "\n" + apart + bad + "\n" + apart);
+    const std::string file = folder.file("bad.jsonl", fmt::format("\n{}\n{}{}\n{}", touching, apart, bad, apart));
     const Ran ran = nearmiss({"truth", "--jobs", "2", file});
     EXPECT_EQ(ran.exit_code, 2) << bad.substr(0, 80);
     EXPECT_EQ(lines_of(ran.out).size(), 2u) << bad.substr(0, 80);
