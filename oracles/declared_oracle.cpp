@@ -169,13 +169,13 @@ Enclosure DeclaredOracle::interval(Widening widening) const {
   return under({false, widening, is_still}).enclosure;
 }
 
-Enclosure DeclaredOracle::exact(std::vector<Alternative>* list) const {
+Enclosure DeclaredOracle::exact(AlternativeList* list) const {
   if (declared_.empty()) return oracle_of(*question_.query).exact(question_.values, answer_, question_.scalar, list);
   const std::vector<double> still(question_.values.size());
   lists_ = list != nullptr;
   Result r = under({true, still, true});
   lists_ = false;
-  if (list != nullptr) *list = std::move(r.right);
+  if (list != nullptr) list->all = std::move(r.right);
   return r.enclosure;
 }
 
@@ -189,7 +189,9 @@ DeclaredOracle::Result DeclaredOracle::ask(const Case& question, const Answer& a
   const Oracle& oracle = oracle_of(*question.query);
   if (!asked.exactly) return {oracle.interval(question.values, asked.widening, answer, question.scalar)};
   Result r;
-  r.enclosure = oracle.exact(question.values, answer, question.scalar, lists() ? &r.right : nullptr);
+  AlternativeList list;
+  r.enclosure = oracle.exact(question.values, answer, question.scalar, lists() ? &list : nullptr);
+  r.right = std::move(list.all);
   return r;
 }
 
@@ -413,7 +415,9 @@ std::optional<DeclaredOracle::Result> DeclaredOracle::where_it_leaves(const Aske
     compare(e, *time, {&off, 1}, {&magnitude, 1});
   }
   if (lists()) {
-    oracle.exact(back.values, Answer{}, question_.scalar, &r.right);
+    AlternativeList list;
+    oracle.exact(back.values, Answer{}, question_.scalar, &list);
+    r.right = std::move(list.all);
     for (Alternative& a : r.right) {
       if (time != nullptr && a.count > time->begin) set_number(a, time->begin, *beyond - a.nearest[time->begin]);
     }

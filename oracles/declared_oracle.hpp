@@ -19,9 +19,9 @@ class DeclaredOracle {
  public:
   DeclaredOracle(const Case& question, const Answer& answer, Conventions declared);
 
-  /// As the functions of Oracle with these names.
+  /// As the functions of Oracle with these names. Under conventions every decimal is the shortest one.
   Enclosure interval(Widening widening) const;
-  Enclosure exact(std::vector<Alternative>* list = nullptr) const;
+  Enclosure exact(AlternativeList* list = nullptr) const;
   bool may_be_on_surface(Widening widening, std::size_t number, double ulps) const;
 
  private:

@@ -70,7 +70,7 @@ class Examination {
       if (k > 0 && moves(role) && widening_[i] < 0x1p-1000) widening_[i] = std::nextafter(widening_[i], 1.0);
     }
   }
-  Enclosure exactly(std::vector<Alternative>* list = nullptr) const { return oracle_.exact(list); }
+  Enclosure exactly(AlternativeList* list = nullptr) const { return oracle_.exact(list); }
   /// The highest rung at which no exact answer matches; empty if even the lowest rung may have a match. `about`: where
   /// the search begins.
   std::optional<Backward> backward(int about) const {
@@ -692,13 +692,16 @@ double decision_margin(const Case& question, double guess) {
   return Examination(question, none).margin(rung_of({guess})).value_or(Backward{-1}).above;
 }
 
-Truth truth_of(const Case& question, Conventions declared) {
+namespace {
+
+Truth truth(const Case& question, Conventions declared, int digits) {
   const FloatingPointScope standard_modes;
   const Answer none{};
   const Examination x(question, none, {}, declared);
+  AlternativeList list{.digits = digits};
+  const Enclosure exact = x.exactly(&list);
   Truth t;
-  const Enclosure exact = x.exactly(&t.alternatives);
-  t.alternatives = each_once(std::move(t.alternatives));
+  t.alternatives = each_once(std::move(list.all));
   t.yes = exact.may_be_yes;
   t.decided_by = x.within(0).decided() ? Stage::interval : Stage::exact;
   if (const auto margin = x.margin()) t.margin_at_least = margin->above;
@@ -708,6 +711,12 @@ Truth truth_of(const Case& question, Conventions declared) {
   }
   return t;
 }
+
+}  // namespace
+
+Truth truth_of(const Case& question, Conventions declared) { return truth(question, declared, 0); }
+
+Truth truth_in_digits(const Case& question, int digits) { return truth(question, {}, digits); }
 
 std::string_view name_of(Verdict v) {
   switch (v) {

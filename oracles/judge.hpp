@@ -173,6 +173,8 @@ struct Truth {
 };
 /// By the conventions that are declared.
 Truth truth_of(const Case& question, Conventions declared = {});
+/// By no convention, with decimals of so many digits, at least 1 (decimal_of_digits).
+Truth truth_in_digits(const Case& question, int digits);
 
 /// The largest coordinate, size or offset of the case.
 double largest_length(const Case& question);

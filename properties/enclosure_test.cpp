@@ -63,16 +63,16 @@ class Enclosures : public testing::TestWithParam<std::string> {
     const std::vector<double> wide = widening(query(), c.values, c.scalar, k);
     const std::optional<Case> p = perturbed(c, wide, salt);
     if (!p) return 0;
-    std::vector<Alternative> answers;
+    AlternativeList answers;
     oracle_of(query()).exact(p->values, Answer{}, c.scalar, &answers);
-    for (const Alternative& a : answers) {
+    for (const Alternative& a : answers.all) {
       const Answer answer = rounded(query(), a);
       const Enclosure e = oracle_of(query()).interval(c.values, wide, answer, c.scalar);
       EXPECT_TRUE(answer.yes ? e.may_be_yes : e.may_be_no)
           << "k = " << k << ", the decision: " << case_to_json(c).dump();
       EXPECT_TRUE(e.may_match) << "k = " << k << ": " << case_to_json(c).dump() << case_to_json(*p).dump();
     }
-    return int(answers.size());
+    return int(answers.all.size());
   }
 };
 

@@ -217,10 +217,10 @@ class OnSurface : public testing::TestWithParam<NamedQuery> {
   }
   /// Every right yes-answer, rounded.
   static std::vector<Answer> right_answers(const Case& c) {
-    std::vector<Alternative> list;
+    AlternativeList list;
     (void)oracle_of(*c.query).exact(c.values, Answer{}, c.scalar, &list);
     std::vector<Answer> answers;
-    for (const Alternative& a : list) {
+    for (const Alternative& a : list.all) {
       Answer answer;
       answer.yes = a.yes;
       for (std::size_t i = 0; i < a.count; ++i) answer.values[i] = 0.5 * a.values[i].low + 0.5 * a.values[i].high;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -108,6 +109,7 @@ const CountedInput& list_counted_by_last(const Query& query, std::span<const dou
   return query.lists[k];
 }
 
+std::mutex counting_rounded;
 RoundedNumbers rounded;
 Decimals users_decimals = Decimals::nearest;
 
@@ -234,6 +236,7 @@ double Reader::in_scalar(double x, const std::string& path, Scalar scalar) const
     fail(path, fmt::format("is {}: it must be a number that {} can tell from zero", x, name_of(scalar)));
   if (decimals_ == Decimals::exact)
     fail(path, fmt::format("is {}: it must be exactly a {}, of which {} is near", x, name_of(scalar), nearest));
+  const std::lock_guard lock(counting_rounded);
   ++rounded.count;
   rounded.most = std::max(rounded.most, std::abs(x - nearest));
   return nearest;
@@ -327,7 +330,11 @@ void Reader::inputs(const json& j, const std::string& path, std::span<const Fiel
   } else {
     std::vector<std::string_view> names;
     for (const Child& c : parts) names.push_back(c.component);
-    if (!j.is_object()) fail(path, j, fmt::format("an object with {}", fmt::join(names, ", ")));
+    const bool in_a_row = path == "inputs" && j.is_array();
+    if (!j.is_object())
+      fail(path, j,
+           fmt::format("an object with {}{}", fmt::join(names, ", "),
+                       in_a_row ? "; numbers in a row are \"values\"" : ""));
     expect_only(j, path, names);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {

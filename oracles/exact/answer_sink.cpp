@@ -1,7 +1,5 @@
 #include "oracles/exact/answer_sink.hpp"
 
-#include <mpfr.h>
-
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -9,39 +7,11 @@
 #include <bit>
 #include <cfenv>
 
+#include "oracles/exact/wide.hpp"
+
 namespace nearmiss::oracle {
 
 namespace {
-
-/// A number of 256 bits. Every operation below rounds to nearest, with a relative error of at most 2^-256.
-class Wide {
- public:
-  Wide() { mpfr_init2(value_, 256); }
-  explicit Wide(const Rational& q) : Wide() { mpfr_set_q(value_, q.mpq(), MPFR_RNDN); }
-  ~Wide() { mpfr_clear(value_); }
-  Wide(const Wide&) = delete;
-  Wide& operator=(const Wide&) = delete;
-
-  mpfr_t& get() { return value_; }
-  const mpfr_t& get() const { return value_; }
-  /// Doubles that enclose the exact value, if at most ten operations on numbers up to `largest` made this one.
-  Bounds around(const Wide& largest) const {
-    Wide slack;
-    mpfr_div_2ui(slack.value_, largest.value_, 250, MPFR_RNDU);
-    mpfr_abs(slack.value_, slack.value_, MPFR_RNDU);
-    Wide end;
-    mpfr_sub(end.value_, value_, slack.value_, MPFR_RNDD);
-    const double low = mpfr_get_d(end.value_, MPFR_RNDD);
-    mpfr_add(end.value_, value_, slack.value_, MPFR_RNDU);
-    return {low, mpfr_get_d(end.value_, MPFR_RNDU)};
-  }
-  bool is_at_least(const Wide& x, unsigned long over_two_to) const {
-    return mpfr_zero_p(value_) == 0 && mpfr_get_exp(value_) + mpfr_exp_t(over_two_to) > mpfr_get_exp(x.value_);
-  }
-
- private:
-  mpfr_t value_;
-};
 
 bool gives_all(const Answer& about, const Layout::Part& part) {
   bool all = true;
@@ -65,21 +35,10 @@ Bounds bounds(const Exact& x) {
     const auto [low, high] = CGAL::to_interval(x.a0());
     return {low, high};
   }
-  Wide a(x.a0()), b(x.a1()), value(x.root()), sum;
-  mpfr_sqrt(value.get(), value.get(), MPFR_RNDN);
-  mpfr_mul(value.get(), value.get(), b.get(), MPFR_RNDN);
-  mpfr_add(sum.get(), a.get(), value.get(), MPFR_RNDN);
-  if (CGAL::sign(x.a0()) * CGAL::sign(x.a1()) != CGAL::NEGATIVE) return sum.around(sum);
-  constexpr unsigned long bits_to_lose = 100;  // of 250
-  if (sum.is_at_least(a, bits_to_lose)) {
-    const Wide& larger = mpfr_cmpabs(a.get(), value.get()) > 0 ? a : value;
-    return sum.around(larger);
-  }
-  // Cancellation: divide the exact norm a^2 - b^2 c by the conjugate, whose terms have the same sign.
-  Wide norm(Rational(x.a0() * x.a0() - x.a1() * x.a1() * x.root()));
-  mpfr_sub(value.get(), a.get(), value.get(), MPFR_RNDN);
-  mpfr_div(value.get(), norm.get(), value.get(), MPFR_RNDN);
-  return value.around(value);
+  constexpr mpfr_prec_t bits = 256;
+  Wide low(bits), high(bits);
+  enclose(x, low, high);
+  return {mpfr_get_d(low.get(), MPFR_RNDD), mpfr_get_d(high.get(), MPFR_RNDU)};
 }
 
 Bounds magnitude_bounds(const Exact& x) {

@@ -77,7 +77,7 @@ class EnclosureAccumulator {
   /// also the normal divided by its length. The distance of the normal is that of the nearer form.
   NumberVector<GivenVector> given_vector(std::size_t begin) const;
   /// The right answers, for people; of the exact stage.
-  void list_in(std::vector<Alternative>* list) { list_ = list; }
+  void list_in(AlternativeList* list) { list_ = list; }
   /// The units in which the oracle reports. `scaling` must outlive this object.
   void measure_in(const Scaling& scaling) { scaling_ = scaling.any() ? &scaling : nullptr; }
   /// The inputs in the middle of those that are enclosed; empty where the oracle reports in other units.
@@ -104,7 +104,7 @@ class EnclosureAccumulator {
   const Answer& about_;
   Scalar scalar_;
   const Layout& layout_;
-  std::vector<Alternative>* list_ = nullptr;
+  AlternativeList* list_ = nullptr;
   const Scaling* scaling_ = nullptr;  ///< nullptr: the units of the input
   std::span<const double> middle_{};
 
@@ -286,7 +286,8 @@ Alternative AnswerSink<N, A>::alternative(bool yes, const A& a, const Normals<N>
       }
     }();
     shown.nearest.push_back(nearest_number(exact, scalar_));
-    shown.decimals.push_back(decimal_of(exact, shown.nearest.back(), scalar_));
+    shown.decimals.push_back(list_->digits > 0 ? decimal_of_digits(exact, list_->digits)
+                                               : decimal_of(exact, shown.nearest.back(), scalar_));
   });
   if (!shown.many_normals) return shown;
   for (const Facing<N>& f : normals.facing) {
@@ -315,8 +316,8 @@ void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std:
       return add(yes, with_normal(a, *only), Normals<N>::as_given(), leaves, set, late);
     }
     if (list_ != nullptr) {
-      list_->push_back(alternative(yes, a, normals, leaves));
-      list_->back().late = late;
+      list_->all.push_back(alternative(yes, a, normals, leaves));
+      list_->all.back().late = late;
     }
   }
   if (yes != about_.yes) return count(yes, {}, 0, {});
@@ -449,8 +450,7 @@ struct Stages {
     if (scope.any_invalid()) out.everything();
     return out.result();
   }
-  static Enclosure exact(std::span<const double> values, const Answer& about, Scalar scalar,
-                         std::vector<Alternative>* list) {
+  static Enclosure exact(std::span<const double> values, const Answer& about, Scalar scalar, AlternativeList* list) {
     const FloatingPointScope standard_modes;
     AnswerSink<Exact, A<Exact>> out(about, scalar, layout());
     out.list_in(list);

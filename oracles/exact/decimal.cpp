@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "oracles/exact/answer_sink.hpp"
+#include "oracles/exact/wide.hpp"
 
 namespace nearmiss::oracle {
 
@@ -59,6 +60,22 @@ Rational rational_of(std::string_view decimal) {
 
 bool equals(const Exact& x, const Rational& y) { return x.compare(Exact(y)) == CGAL::EQUAL; }
 
+/// The nearest decimal of so many digits in the layout of "%g"; zeros at the end are left out where `shorten` is set.
+std::string rounded_text(const Wide& x, int digits, bool shorten) {
+  char* text = nullptr;
+  if (mpfr_asprintf(&text, shorten ? "%.*RNg" : "%#.*RNg", digits, x.get()) < 0) throw std::bad_alloc();
+  std::string copy = text;
+  mpfr_free_str(text);
+  if (copy.ends_with('.')) copy.pop_back();
+  return copy;
+}
+
+/// Of a decimal that rounded_text() made.
+bool has_even_last_digit(std::string_view decimal) {
+  const std::string_view digits = decimal.substr(0, decimal.find('e'));
+  return (digits.back() - '0') % 2 == 0;
+}
+
 }  // namespace
 
 double nearest_number(const Exact& x, Scalar scalar) {
@@ -81,6 +98,25 @@ std::string decimal_of(const Exact& x, double nearest, Scalar scalar) {
   if (scalar == Scalar::float32 && double(std::strtof(text.c_str(), nullptr)) != nearest)
     text = shortest(nearest, scalar);
   return equals(x, rational_of(text)) ? text : "≈" + text;
+}
+
+std::string decimal_of_digits(const Exact& x, int digits) {
+  if (equals(x, Rational(0))) return "0";
+  constexpr double bits_of_a_digit = 3.33;  // above log2(10)
+  constexpr mpfr_prec_t bits_to_spare = 16;
+  const auto bits = mpfr_prec_t(std::ceil(bits_of_a_digit * digits)) + bits_lost + bits_to_spare;
+  Wide low(bits), high(bits);
+  enclose(x, low, high);
+  // The bounds are so near to each other that at most one border between two decimals lies within them.
+  const std::string below = rounded_text(low, digits, false), above = rounded_text(high, digits, false);
+  bool is_below = below == above;
+  if (!is_below) {
+    const Rational border = (rational_of(below) + rational_of(above)) / Rational(2);
+    const CGAL::Comparison_result side = x.compare(Exact(border));
+    is_below = side == CGAL::SMALLER || (side == CGAL::EQUAL && has_even_last_digit(below));
+  }
+  const std::string& nearest = is_below ? below : above;
+  return equals(x, rational_of(nearest)) ? rounded_text(is_below ? low : high, digits, true) : "≈" + nearest;
 }
 
 }  // namespace nearmiss::oracle

@@ -20,4 +20,9 @@ inline std::string decimal_of(const Exact& x, Scalar scalar) {
   return decimal_of(x, nearest_number(x, scalar), scalar);
 }
 
+/// The decimal of so many significant digits, at least 1, that is nearest to x; of two equally near ones the even one.
+/// It begins with "≈" unless it is x exactly. Then it has only the digits that x needs, as "0.5"; otherwise it has all
+/// of them, also zeros at the end.
+std::string decimal_of_digits(const Exact& x, int digits);
+
 }  // namespace nearmiss::oracle

@@ -95,4 +95,12 @@ struct Alternative {
   bool operator==(const Alternative&) const = default;
 };
 
+/// Receives the right answers, for people.
+struct AlternativeList {
+  /// Of the decimals, significant ones; 0: the shortest decimals from which the nearest number of the scalar is read
+  /// off.
+  int digits = 0;
+  std::vector<Alternative> all{};
+};
+
 }  // namespace nearmiss

@@ -15,8 +15,7 @@ struct Oracle {
   Enclosure (*interval)(std::span<const double> values, Widening widening, const Answer& about, Scalar scalar);
   /// Exact decision, and errors enclosed to a few units in the last place of the error itself. If `list` is not null,
   /// it receives every right answer.
-  Enclosure (*exact)(std::span<const double> values, const Answer& about, Scalar scalar,
-                     std::vector<Alternative>* list);
+  Enclosure (*exact)(std::span<const double> values, const Answer& about, Scalar scalar, AlternativeList* list);
   /// True if the point that contains output `number` may lie, within `ulps` units in its last place, on the surface
   /// that the query names, for some input within the widening. False is a proof that it does not. nullptr if the query
   /// names no surface.

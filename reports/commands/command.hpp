@@ -44,6 +44,7 @@ std::unique_ptr<Command> minimise_command();
 std::unique_ptr<Command> diff_command();
 std::unique_ptr<Command> explain_command();
 std::unique_ptr<Command> triage_command();
+std::unique_ptr<Command> truth_command();
 std::unique_ptr<Command> trade_command();
 std::unique_ptr<Command> promote_command();
 std::unique_ptr<Command> bisect_command();

@@ -15,6 +15,10 @@ void say_text(std::string_view text) {
     throw std::system_error(errno, std::generic_category(), "standard output");
 }
 
+void flush_output() {
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
+}
+
 void say_on_stderr(std::string_view text) noexcept try {
   const std::string shown = for_terminal(text);
   std::fwrite(shown.data(), 1, shown.size(), stderr);

@@ -18,6 +18,9 @@ void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   say_text(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
+/// Hands on what was printed. Throws std::system_error where it cannot be written.
+void flush_output();
+
 /// Prints to standard error and ignores errors: they change neither the work nor the exit code.
 void say_on_stderr(std::string_view text) noexcept;
 

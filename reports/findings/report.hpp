@@ -54,6 +54,9 @@ std::string id_of(const Report& r);
 nlohmann::ordered_json report_to_json(const Report& r);
 nlohmann::ordered_json answer_to_json(const Query& query, const Answer& answer);
 nlohmann::ordered_json truth_to_json(const Query& query, Scalar scalar, const Truth& truth);
+/// A line of reports/truth.schema.json: the truth of a report, after the query and the scalar. Its decimals are left
+/// out, or have no sign that they are rounded, so that every language reads them.
+nlohmann::ordered_json truth_line_to_json(const Case& question, const Truth& truth, bool with_decimals);
 nlohmann::ordered_json finding_to_json(const Case& question, const Finding& f);
 /// {"name", "unit", "position_error", "missed_depth", "time_error"}
 nlohmann::ordered_json limits_to_json(const SceneLimits& limits);

@@ -63,6 +63,15 @@ Json decimals(const Query& query, const Alternative& a) {
   return with_vectors(nested);
 }
 
+void leave_out_signs_of_rounding(Json& decimals) {
+  if (decimals.is_structured()) {
+    for (Json& d : decimals) leave_out_signs_of_rounding(d);
+    return;
+  }
+  constexpr std::string_view sign = "≈";
+  if (std::string text = decimals.get<std::string>(); text.starts_with(sign)) decimals = text.substr(sign.size());
+}
+
 Json normal_cone(const Alternative& a) {
   Json facing = Json::array();
   for (const Alternative::Face& f : a.facing) {
@@ -185,6 +194,19 @@ Json truth_to_json(const Query& query, Scalar scalar, const Truth& truth) {
          {"decided_by", truth.decided_by == Stage::interval ? "interval" : "exact"},
          {"alternatives", alternatives}};
   j["margin"] = truth.margin_at_least < 0 ? Json(nullptr) : epsilons("at_least_epsilon", truth.margin_at_least, scalar);
+  return j;
+}
+
+Json truth_line_to_json(const Case& question, const Truth& truth, bool with_decimals) {
+  Json j{{"query", question.query->name}, {"scalar", name_of(question.scalar)}};
+  j.update(truth_to_json(*question.query, question.scalar, truth));
+  for (Json& a : j["alternatives"]) {
+    if (!with_decimals) {
+      a.erase("decimals");
+    } else if (a.contains("decimals")) {
+      leave_out_signs_of_rounding(a["decimals"]);
+    }
+  }
   return j;
 }
 

@@ -20,9 +20,9 @@ Enclosure interval(std::span<const double> values, Widening, const Answer& about
   return decided(is_planted(values) && !about.yes, about);
 }
 
-Enclosure exact(std::span<const double> values, const Answer& about, Scalar, std::vector<Alternative>* list) {
+Enclosure exact(std::span<const double> values, const Answer& about, Scalar, AlternativeList* list) {
   const bool yes = is_planted(values) && about.yes;
-  if (list != nullptr) list->push_back({.yes = yes});
+  if (list != nullptr) list->all.push_back({.yes = yes});
   return decided(yes, about);
 }
 

@@ -22,7 +22,8 @@ inline constexpr bool is_sanitized = false;
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// What the tests start: files of programs and plugins, and command lines of examples ("" without their interpreter).
+/// What the tests start: files of programs and plugins, interpreters, and command lines of examples ("" without their
+/// interpreter).
 /// One generated source has their absolute paths, so that the compiler cache serves every other source to another
 /// clone.
 std::string nearmiss_program();
@@ -34,6 +35,8 @@ std::string zoo_program();
 std::string certified_library();
 std::string plugin_file(const std::string& name);
 std::string record_example();
+std::string python();
+std::string node();
 std::string example_c();
 std::string example_py();
 std::string example_js();
