@@ -270,7 +270,7 @@ Subject described(std::string_view hello, HostProgram program) {
           ? Members(j, "its hello",
                     {"nearmiss", "refused", "name", "version", "scalar", "batches", "layout", "offers", "not_offered"})
           : Members(j, "its hello",
-                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
+                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "names", "offers", "not_offered"});
   const std::optional<int> version = m.whole("nearmiss");
   if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
   if (*version != wire::version && (may_share || *version != wire::version_without_lengths))
@@ -286,6 +286,7 @@ Subject described(std::string_view hello, HostProgram program) {
   s.scalar = scalar == "float" ? Scalar::float32 : Scalar::float64;
   program.batches = batches_in(m.text("batches"), may_share);
   program.version = *version;
+  program.asks_for_names = m.flag("names");
   program.hello = hello;
   s.host = std::make_shared<const HostProgram>(std::move(program));
   const Json* not_offered = m.find("not_offered");

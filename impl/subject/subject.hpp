@@ -104,8 +104,9 @@ struct HostProgram {
 
   std::vector<std::string> arguments;  ///< the file of the program first
   Batches batches = Batches::shared;
-  int version = 0;      ///< of the protocol that it speaks; 0: not yet known
-  std::string hello{};  ///< its hello from the first start; empty: not yet known
+  int version = 0;              ///< of the protocol that it speaks; 0: not yet known
+  std::string hello{};          ///< its hello from the first start; empty: not yet known
+  bool asks_for_names = false;  ///< the names of all numbers are sent to it before the first batch
 };
 
 struct Subject {
