@@ -70,16 +70,18 @@ function overlap(a, b) {
 const meet = (a, b) => !!overlap(a, b);
 const aroundTriangle = ({ v0, v1, v2 }) => [v0, Math.max(length(minus(v1, v0)), length(minus(v2, v0)))];
 
+// Babylon's page of the shape cast query: 'Result will not be correct for intersecting shapes'.
+const requires = ["starts outside"];
 const gives = ["depth", "normal"];
 const queries = {
   moving_point_sphere: (q) => ray(q, () => sphere(q.sphere), around.sphere(q.sphere)),
   moving_point_box: (q) => ray(q, () => box(q.box), around.box(q.box)),
   moving_point_capsule: (q) => ray(q, () => capsule(q.capsule), around.capsule(q.capsule)),
   moving_point_triangle: { answer: (q) => ray(q, () => triangle(q.triangle), aroundTriangle(q.triangle)), gives: ["time", "location", "normal"] },
-  moving_sphere_sphere: (q) => cast(q, () => sphere(q.fixed), around.sphere(q.fixed)),
-  moving_sphere_box: (q) => cast(q, () => box(q.box), around.box(q.box)),
-  moving_sphere_capsule: (q) => cast(q, () => capsule(q.capsule), around.capsule(q.capsule)),
-  moving_sphere_triangle: { answer: (q) => cast(q, () => triangle(q.triangle), aroundTriangle(q.triangle)), gives: ["time", "location", "normal"] },
+  moving_sphere_sphere: { answer: (q) => cast(q, () => sphere(q.fixed), around.sphere(q.fixed)), requires },
+  moving_sphere_box: { answer: (q) => cast(q, () => box(q.box), around.box(q.box)), requires },
+  moving_sphere_capsule: { answer: (q) => cast(q, () => capsule(q.capsule), around.capsule(q.capsule)), requires },
+  moving_sphere_triangle: { answer: (q) => cast(q, () => triangle(q.triangle), aroundTriangle(q.triangle)), gives: ["time", "location", "normal"], requires },
   sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
   sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
   sphere_triangle_overlap: (q) => meet(sphere(q.sphere), triangle(q.triangle)),
