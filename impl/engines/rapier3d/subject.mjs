@@ -18,6 +18,7 @@ const capsule = ({ p0, p1, radius }) => {  // Rapier's capsules are along y
   const turn = turnOf("y", l > 0 ? scaled(along, 1 / l) : [0, 1, 0]);
   return { shape: new R.Capsule(l / 2, radius), at: scaled(plus(p0, p1), 0.5), turn: quat(turn) };
 };
+const segment = ({ v0, v1 }) => ({ shape: new R.Segment(vec(v0), vec(v1)), at: [0, 0, 0], turn: still });
 const triangle = ({ v0, v1, v2 }) => ({ shape: new R.Triangle(vec(v0), vec(v1), vec(v2)), at: [0, 0, 0], turn: still });
 const plane = ({ normal, offset }) => ({ shape: new R.HalfSpace(vec(unit(normal))), at: scaled(unit(normal), -offset / length(normal)), turn: still });
 
@@ -31,6 +32,7 @@ function ray({ point, velocity }, b, isSolid = true) {
   return { time: hit.timeOfImpact, normal: isUndefined ? null : list(hit.normal) };
 }
 const meet = (a, b) => a.shape.intersectsShape(vec(a.at), a.turn, b.shape, vec(b.at), b.turn);
+const contains = (a, point) => a.shape.containsPoint(vec(a.at), a.turn, vec(point));
 /** `sign`: -1 where the query's normal is that of the second body. */
 function depth(a, b, sign = 1) {
   const c = a.shape.contactShape(vec(a.at), a.turn, b.shape, vec(b.at), b.turn, 0);
@@ -56,6 +58,19 @@ answerBy({
     sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
     sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
     sphere_triangle_overlap: (q) => meet(sphere(q.sphere), triangle(q.triangle)),
+    point_sphere_overlap: (q) => contains(sphere(q.sphere), q.point),
+    point_capsule_overlap: (q) => contains(capsule(q.capsule), q.point),
+    point_box_overlap: (q) => contains(box(q.box), q.point),
+    sphere_segment_overlap: (q) => meet(sphere(q.sphere), segment(q.segment)),
+    sphere_capsule_overlap: (q) => meet(sphere(q.sphere), capsule(q.capsule)),
+    segment_capsule_overlap: (q) => meet(segment(q.segment), capsule(q.capsule)),
+    segment_triangle_overlap: (q) => meet(segment(q.segment), triangle(q.triangle)),
+    segment_box_overlap: (q) => meet(segment(q.segment), box(q.box)),
+    capsule_capsule_overlap: (q) => meet(capsule(q.capsule1), capsule(q.capsule2)),
+    capsule_triangle_overlap: (q) => meet(capsule(q.capsule), triangle(q.triangle)),
+    capsule_box_overlap: (q) => meet(capsule(q.capsule), box(q.box)),
+    triangle_triangle_overlap: (q) => meet(triangle(q.triangle1), triangle(q.triangle2)),
+    triangle_box_overlap: (q) => meet(triangle(q.triangle), box(q.box)),
     box_box_overlap: { answer: (q) => meet(box(q.box1), box(q.box2)), gives: [] },
     sphere_sphere_penetration: { answer: (q) => depth(sphere(q.sphere1), sphere(q.sphere2)), gives },
     sphere_box_penetration: { answer: (q) => depth(sphere(q.sphere), box(q.box)), gives },

@@ -53,6 +53,8 @@ answerBy({
       }, gives: ["location"],
     },
     sphere_sphere_overlap: (q) => sphere(q.sphere1).intersectsSphere(sphere(q.sphere2)),
+    point_sphere_overlap: (q) => sphere(q.sphere).containsPoint(vec(q.point)),
+    point_box_overlap: (q) => obb(q.box).containsPoint(vec(q.point)),
     sphere_box_overlap: (q) => obb(q.box).intersectsSphere(sphere(q.sphere)),
     box_box_overlap: { answer: (q) => obb(q.box1).intersectsOBB(obb(q.box2)), gives: [] },
     sphere_triangle_overlap: (q) => !!new Octree().triangleSphereIntersect(sphere(q.sphere), triangle(q.triangle)),
