@@ -353,6 +353,7 @@ function(nearmiss_finish_subjects)
   # The judge's side of the wall between processes.
   set(NEARMISS_JUDGE_SIDE
     subject/subject.cpp
+    host/engines.cpp
     host/hosts.cpp
     host/exposure.cpp
     host/processes.cpp
@@ -369,7 +370,7 @@ function(nearmiss_finish_subjects)
   nearmiss_compile_for_a_short_wait(nearmiss_wall)
   target_link_libraries(nearmiss_wall PUBLIC nearmiss_catalogue nearmiss_host PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
   nearmiss_unite(nearmiss_wall 1)
-  target_compile_definitions(nearmiss_wall PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}")
+  target_compile_definitions(nearmiss_wall PRIVATE NEARMISS_HOSTS="${NEARMISS_HOSTS}" NEARMISS_TOP="${PROJECT_SOURCE_DIR}")
   if(NEARMISS_SANITIZE)
     target_compile_definitions(nearmiss_wall PRIVATE NEARMISS_SANITIZED_HOSTS)
   endif()

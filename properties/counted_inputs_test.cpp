@@ -196,6 +196,13 @@ TEST(CountedInputs, AHostGetsEachCaseWithItsLength) {
   }
 }
 
+TEST(CountedInputs, AProgramIsToldTheNamesOfEntries) {
+  const auto expected = nlohmann::json::parse(R"({"query": "two_lists", "decides": true, "outputs": [], "inputs": [
+      "limit", {"list": "one.vertices", "entry": ["x", "y", "z"]}, "one.radius",
+      {"list": "two.vertices", "entry": ["x", "y", "z"]}, "two.radius", "solid"]})");
+  EXPECT_EQ(wire::names_of_numbers(two_lists()), expected);
+}
+
 TEST(CountedInputs, AProgramGetsEachCaseWithItsLength) {
   const std::vector<double> values{7, 2, 1, 2, 1, 3};
   const std::vector<std::uint32_t> begins{1, 4, 6};

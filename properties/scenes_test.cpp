@@ -121,7 +121,8 @@ std::size_t numbers_in(const json& j) {
 }
 
 TEST(Scenes, EveryNumberOfEveryShippedSceneHasASource) {
-  const std::vector<std::string> expected{"driving", "game-world", "haptics", "recorded", "rendezvous", "robot-cell"};
+  const std::vector<std::string> expected{"driving",    "game-world", "haptics", "recorded",
+                                          "rendezvous", "robot-cell", "room"};
   EXPECT_EQ(scene_names(), expected);
   for (const std::string& name : scene_names()) {
     const Scene scene = load_scene(name);

@@ -37,6 +37,7 @@ constexpr Room rooms[] = {
     {"impl/collide", 0},
     {"impl/catalogue", 1},
     {"impl/plugin", 1},
+    {"impl/engines", 2},
     {"impl/subject", 2},
     {"impl/adapters", 3},
     {"impl/host", 3},

@@ -19,10 +19,12 @@
 #include <sstream>
 
 #include "impl/catalogue/query.hpp"
+#include "impl/host/engines.hpp"
 #include "impl/host/replies.hpp"
 #include "impl/host/separation.hpp"
 #include "impl/host/shared_layout.hpp"
 #include "impl/subject/printable.hpp"
+#include "impl/subject/provenance.hpp"
 
 namespace nearmiss {
 
@@ -270,7 +272,7 @@ Subject described(std::string_view hello, HostProgram program) {
           ? Members(j, "its hello",
                     {"nearmiss", "refused", "name", "version", "scalar", "batches", "layout", "offers", "not_offered"})
           : Members(j, "its hello",
-                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "offers", "not_offered"});
+                    {"nearmiss", "refused", "name", "version", "scalar", "batches", "names", "offers", "not_offered"});
   const std::optional<int> version = m.whole("nearmiss");
   if (!version) refuse("its hello has no \"nearmiss\", the version of the protocol that it speaks");
   if (*version != wire::version && (may_share || *version != wire::version_without_lengths))
@@ -286,6 +288,7 @@ Subject described(std::string_view hello, HostProgram program) {
   s.scalar = scalar == "float" ? Scalar::float32 : Scalar::float64;
   program.batches = batches_in(m.text("batches"), may_share);
   program.version = *version;
+  program.asks_for_names = m.flag("names");
   program.hello = hello;
   s.host = std::make_shared<const HostProgram>(std::move(program));
   const Json* not_offered = m.find("not_offered");
@@ -391,6 +394,24 @@ std::string from_any_folder(const std::string& command, const std::vector<std::s
   return fmt::format("cd {} && {}{}", quoted(here), by_shell ? "" : "exec ", command);
 }
 
+/// How an engine's subject is started.
+HostProgram program_of(const Engine& engine) {
+  if (engine.is_plugin) return {{host_of_plugins(), engine.folder + "/subject.so"}};
+  return {{"node", engine.sources + "/subject.mjs", engine.folder}, HostProgram::Batches::json};
+}
+
+/// The subject that the hello of an engine describes. Throws BadSubject.
+Subject said_by(const Engine& engine, Worker& worker) {
+  const std::string where = fmt::format("the engine {}", engine.name);
+  try {
+    Subject s = subject_from_hello(where, worker.hello(), program_of(engine));
+    if (s.name == engine.name) return s;
+    throw BadSubject(fmt::format("{}: its hello has the name '{}'", where, s.name));
+  } catch (const HostFailed& e) {
+    throw BadSubject(fmt::format("{}: {}{}", where, e.what(), advice_for(program_of(engine).arguments)));
+  }
+}
+
 std::unique_ptr<Worker> begun(const HostOfBuild& host) {
   auto worker =
       std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(HostProgram{{host.file}}));
@@ -456,6 +477,30 @@ void load_command(const std::string& command) {
 void load_subjects_of_environment() {
   for (const std::string& file : parts_of(std::getenv(plugins_variable), ':')) load_plugin(file);
   for (const std::string& command : parts_of(std::getenv(commands_variable), '\n')) load_command(command);
+}
+
+std::vector<std::string> installed_engines() {
+  std::vector<std::string> names;
+  for (const Engine& e : engines()) {
+    if (e.is_installed) names.push_back(e.name);
+  }
+  return names;
+}
+
+std::vector<Subject> start_engines(const std::vector<std::string>& names) {
+  std::vector<std::pair<Engine, std::unique_ptr<Worker>>> started;
+  for (Engine& e : engines()) {
+    if (std::find(names.begin(), names.end(), e.name) == names.end()) continue;
+    auto worker = std::make_unique<Worker>(worker_limits(), std::make_shared<const HostProgram>(program_of(e)));
+    worker->begin();
+    started.emplace_back(std::move(e), std::move(worker));
+  }
+  std::vector<Subject> all;
+  for (auto& [engine, worker] : started) {
+    all.push_back(said_by(engine, *worker));
+    worker.reset();
+  }
+  return all;
 }
 
 std::vector<Subject> hosted(const std::vector<HostOfBuild>& hosts) {

@@ -219,6 +219,56 @@ std::vector<std::uint64_t> given_by_offers(std::string_view hello) {
   return given;
 }
 
+namespace {
+
+/// A case of the query whose lists have at least one entry each.
+std::vector<double> with_entries(const Query& query) {
+  std::vector<double> values(query.most_numbers());
+  for (std::size_t k = 0; k < query.lists.size(); ++k)
+    values[query.lists.place_of_count(k, values)] = double(std::max<std::size_t>(query.lists[k].least, 1));
+  return values;
+}
+
+Json names_of_inputs(const Query& query) {
+  const std::vector<double> values = with_entries(query);
+  const std::vector<Field>& fields = query.fields_of(values);
+  Json names = Json::array();
+  std::size_t list = 0;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (list == query.lists.size() || i != query.lists.place_of_count(list, values)) {
+      names.push_back(fields[i].name);
+      continue;
+    }
+    const CountedInput& counted = query.lists[list];
+    const std::size_t before = counted.name.size() + std::string_view(".0.").size();
+    Json entry = Json::array();
+    for (std::size_t k = 1; k <= counted.numbers; ++k)
+      entry.push_back(fields[i + k].name.size() > before ? fields[i + k].name.substr(before) : "");
+    names.push_back({{"list", counted.name}, {"entry", std::move(entry)}});
+    i += counted.numbers * query.lists.count_of(list++, values);
+  }
+  return names;
+}
+
+}  // namespace
+
+Json names_of_numbers(const Query& query) {
+  Json outputs = Json::array();
+  for (const Field& f : query.outputs) outputs.push_back(f.name);
+  return {{"query", query.name},
+          {"decides", decides(query.kind)},
+          {"inputs", names_of_inputs(query)},
+          {"outputs", std::move(outputs)}};
+}
+
+std::string names_of_offers(std::string_view hello) {
+  const Json parsed = Json::parse(hello);
+  Json all = Json::array();
+  for (const Json& offer : parsed.at("offers"))
+    all.push_back(names_of_numbers(*find_query(offer.at("query").get_ref<const std::string&>())));
+  return Json{{"names", std::move(all)}}.dump() + "\n";
+}
+
 std::string binary_request(std::uint32_t offer, std::uint32_t first, const CaseNumbers& cases, int of_version) {
   const bool has_lengths = of_version != version_without_lengths;
   const std::uint32_t begin = cases.begins.front(), numbers = cases.begins.back() - begin;

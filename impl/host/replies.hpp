@@ -19,6 +19,12 @@ namespace nearmiss::wire {
 std::size_t nesting(std::string_view json);
 inline constexpr std::size_t most_nested = 64;
 
+/// The names of a query's numbers: {"query": "...", "decides": true, "inputs": [...], "outputs": [...]}. In the place
+/// of a list of inputs stands {"list": "hull.vertices", "entry": ["x", "y", "z"]}.
+nlohmann::json names_of_numbers(const Query& query);
+/// One line, {"names": [...]}, with those of each offer of a checked hello.
+std::string names_of_offers(std::string_view hello);
+
 /// A batch in binary for a program of that version, or as one line of JSON: {"query": "...", "first": N, "cases":
 /// [[...], ...]}.
 std::string binary_request(std::uint32_t offer, std::uint32_t first, const CaseNumbers& cases,

@@ -452,6 +452,7 @@ void Worker::request(std::size_t first, std::size_t end_of_request) {
   child_->out = program_->batches == HostProgram::Batches::binary
                     ? wire::binary_request(asked_->offer, child_->asked, cases, program_->version)
                     : wire::json_request(query_, child_->asked, cases);
+  if (program_->asks_for_names && child_->asked == 0) child_->out.insert(0, wire::names_of_offers(program_->hello));
   child_->asked += std::uint32_t(end_of_request - first);
   heard_ = false;
   child_->written = 0;

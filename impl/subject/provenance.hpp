@@ -15,6 +15,9 @@ std::vector<std::string> built_in_subjects();
 std::vector<Subject> start_built_in(const std::vector<std::string>& names);
 /// The subjects of this build with these names that can be started without building them, in this order.
 std::vector<Subject> start_at_hand(const std::vector<std::string>& names);
+/// Names of the installed engines (impl/host/engines.hpp), and those with these names, started. Throws BadSubject.
+std::vector<std::string> installed_engines();
+std::vector<Subject> start_engines(const std::vector<std::string>& names);
 /// Names of the subjects that give second opinions on the findings of others (nearmiss_add_subject with REFEREE).
 std::vector<std::string> names_of_referees();
 /// Names of the subjects that belong to this project (nearmiss_add_subject with OWN).

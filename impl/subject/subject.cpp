@@ -91,6 +91,36 @@ AllSubjects& of_process() {
   return all;
 }
 
+/// The installed engines; they keep their places when they are started.
+std::vector<Subject>& engines_of_process() {
+  static std::vector<Subject> engines = [] {
+    std::vector<Subject> all;
+    for (const std::string& name : installed_engines()) all.push_back(not_started(name));
+    return all;
+  }();
+  return engines;
+}
+
+std::vector<std::string> names_of_engines() {
+  std::vector<std::string> names;
+  for (const Subject& s : engines_of_process()) names.push_back(s.name);
+  return names;
+}
+
+void start_engines_named(const std::vector<std::string>& wanted) {
+  std::vector<std::string> missing;
+  for (const Subject& s : engines_of_process()) {
+    if (!s.started && contains(wanted, s.name)) missing.push_back(s.name);
+  }
+  if (missing.empty()) return;
+  for (Subject& started : start_engines(missing)) {
+    declare_of_user(started);
+    for (Subject& s : engines_of_process()) {
+      if (s.name == started.name) s = std::move(started);
+    }
+  }
+}
+
 }  // namespace
 
 const std::vector<Subject>& subjects() {
@@ -103,6 +133,11 @@ const std::vector<Subject>& subjects_at_hand() {
   return of_process().all();
 }
 
+const std::vector<Subject>& engines_at_hand() {
+  start_engines_named(names_of_engines());
+  return engines_of_process();
+}
+
 std::vector<std::string> subject_names() {
   std::vector<std::string> names;
   for (const Subject& s : of_process().all()) names.push_back(s.name);
@@ -112,9 +147,12 @@ std::vector<std::string> subject_names() {
 std::vector<const Subject*> subjects_named(std::span<const std::string> names) {
   const std::vector<std::string> wanted(names.begin(), names.end());
   of_process().start(wanted, start_built_in);
+  start_engines_named(wanted);
   std::vector<const Subject*> some;
-  for (const Subject& s : of_process().all()) {
-    if (contains(wanted, s.name)) some.push_back(&s);
+  for (const std::vector<Subject>* all : {&of_process().all(), &engines_of_process()}) {
+    for (const Subject& s : *all) {
+      if (contains(wanted, s.name)) some.push_back(&s);
+    }
   }
   return some;
 }
@@ -128,7 +166,9 @@ void add_subject(Subject subject) {
 
 void declare(const std::string& subject, std::string_view query, const Declaration& declaration) {
   users_declarations().push_back({subject, std::string(query), declaration});
-  for (Subject& s : of_process().all()) declare_of_user(s);
+  for (std::vector<Subject>* all : {&of_process().all(), &engines_of_process()}) {
+    for (Subject& s : *all) declare_of_user(s);
+  }
 }
 
 namespace {
@@ -169,6 +209,6 @@ const Subject* find_subject(std::string_view name) {
   return found.empty() ? nullptr : found.front();
 }
 
-bool is_subject(std::string_view name) { return contains(subject_names(), name); }
+bool is_subject(std::string_view name) { return contains(subject_names(), name) || contains(names_of_engines(), name); }
 
 }  // namespace nearmiss

@@ -104,8 +104,9 @@ struct HostProgram {
 
   std::vector<std::string> arguments;  ///< the file of the program first
   Batches batches = Batches::shared;
-  int version = 0;      ///< of the protocol that it speaks; 0: not yet known
-  std::string hello{};  ///< its hello from the first start; empty: not yet known
+  int version = 0;              ///< of the protocol that it speaks; 0: not yet known
+  std::string hello{};          ///< its hello from the first start; empty: not yet known
+  bool asks_for_names = false;  ///< the names of all numbers are sent to it before the first batch
 };
 
 struct Subject {
@@ -137,16 +138,20 @@ struct Subject {
 };
 
 /// Every subject of this build, in the order of the calls of nearmiss_add_subject, then the subjects of add_subject().
-/// Subjects of this build that are programs of their own are built, where the launcher started this program, and
-/// started when they are first needed: by this function all of them. Throws BadSubject (impl/host/hosts.hpp).
+/// Subjects of this build that are
+/// programs of their own are built, where the launcher started this program, and started when they are first needed: by
+/// this function all of them. Throws BadSubject (impl/host/hosts.hpp).
 const std::vector<Subject>& subjects();
 /// The names of subjects(), without building or starting one.
 std::vector<std::string> subject_names();
 /// subjects() without building one: those that are not built are not started, and their offerings say how to build
 /// them.
 const std::vector<Subject>& subjects_at_hand();
-/// The subjects with these names, in the order of subjects(). They are built and started together. Names of no subject
-/// are left out.
+/// The installed engines (impl/host/engines.hpp), started. They are none of subjects(): an engine is asked only where
+/// it is named. Throws BadSubject.
+const std::vector<Subject>& engines_at_hand();
+/// The subjects and engines with these names, in the order of subjects(), engines last. They are built and started
+/// together. Names of no subject are left out.
 std::vector<const Subject*> subjects_named(std::span<const std::string> names);
 /// The subjects that give second opinions on the findings of others (nearmiss_add_subject with REFEREE).
 std::vector<const Subject*> referees();
@@ -177,7 +182,7 @@ struct ReportedConventions {
 void declare_as_reported(std::optional<ReportedConventions> reported);
 /// nullptr where no subject has that name. A subject of this build is built and started where needed.
 const Subject* find_subject(std::string_view name);
-/// Whether a subject has that name. Builds and starts none.
+/// Whether a subject or an installed engine has that name. Builds and starts none.
 bool is_subject(std::string_view name);
 
 }  // namespace nearmiss

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corpus/storage/store.hpp"
+#include "impl/host/engines.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/output.hpp"
@@ -31,10 +32,19 @@ std::string_view offer_of(const Subject& s, const Query& query) {
   return s.started ? name_of(s.offering(query.name).offer) : not_built;
 }
 
-/// The offer of each subject, or of each referee, for the query.
-Json offers(const Query& query, bool referees_only) {
+/// All subjects at hand, then the engines.
+std::vector<const Subject*> all_at_hand() {
+  std::vector<const Subject*> all;
+  for (const std::vector<Subject>* some : {&subjects_at_hand(), &engines_at_hand()}) {
+    for (const Subject& s : *some) all.push_back(&s);
+  }
+  return all;
+}
+
+/// The offer of each of these subjects, or of each referee among them, for the query.
+Json offers(const Query& query, const std::vector<Subject>& all, bool referees_only = false) {
   Json j = Json::object();
-  for (const Subject& s : subjects_at_hand()) {
+  for (const Subject& s : all) {
     if (!referees_only || s.referee) j[s.name] = offer_of(s, query);
   }
   return j;
@@ -51,8 +61,8 @@ std::vector<std::string_view> names_of(Preconditions required) {
 /// The preconditions of each subject that has some: {NAME: [PRECONDITION]}.
 Json requirements(const Query& query) {
   Json j = Json::object();
-  for (const Subject& s : subjects_at_hand()) {
-    if (const Preconditions r = s.offering(query.name).required; !r.empty()) j[s.name] = names_of(r);
+  for (const Subject* s : all_at_hand()) {
+    if (const Preconditions r = s->offering(query.name).required; !r.empty()) j[s->name] = names_of(r);
   }
   return j;
 }
@@ -60,8 +70,9 @@ Json requirements(const Query& query) {
 /// What each subject declares: {NAME: [{"convention", "sentence"}]}.
 Json declarations(const Query& query) {
   Json j = Json::object();
-  for (const Subject& s : subjects_at_hand()) {
-    if (const auto declared = s.declared_for(query.name); !declared.empty()) j[s.name] = declarations_to_json(declared);
+  for (const Subject* s : all_at_hand()) {
+    if (const auto declared = s->declared_for(query.name); !declared.empty())
+      j[s->name] = declarations_to_json(declared);
   }
   return j;
 }
@@ -72,13 +83,13 @@ Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json
 /// the units of collide/contract.hpp; null: no bound.
 Json contracts(const Query& query) {
   Json j = Json::object();
-  for (const Subject& s : subjects_at_hand()) {
-    const collide::Contract& c = s.offering(query.name).contract;
-    if (s.offering(query.name).offer == Offer::not_offered || promises_nothing(c)) continue;
-    j[s.name] = {{"backward", bound_json(c.backward)},
-                 {"forward", bound_json(c.forward)},
-                 {"unit", bound_json(c.unit)},
-                 {"exact_decisions", c.exact_decisions}};
+  for (const Subject* s : all_at_hand()) {
+    const collide::Contract& c = s->offering(query.name).contract;
+    if (s->offering(query.name).offer == Offer::not_offered || promises_nothing(c)) continue;
+    j[s->name] = {{"backward", bound_json(c.backward)},
+                  {"forward", bound_json(c.forward)},
+                  {"unit", bound_json(c.unit)},
+                  {"exact_decisions", c.exact_decisions}};
   }
   return j;
 }
@@ -88,8 +99,9 @@ Json list_json() {
   for (const Query& q : catalogue()) {
     queries.push_back({{"query", q.name},
                        {"kind", name_of(q.kind)},
-                       {"subjects", offers(q, false)},
-                       {"referees", offers(q, true)},
+                       {"subjects", offers(q, subjects_at_hand())},
+                       {"referees", offers(q, subjects_at_hand(), true)},
+                       {"engines", offers(q, engines_at_hand())},
                        {"requires", requirements(q)},
                        {"declared", declarations(q)},
                        {"contracts", contracts(q)},
@@ -111,10 +123,12 @@ std::string letter(std::size_t i) {
 
 std::string subjects_table() {
   std::vector<std::vector<std::string>> rows{{"", "SUBJECT", "VERSION", "SCALAR", ""}};
-  for (std::size_t i = 0; i < subjects_at_hand().size(); ++i) {
-    const Subject& s = subjects_at_hand()[i];
+  const std::vector<const Subject*> all = all_at_hand();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Subject& s = *all[i];
+    const char* note = i >= subjects_at_hand().size() ? "an engine" : s.referee ? "also a referee" : "";
     if (s.started) {
-      rows.push_back({letter(i), s.name, s.version, std::string(name_of(s.scalar)), s.referee ? "also a referee" : ""});
+      rows.push_back({letter(i), s.name, s.version, std::string(name_of(s.scalar)), note});
     } else {
       rows.push_back({letter(i), s.name, std::string(not_built), "", ""});
     }
@@ -122,13 +136,23 @@ std::string subjects_table() {
   return table_text(rows);
 }
 
+/// A line about the engines that are not installed; empty where all are.
+std::string missing_engines_line() {
+  std::vector<std::string> missing;
+  for (const Engine& e : engines()) {
+    if (!e.is_installed) missing.push_back(e.name);
+  }
+  return missing.empty() ? "" : fmt::format("'./nearmiss engines NAME' installs {}\n", fmt::join(missing, ", "));
+}
+
 std::string queries_table() {
   std::vector<std::vector<std::string>> rows{{"QUERY", "KIND"}};
-  for (std::size_t i = 0; i < subjects_at_hand().size(); ++i) rows[0].push_back(letter(i));
+  const std::vector<const Subject*> all = all_at_hand();
+  for (std::size_t i = 0; i < all.size(); ++i) rows[0].push_back(letter(i));
   rows[0].insert(rows[0].end(), {"SEEDS", "PROPERTIES"});
   for (const Query& q : catalogue()) {
     std::vector<std::string> row{std::string(q.name), std::string(name_of(q.kind))};
-    for (const Subject& s : subjects_at_hand()) row.emplace_back(1, mark_of(s, q));
+    for (const Subject* s : all) row.emplace_back(1, mark_of(*s, q));
     row.push_back(std::to_string(count_seeds(q)));
     row.push_back(std::to_string(properties_of(q).size()));
     rows.push_back(row);
@@ -207,11 +231,11 @@ std::string declared_cell(const Subject& s, const Query& query) {
 std::string reasons_table() {
   std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "REQUIRES", "DECLARES", "HOW OR WHY NOT"}};
   for (const Query& q : catalogue()) {
-    for (const Subject& s : subjects_at_hand()) {
-      const Offering& o = s.offering(q.name);
-      rows.push_back({std::string(q.name), s.name, std::string(offer_of(s, q)),
+    for (const Subject* s : all_at_hand()) {
+      const Offering& o = s->offering(q.name);
+      rows.push_back({std::string(q.name), s->name, std::string(offer_of(*s, q)),
                       o.required.empty() ? "-" : fmt::format("{}", fmt::join(names_of(o.required), ", ")),
-                      declared_cell(s, q), o.how});
+                      declared_cell(*s, q), o.how});
     }
   }
   return table_text(rows);
@@ -245,14 +269,15 @@ class ListCommand : public Command {
              "it, and so "
              "does a command that asks it), the number of stored cases in its seed corpus, and the number of "
              "properties that are tested. Subjects that are marked as referees also give second "
-             "opinions in reports.",
+             "opinions in reports. An engine is asked only where --subject names it (docs/engines.md).",
              "--pairs shows the queries about two shapes as tables of shapes, with the subjects that answer each.",
              "--why shows for each query and subject the equivalent operation, or why the query is not offered, "
              "the preconditions of the subject, and the conventions that it declares: it is not asked cases that do "
              "not meet "
              "the former, and judged by the latter. --json prints "
              "one object for programs: {\"queries\": [{\"query\", \"kind\", \"subjects\": {NAME: \"answers\" | \"by "
-             "equivalence\" | \"not offered\" | \"not built yet\"}, \"referees\": {the same}, \"requires\": {NAME: "
+             "equivalence\" | \"not offered\" | \"not built yet\"}, \"referees\": {the same}, \"engines\": {the same}, "
+             "\"requires\": {NAME: "
              "[PRECONDITION]}, \"declared\": {NAME: [{\"convention\", \"sentence\"}]}, "
              "\"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
@@ -304,8 +329,8 @@ class ListCommand : public Command {
     } else {
       const bool all =
           std::all_of(subjects_at_hand().begin(), subjects_at_hand().end(), [](const Subject& s) { return s.started; });
-      say("{}\n{}\n+ answers   ~ by equivalence   . not offered{}   (nearmiss list --why tells how and why)\n",
-          subjects_table(), queries_table(), all ? "" : "   ? not built yet");
+      say("{}\n{}\n+ answers   ~ by equivalence   . not offered{}   (nearmiss list --why tells how and why)\n{}",
+          subjects_table(), queries_table(), all ? "" : "   ? not built yet", missing_engines_line());
     }
     return 0;
   }

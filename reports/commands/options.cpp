@@ -10,6 +10,7 @@
 
 #include "corpus/files/errors.hpp"
 #include "corpus/storage/codec.hpp"
+#include "impl/host/engines.hpp"
 #include "impl/host/hosts.hpp"
 #include "reports/engine/run.hpp"
 #include "reports/findings/report_text.hpp"
@@ -45,16 +46,6 @@ std::optional<std::uint64_t> parsed_count(const std::string& text) {
   return std::uint64_t(*number);
 }
 
-CLI::Validator known(const char* what, std::vector<std::string> (*words)()) {
-  const auto check = [what, words](const std::string& word) -> std::string {
-    for (const std::string& w : words()) {
-      if (w == word) return "";
-    }
-    return unknown_text(what, word, words());
-  };
-  return CLI::Validator(check, "");
-}
-
 std::string high_text(std::uint64_t high) {
   return high == std::numeric_limits<std::uint64_t>::max() ? "2^64 - 1" : std::to_string(high);
 }
@@ -73,7 +64,14 @@ CLI::Validator known_query() {
   };
   return CLI::Validator(check, "");
 }
-CLI::Validator known_subject() { return known("subject", subject_names); }
+CLI::Validator known_subject() {
+  const auto check = [](const std::string& name) -> std::string {
+    if (is_subject(name)) return "";
+    const std::string missing = how_to_install(name);
+    return missing.empty() ? unknown_text("subject", name, subject_names()) : missing;
+  };
+  return CLI::Validator(check, "");
+}
 
 void Selection::declare_queries(CLI::App& app) {
   app.add_option("-q,--query", query, "Only this query; may be given several times. Default: all")

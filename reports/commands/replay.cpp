@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "corpus/storage/codec.hpp"
+#include "impl/host/engines.hpp"
 #include "oracles/confirmed.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -56,7 +57,7 @@ class ReplayCommand : public Command {
     for (const std::string& f : files_) {
       settle_run_of(f);
       const nlohmann::json j = parse_json(read_file(f), f);  // once: a pipe cannot be read twice
-      warn_of_missing_subject(j, f);
+      take_subject_of_report(j, f);
       measures.push_back(measure_or(measure_, j, f));
       if (auto related = read_relation_case(j, f)) {
         cases.emplace_back(std::move(*related));
@@ -74,15 +75,17 @@ class ReplayCommand : public Command {
   }
 
  private:
-  /// Warns where the subject of a report is not loaded: the replay then lacks the reported answer.
-  static void warn_of_missing_subject(const nlohmann::json& report, const std::string& file) {
+  /// The subject of a report is asked, also an engine. Warns where it is not loaded: the replay then lacks the reported
+  /// answer.
+  void take_subject_of_report(const nlohmann::json& report, const std::string& file) {
     if (!report.is_object() || !report.contains("finding") || !report.contains("subject")) return;
     const nlohmann::json& subject = report["subject"];
     if (!subject.is_object() || !subject.contains("name") || !subject["name"].is_string()) return;
     const std::string name = subject["name"];
-    if (is_subject(name)) return;
+    if (is_subject(name)) return reported_.push_back(name);
+    const std::string missing = how_to_install(name);
     say_on_stderr(fmt::format("nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300),
-                              one_line(name, 60), how_to_ask_again(report, file)));
+                              one_line(name, 60), missing.empty() ? how_to_ask_again(report, file) : ": " + missing));
   }
   /// The options of the report's command that add its subject, for this file. Anybody may have written the report: no
   /// other command is shown, and the reader is told what this one starts.
@@ -103,8 +106,14 @@ class ReplayCommand : public Command {
     return fmt::format("; this asks it again, and starts {}: nearmiss replay {}{}", one_line(started, 300),
                        one_line(options, 600), one_line(shell_quoted(file), 300));
   }
+  std::vector<const Subject*> subjects() const {
+    if (!selection_.subject.empty()) return selection_.subjects();
+    std::vector<std::string> names = subject_names();
+    names.insert(names.end(), reported_.begin(), reported_.end());
+    return subjects_named(names);
+  }
   void again(const Case& question, const std::string& file) {
-    const Replay r = replay(question, file, selection_.subjects(), workers_);
+    const Replay r = replay(question, file, subjects(), workers_);
     for (const Report& report : r.reports) {
       bad_ = bad_ || is_bad(report.finding);
       if (json_) reports_.push_back(report_to_json(report));
@@ -112,7 +121,7 @@ class ReplayCommand : public Command {
     if (!json_) say("{}", replay_text(r));
   }
   void again(const RelationCase& related, const std::string& file) {
-    const RelationReplay r = replay(related, file, selection_.subjects(), workers_);
+    const RelationReplay r = replay(related, file, subjects(), workers_);
     for (const RelationReport& report : r.reports) {
       bad_ = bad_ || is_bad(report.breach);
       contradicted_ = contradicted_ || !report.oracle.empty();
@@ -122,6 +131,7 @@ class ReplayCommand : public Command {
   }
 
   std::vector<std::string> files_;
+  std::vector<std::string> reported_;  ///< the subjects of the files that are reports
   Selection selection_;
   std::optional<double> measure_;
   bool json_ = false, bad_ = false, contradicted_ = false;

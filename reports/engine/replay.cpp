@@ -10,6 +10,7 @@
 #include <span>
 
 #include "corpus/storage/codec.hpp"
+#include "impl/host/engines.hpp"
 #include "impl/subject/printable.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/report_text.hpp"
@@ -284,8 +285,9 @@ std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const s
   const nlohmann::json name = j["subject"].value("name", nlohmann::json());
   const Subject* subject = name.is_string() ? find_subject(name.get<std::string>()) : nullptr;
   if (subject != nullptr) return subject;
-  throw BadInput(fmt::format("{}: it is about {}, which is no subject here; --plugin and --command add subjects", file,
-                             one_line(name.dump(), 60)));
+  const std::string missing = name.is_string() ? how_to_install(name.get<std::string>()) : "";
+  throw BadInput(fmt::format("{}: it is about {}, which is no subject here; {}", file, one_line(name.dump(), 60),
+                             missing.empty() ? "--plugin and --command add subjects" : missing));
 }
 
 std::string replay_command(const Subject& subject, const std::string& file) {

@@ -8,6 +8,7 @@
 
 #include "oracles/judge.hpp"
 #include "reports/tests/mistaken_subject.hpp"
+#include "reports/triage/hypotheses/readings.hpp"
 
 namespace nearmiss {
 namespace {
@@ -33,6 +34,27 @@ Answer normal_of_the_box(Numbers q) {
   for (std::size_t k = 0; k < 3; ++k) d[k] = r[(k + 2) % 3] * c[(k + 1) % 3] - r[(k + 1) % 3] * c[(k + 2) % 3];
   for (std::size_t k = 0; k < 3; ++k) v[k] += 2 / n * (r[3] * c[k] + d[k]);
   return a;
+}
+
+/// The exact oracle takes no number that is not finite.
+TEST(CauseOfAReading, OfABoxOfTheLargestFloatsAsksNothingInfinite) {
+  constexpr double large = 0x1.8p127;
+  const Case c{find_query("sphere_box_penetration"),
+               Scalar::float32,
+               {0, 0, 0, 1, 0, 0, 0, large, large, large, 0, 0, 0, 1},
+               "",
+               0,
+               0,
+               {}};
+  Answer a;
+  a.yes = true;
+  a.count = std::uint8_t(c.query->outputs.size());
+  for (const Reading& r : readings_of_contacts()) {
+    (void)r.right(c, a, [&](const Case& other, const Answer&) {
+      for (const double x : other.values) EXPECT_TRUE(std::isfinite(x)) << r.name;
+      return false;
+    });
+  }
 }
 
 TEST(CauseOfAReading, OfOneOperandAlone) {

@@ -169,6 +169,7 @@ TEST_P(ClosedFolder, AProgramThatOtherUsersMayNotReadIsAsked) {
 TEST_P(ClosedFolder, AScriptThereIsAskedOrRefusedWithAdvice) {
   if (example_py().empty()) GTEST_SKIP() << "this system has no python3";
   const std::string python = example_py().substr(0, example_py().find(' '));
+  copy_of(source_folder() + "/impl/program/nearmiss.py");  // which it imports
   const std::string script = copy_of(source_folder() + "/docs/example-program/balls.py");
   const Ran ran = asked({"-s", "balls-py", "--command", python + " " + script});
   if (ran.exit_code == impossible) GTEST_SKIP() << ran.err;

@@ -202,7 +202,9 @@ Fits face_of_largest_coordinate(const Case& c, const Answer& a, const IsRight& i
     if (k == face || depth_below(k) > depth_below(face)) continue;
     is_nearest = false;
     const long double half = box.half[int(k)] + 2 * depth_below(face) - depth_below(k);
-    other.values[*operand->half + k] = rounded_to(c.scalar, double(half));
+    double& other_half = other.values[*operand->half + k];
+    other_half = rounded_to(c.scalar, double(half));
+    if (!std::isfinite(other_half)) return std::nullopt;  // its sum is beyond all numbers of the scalar
   }
   return is_nearest ? std::nullopt : Fits(is_right(other, a));
 }

@@ -1,0 +1,85 @@
+// What the subjects of engines share: the package of npm, arithmetic, and the table.
+//
+//     node impl/engines/NAME/subject.mjs [FOLDER] [--undeclared] [--package PACKAGE]
+//
+// FOLDER has node_modules; without it the engine is the one that './nearmiss engines NAME' installed. With --undeclared the
+// subject declares nothing, as if its documentation said nothing, --package takes another package than usual and its name for that of the subject.
+import fs from "node:fs";
+import path from "node:path";
+import { createRequire } from "node:module";
+import { pathToFileURL } from "node:url";
+import { answer } from "../program/nearmiss.mjs";
+
+const options = process.argv.slice(3);
+/** Whether the subject declares its conventions, and leaves out what the documentation calls undefined. */
+export const declares = !options.includes("--undeclared");
+export const otherPackage = options.includes("--package") ? options[options.indexOf("--package") + 1] : undefined;
+
+/** The file of an installed package, with its version. `file` is relative to the package; without it, its entry. */
+export function packaged(name, file) {
+  const own = path.dirname(process.argv[1]);
+  const folder = path.resolve(process.argv[2] ?? path.join(own, "../../../build/engines", path.basename(own)));
+  const top = path.join(folder, "node_modules", name);
+  const { version } = JSON.parse(fs.readFileSync(path.join(top, "package.json"), "utf8"));
+  return { version, file: file ? path.join(top, file) : createRequire(path.join(folder, "index.js")).resolve(name) };
+}
+
+export async function load(name, file) {
+  const found = packaged(name, file);
+  return { version: found.version, library: await import(pathToFileURL(found.file)) };
+}
+
+/** Answers by a table of nearmiss.mjs. */
+export function answerBy({ queries, ...hello }) {
+  const offers = Object.entries(queries).map(([query, offer]) => {
+    const { declares: declared, ...others } = typeof offer === "function" ? { answer: offer } : offer;
+    return [query, declares && declared ? { ...others, declares: declared } : others];
+  });
+  answer({ ...hello, queries: Object.fromEntries(offers) });
+}
+
+/** A convention with the sentence of the engine's documentation. */
+export const declared = (convention, sentence) => ({ convention, sentence });
+
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const plus = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+export const length = (a) => Math.hypot(...a);
+export const scaled = (a, s) => a.map((x) => x * s);
+export const unit = (a) => scaled(a, 1 / length(a));
+/** A quaternion x, y, z, w of length 1. */
+export const turned = (q) => scaled(q, 1 / Math.hypot(...q));
+
+/** The least power of two as a time after which a point is past the ball; 0 without motion. */
+export function timeToPass(point, velocity, center, radius) {
+  const speed = length(velocity);
+  if (!(speed > 0)) return 0;
+  const way = radius - dot(minus(point, center), unit(velocity));
+  return 2 ** Math.ceil(Math.log2((way > 0 ? way : radius || 1) / speed));
+}
+
+/** The same of a ball of that radius and the plane, which it may never meet; 0 without motion. */
+export function timeToPlane(point, velocity, { normal, offset }, radius = 0) {
+  const n = unit(normal), approach = Math.abs(dot(n, velocity)), speed = length(velocity);
+  if (!(speed > 0)) return 0;
+  if (!(approach > 0)) return 2 ** Math.ceil(-Math.log2(speed));
+  const distance = Math.abs(dot(n, point) + offset / length(normal)) + radius;
+  return 2 ** Math.ceil(1 + Math.log2((distance || approach) / approach));
+}
+
+/** The ball around a shape of the catalogue: [center, radius]. */
+export const around = {
+  sphere: ({ center, radius }) => [center, radius],
+  box: ({ center, half }) => [center, length(half)],
+  capsule: ({ p0, p1, radius }) => [scaled(plus(p0, p1), 0.5), length(minus(p1, p0)) / 2 + radius],
+};
+
+/** The rotation that turns the axis `axis` (x, y or z) into the direction of unit length. */
+export function turnOf(axis, [x, y, z]) {
+  const [q, opposite] = {
+    x: [[0, -z, y, 1 + x], [0, 0, 1, 0]],
+    y: [[z, 0, -x, 1 + y], [1, 0, 0, 0]],
+    z: [[-y, x, 0, 1 + z], [1, 0, 0, 0]],
+  }[axis];
+  return turned(q[3] > 0 ? q : opposite);
+}

@@ -1,0 +1,110 @@
+// Jolt: rays, collisions and casts of its shapes, by TransformedShape. The convex radius of boxes is zero.
+import { Cannot } from "../../program/nearmiss.mjs";
+import { answerBy, around, declared, length, load, minus, plus, scaled, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
+
+const { version, library } = await load("jolt-physics", "dist/jolt-physics.wasm-compat.js");
+const J = await library.default();
+const settings = new J.JoltSettings(), pairs = new J.ObjectLayerPairFilterTable(1), layers = new J.BroadPhaseLayerInterfaceTable(1, 1);
+layers.MapObjectToBroadPhaseLayer(0, new J.BroadPhaseLayer(0));
+settings.mObjectLayerPairFilter = pairs, settings.mBroadPhaseLayerInterface = layers;
+settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 1);
+new J.JoltInterface(settings);  // registers the shapes
+
+// Objects of a case, which are destroyed after it.
+const kept = [];
+const keep = (object) => (kept.push(object), object);
+const freeing = (answer) => {
+  while (kept.length) J.destroy(kept.pop());
+  return answer;
+};
+const vec = (v) => keep(new J.Vec3(...v)), rvec = (v) => keep(new J.RVec3(...v)), quat = (q) => keep(new J.Quat(...q));
+const list = (v) => [v.GetX(), v.GetY(), v.GetZ()];
+
+// Shapes, each with its place.
+const still = [0, 0, 0, 1];
+const sphere = ({ center, radius }) => ({ shape: new J.SphereShape(radius), at: center, turn: still });
+const box = ({ center, half, orientation }) => ({ shape: new J.BoxShape(vec(half), 0), at: center, turn: turned(orientation) });
+const capsule = ({ p0, p1, radius }) => {  // Jolt's capsules are along y
+  const l = length(minus(p1, p0));
+  if (!(l > 0)) return sphere({ center: p0, radius });
+  return { shape: new J.CapsuleShape(l / 2, radius), at: scaled(plus(p0, p1), 0.5), turn: turnOf("y", unit(minus(p1, p0))) };
+};
+const plane = ({ normal, offset }) => ({ shape: new J.PlaneShape(keep(new J.Plane(vec(unit(normal)), offset / length(normal)))), at: [0, 0, 0], turn: still });
+const placed = ({ shape, at, turn }) => {
+  shape.AddRef();
+  return shape.GetSubShapeTransformedShape(keep(new J.SubShapeID()), vec(at), quat(turn), vec([1, 1, 1]), keep(new J.SubShapeID()));
+};
+
+// Calls.
+const anyShape = new J.ShapeFilter(), zero = new J.RVec3(0, 0, 0);
+function ray({ point, velocity }, make, [center, radius]) {
+  const horizon = timeToPass(point, velocity, center, radius);
+  if (horizon === 0) return new Cannot("a ray has two ends");
+  const b = make(), hit = keep(new J.RayCastResult());
+  hit.mFraction = 1 + 1e-6;
+  placed(b).CastRay(keep(new J.RRayCast(rvec(point), vec(scaled(velocity, horizon)))), hit);
+  const fraction = hit.mFraction;
+  b.shape.Release();
+  return freeing(fraction <= 1 && { time: fraction * horizon });
+}
+/** A cast of the moving sphere against what `make` makes, which it has passed at the time `horizon`. */
+function cast({ sphere: moving, velocity }, make, horizon, isConvex = true) {
+  if (horizon === 0) return new Cannot("a cast has two ends");
+  const a = sphere(moving), b = make();
+  a.shape.AddRef();
+  const pose = J.RMat44.prototype.sRotationTranslation(quat(a.turn), rvec(a.at));
+  const way = keep(new J.RShapeCast(a.shape, vec([1, 1, 1]), pose, vec(scaled(velocity, horizon))));
+  const collector = keep(new J.CastShapeClosestHitCollisionCollector()), how = keep(new J.ShapeCastSettings());
+  if (isConvex) how.mBackFaceModeConvex = J.EBackFaceMode_CollideWithBackFaces;  // also hits where it starts inside and leaves
+  placed(b).CastShape(way, how, zero, collector, anyShape);
+  const { mFraction, mContactPointOn2, mPenetrationAxis } = collector.mHit, time = mFraction * horizon;
+  // Where they overlap at the start it computes no deepest point (ShapeCastSettings::mReturnDeepestPoint).
+  const hit = collector.HadHit() && (mFraction > 0 ? { time, location: list(mContactPointOn2), normal: scaled(unit(list(mPenetrationAxis)), -1) } : { time });
+  a.shape.Release(), b.shape.Release();
+  return freeing(hit);
+}
+const castTo = (make, shape, member = shape) => (q) => {
+  const [center, radius] = around[shape](q[member]);
+  return cast(q, () => make(q[member]), timeToPass(q.sphere.center, q.velocity, center, radius + q.sphere.radius));
+};
+function collision(a, b) {
+  const how = keep(new J.CollideShapeSettings()), collector = keep(new J.CollideShapeClosestHitCollisionCollector());
+  a.shape.AddRef();
+  const pose = J.RMat44.prototype.sRotationTranslation(quat(a.turn), rvec(a.at));
+  placed(b).CollideShape(a.shape, vec([1, 1, 1]), pose, how, zero, collector, anyShape);
+  const hit = collector.HadHit() && { depth: collector.mHit.mPenetrationDepth, normal: unit(list(collector.mHit.mPenetrationAxis)) };
+  a.shape.Release(), b.shape.Release();
+  return freeing(hit);
+}
+const meet = (a, b) => collision(a, b) !== false;
+
+const solid = [declared("start in contact is a hit",
+  "RayCastSettings::mTreatConvexAsSolid: 'If convex shapes should be treated as solid. When true, a ray starting inside a convex shape will generate a hit at fraction 0.'")];
+const rays = { gives: ["time"], declares: solid }, gives = ["depth", "normal"];
+answerBy({
+  name: "jolt", version: `jolt-physics ${version}`, scalar: "float",
+  queries: {
+    moving_point_sphere: { answer: (q) => ray(q, () => sphere(q.sphere), around.sphere(q.sphere)), ...rays },
+    moving_point_box: { answer: (q) => ray(q, () => box(q.box), around.box(q.box)), ...rays },
+    moving_point_capsule: { answer: (q) => ray(q, () => capsule(q.capsule), around.capsule(q.capsule)), ...rays },
+    moving_sphere_sphere: castTo(sphere, "sphere", "fixed"),
+    moving_sphere_box: castTo(box, "box"),
+    moving_sphere_capsule: castTo(capsule, "capsule"),
+    moving_sphere_plane: (q) => cast(q, () => plane(q.plane), timeToPlane(q.sphere.center, q.velocity, q.plane, q.sphere.radius), false),
+    sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
+    sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
+    sphere_capsule_overlap: (q) => meet(sphere(q.sphere), capsule(q.capsule)),
+    capsule_capsule_overlap: (q) => meet(capsule(q.capsule1), capsule(q.capsule2)),
+    capsule_box_overlap: (q) => meet(capsule(q.capsule), box(q.box)),
+    box_box_overlap: { answer: (q) => meet(box(q.box1), box(q.box2)), gives: [] },
+    sphere_sphere_penetration: { answer: (q) => collision(sphere(q.sphere1), sphere(q.sphere2)), gives },
+    sphere_box_penetration: { answer: (q) => collision(sphere(q.sphere), box(q.box)), gives },
+    sphere_plane_penetration: {
+      answer: (q) => {
+        const hit = collision(sphere(q.sphere), plane(q.plane));
+        return hit && { depth: hit.depth, normal: scaled(hit.normal, -1) };
+      }, gives,
+    },
+    box_box_penetration: { answer: (q) => collision(box(q.box1), box(q.box2)), gives },
+  },
+});

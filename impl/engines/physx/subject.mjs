@@ -1,0 +1,114 @@
+// PhysX: raycasts, sweeps and overlaps of PxGeometryQuery, and PxGjkQuery.proximityInfo for depths. The package is built for
+// browsers, and gets its WebAssembly file here.
+import fs from "node:fs";
+import { pathToFileURL } from "node:url";
+import { Cannot } from "../../program/nearmiss.mjs";
+import { answerBy, around, declared, declares, length, minus, packaged, plus, scaled, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
+
+const { version, file } = packaged("physx-js-webidl", "physx-js-webidl.mjs");
+const { process } = globalThis;
+Object.assign(globalThis, { window: globalThis, process: undefined });  // it asks for them while it is loaded
+const { default: start } = await import(pathToFileURL(file));
+const P = await start({ wasmBinary: fs.readFileSync(file.replace(/mjs$/, "wasm")) });
+Object.assign(globalThis, { window: undefined, process });
+
+// Objects that every case sets anew, so that none is lost.
+const set = (v, [x, y, z, w]) => {
+  v.x = x, v.y = y, v.z = z;
+  if (w !== undefined) v.w = w;
+  return v;
+};
+const list = (v) => [v.x, v.y, v.z];
+const Query = P.PxGeometryQuery.prototype;
+const origin = new P.PxVec3(), direction = new P.PxVec3();
+const raycastHit = new P.PxRaycastHit(), sweepHit = new P.PxSweepHit(), proximity = new P.PxGjkQueryProximityInfoResult();
+const flags = new P.PxHitFlags(P.PxHitFlagEnum.eDEFAULT);
+/** Two of each shape, one for each body: with its pose, and as a support where it has one. */
+const bodies = [0, 1].map(() => {
+  const pose = new P.PxTransform(P.PxIDENTITYEnum.PxIdentity);
+  const at = (geometry, p, q, support) => (set(pose.p, p), set(pose.q, q), { geometry, pose, support });
+  const ball = new P.PxSphereGeometry(1), box = new P.PxBoxGeometry(1, 1, 1), capsule = new P.PxCapsuleGeometry(1, 1), plane = new P.PxPlaneGeometry();
+  const ballSupport = new P.SphereSupport(1), boxSupport = new P.BoxSupport(set(origin, [1, 1, 1]));
+  return {
+    sphere: ({ center, radius }) => {
+      ball.radius = ballSupport.radius = radius;
+      return at(ball, center, [0, 0, 0, 1], ballSupport);
+    },
+    box: ({ center, half, orientation }) => {
+      set(box.halfExtents, half), set(boxSupport.halfExtents, half);
+      return at(box, center, turned(orientation), boxSupport);
+    },
+    capsule: ({ p0, p1, radius }) => {  // PhysX's capsules are along x
+      const l = length(minus(p1, p0));
+      capsule.radius = radius, capsule.halfHeight = l / 2;
+      return at(capsule, scaled(plus(p0, p1), 0.5), turnOf("x", l > 0 ? unit(minus(p1, p0)) : [1, 0, 0]));
+    },
+    plane: ({ normal, offset }) => at(plane, scaled(unit(normal), -offset / length(normal)), turnOf("x", unit(normal))),
+  };
+});
+const [first, second] = bodies;
+
+// Calls.
+const noGeometry = (body) => !Query.isValid(body.geometry);
+const refused = new Cannot("PxGeometryQuery::isValid says that the shape is not valid");
+function ray({ point, velocity }, body, horizon) {
+  if (horizon === 0) return new Cannot("a ray has a direction");
+  if (noGeometry(body)) return refused;
+  const hits = Query.raycast(set(origin, point), set(direction, unit(velocity)), body.geometry, body.pose, horizon * length(velocity), flags, 1, raycastHit);
+  if (hits === 0) return false;
+  // From inside, the normal is only the direction reversed.
+  const isInside = declares && raycastHit.distance === 0;
+  return { time: raycastHit.distance / length(velocity), location: list(raycastHit.position), normal: isInside ? null : list(raycastHit.normal) };
+}
+const rayTo = (shape) => (q) => ray(q, first[shape](q[shape]), timeToPass(q.point, q.velocity, ...around[shape](q[shape])));
+const rayToPlane = (q) => ray(q, first.plane(q.plane), timeToPlane(q.point, q.velocity, q.plane));
+function sweep({ sphere, velocity }, body, horizon) {
+  if (horizon === 0) return new Cannot("a sweep has a direction");
+  const moving = first.sphere(sphere), speed = length(velocity);
+  if (noGeometry(moving) || noGeometry(body)) return refused;
+  const hit = Query.sweep(set(direction, unit(velocity)), horizon * speed, moving.geometry, moving.pose, body.geometry, body.pose, sweepHit, flags, 0);
+  if (!hit) return false;
+  const time = sweepHit.distance / speed;
+  // It flags the position as missing where they overlap at the start; the normal is then only the opposite direction.
+  return sweepHit.flags.isSet(P.PxHitFlagEnum.ePOSITION) ? { time, location: list(sweepHit.position), normal: list(sweepHit.normal) } : { time };
+}
+const sweepTo = (shape, member = shape) => (q) => {
+  const [center, radius] = around[shape](q[member]);
+  return sweep(q, second[shape](q[member]), timeToPass(q.sphere.center, q.velocity, center, radius + q.sphere.radius));
+};
+const sweepToPlane = (q) => sweep(q, second.plane(q.plane), timeToPlane(q.sphere.center, q.velocity, q.plane, q.sphere.radius));
+function meet(a, b) {
+  if (noGeometry(a) || noGeometry(b)) return refused;
+  return Query.overlap(a.geometry, a.pose, b.geometry, b.pose);
+}
+function depth(a, b) {
+  if (noGeometry(a) || noGeometry(b)) return refused;
+  const found = P.PxGjkQuery.prototype.proximityInfo(a.support, b.support, a.pose, b.pose, 0, 1, proximity);
+  return found && proximity.separation <= 0 && { depth: -proximity.separation, normal: scaled(list(proximity.separatingAxis), -1) };
+}
+
+const inside = [declared("start in contact is a hit", "Geometry Queries, Raycasts against Spheres, Capsules, Boxes and Convex Meshes: 'If the ray origin is inside a solid object: the reported hit distance is set to zero', 'the hit normal is set to be the opposite of the ray's direction'")];
+const overlapping = [declared("start in contact is a hit", "Geometry Queries, Sweeps, initial overlaps: 'the reported distance is zero'")];
+const gives = ["depth", "normal"];
+answerBy({
+  name: "physx", version: `PhysX 5.6.1, physx-js-webidl ${version}`, scalar: "float",
+  queries: {
+    moving_point_sphere: { answer: rayTo("sphere"), declares: inside },
+    moving_point_box: { answer: rayTo("box"), declares: inside },
+    moving_point_capsule: { answer: rayTo("capsule"), declares: inside },
+    moving_point_plane: rayToPlane,
+    moving_sphere_sphere: { answer: sweepTo("sphere", "fixed"), declares: overlapping },
+    moving_sphere_box: { answer: sweepTo("box"), declares: overlapping },
+    moving_sphere_capsule: { answer: sweepTo("capsule"), declares: overlapping },
+    moving_sphere_plane: { answer: sweepToPlane, declares: overlapping },
+    sphere_sphere_overlap: (q) => meet(first.sphere(q.sphere1), second.sphere(q.sphere2)),
+    sphere_box_overlap: (q) => meet(first.sphere(q.sphere), second.box(q.box)),
+    sphere_capsule_overlap: (q) => meet(first.sphere(q.sphere), second.capsule(q.capsule)),
+    capsule_capsule_overlap: (q) => meet(first.capsule(q.capsule1), second.capsule(q.capsule2)),
+    capsule_box_overlap: (q) => meet(first.capsule(q.capsule), second.box(q.box)),
+    box_box_overlap: { answer: (q) => meet(first.box(q.box1), second.box(q.box2)), gives: [] },
+    sphere_sphere_penetration: { answer: (q) => depth(first.sphere(q.sphere1), second.sphere(q.sphere2)), gives },
+    sphere_box_penetration: { answer: (q) => depth(first.sphere(q.sphere), second.box(q.box)), gives },
+    box_box_penetration: { answer: (q) => depth(first.box(q.box1), second.box(q.box2)), gives },
+  },
+});
