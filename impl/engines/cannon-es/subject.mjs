@@ -63,7 +63,7 @@ function depth(method, a, b, more) {
   return { depth: best.depth, normal: best.normal, ...more?.(best) };
 }
 
-const backfaces = "Ray.skipBackfaces, 'Set to true if you want the Ray to ignore backfaces', is false by default";
+const backfaces = "cannon-es.d.ts: Ray has 'skipBackfaces: boolean', which its constructor sets to false";
 const gives = ["depth", "normal"];
 answerBy({
   name: "cannon-es", version: `cannon-es ${version}`, scalar: "double",

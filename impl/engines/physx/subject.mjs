@@ -88,7 +88,7 @@ function depth(a, b) {
 }
 
 const inside = [declared("start in contact is a hit", "Geometry Queries, Raycasts against Spheres, Capsules, Boxes and Convex Meshes: 'If the ray origin is inside a solid object: the reported hit distance is set to zero', 'the hit normal is set to be the opposite of the ray's direction'")];
-const overlapping = [declared("start in contact is a hit", "Geometry Queries, Sweeps, initial overlaps: 'the reported distance is zero'")];
+const overlapping = [declared("start in contact is a hit", "PxScene::sweep: 'If a shape from the scene is already overlapping with the query shape in its starting position, the hit is returned unless eASSUME_NO_INITIAL_OVERLAP was specified.'")];
 const gives = ["depth", "normal"];
 answerBy({
   name: "physx", version: `PhysX 5.6.1, physx-js-webidl ${version}`, scalar: "float",
