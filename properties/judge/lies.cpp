@@ -70,6 +70,9 @@ class Inputs {
     for (int i = 0; i < count; ++i) all.push_back(vector());
     return all;
   }
+  Body point() { return hull(vectors(1)); }
+  Body segment() { return hull(vectors(2)); }
+  Body triangle() { return hull(vectors(3)); }
   Body sphere() {
     const Vector center = vector();
     return ball(center, number());
@@ -587,11 +590,6 @@ void overlap(Inputs in, Liar& out) {
   const Body a = (in.*first)();
   overlapping(a, (in.*second)(), out);
 }
-template <Body (Inputs::*first)()>
-void triangle_overlap(Inputs in, Liar& out) {
-  const Body a = (in.*first)();
-  overlapping(a, hull(in.vectors(3)), out);
-}
 
 constexpr std::size_t depth_leaf = 0, normal_leaf = 1, contact_leaf = 4;
 
@@ -798,8 +796,8 @@ constexpr Known known[] = {
     {QueryId::sphere_sphere_overlap, overlap<&Inputs::sphere, &Inputs::sphere>},
     {QueryId::sphere_box_overlap, overlap<&Inputs::sphere, &Inputs::box>},
     {QueryId::box_box_overlap, overlap<&Inputs::box, &Inputs::box>},
-    {QueryId::sphere_triangle_overlap, triangle_overlap<&Inputs::sphere>},
-    {QueryId::aabox_triangle_overlap, triangle_overlap<&Inputs::aabox>},
+    {QueryId::sphere_triangle_overlap, overlap<&Inputs::sphere, &Inputs::triangle>},
+    {QueryId::aabox_triangle_overlap, overlap<&Inputs::aabox, &Inputs::triangle>},
     {QueryId::sphere_sphere_penetration, sphere_sphere_penetration},
     {QueryId::sphere_plane_penetration, sphere_plane_penetration},
     {QueryId::box_plane_penetration, box_plane_penetration},
@@ -812,6 +810,8 @@ constexpr Known known[] = {
     {QueryId::box_box_conservative, box_box_conservative},
     {QueryId::bounce_direction, bounce_direction},
     {QueryId::slide_direction, slide_direction},
+#define NEARMISS_OVERLAP(first, second) {QueryId::first##_##second##_overlap, overlap<&Inputs::first, &Inputs::second>},
+#include "impl/catalogue/grid.def"
 };
 
 const Known* known_of(const Query& query) {
