@@ -200,7 +200,7 @@ void enter_query(const char* name) {
   if constexpr (AsksOverlap<Q> || AsksDepth<Q>) {
     if constexpr (is_triangle<Second<Q>> && is_aabox<First<Q>>) {
       enter(std::type_identity<Gjk>(), "gjk");
-    } else if constexpr (is_triangle<Second<Q>>) {
+    } else if constexpr (is_sphere<First<Q>> && is_triangle<Second<Q>>) {
       enter(std::type_identity<SphereTriangle>(), "detector");
     } else if constexpr (is_box<First<Q>> && is_box<Second<Q>>) {
       enter(std::type_identity<BoxBoxDetector>(), "detector");

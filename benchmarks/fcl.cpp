@@ -62,14 +62,17 @@ auto solid(const S& shape) {
 }
 
 /// FCL's own test of a shape against a triangle that is part of no mesh.
-template <class Q>
+template <class Q, bool triangle_first>
 struct TriangleOverlap {
-  explicit TriangleOverlap(const Q& q) : TriangleOverlap(std::get<0>(shapes_of(q)), q.triangle) {}
-  TriangleOverlap(const First<Q>& first, const collide::Triangle<double>& t)
-      : body(solid(first)), corners{FclShapes::vector(t.v0), FclShapes::vector(t.v1), FclShapes::vector(t.v2)} {}
+  using Other = std::conditional_t<triangle_first, Second<Q>, First<Q>>;
+  explicit TriangleOverlap(const Q& q)
+      : TriangleOverlap(std::get < triangle_first ? 1 : 0 > (shapes_of(q)),
+                        std::get < triangle_first ? 0 : 1 > (shapes_of(q))) {}
+  TriangleOverlap(const Other& other, const collide::Triangle<double>& t)
+      : body(solid(other)), corners{FclShapes::vector(t.v0), FclShapes::vector(t.v1), FclShapes::vector(t.v2)} {}
   LibraryAnswer ask() const { return {meets_triangle(solver, body, corners)}; }
 
-  FclBody<decltype(solid(First<Q>{}))> body;
+  FclBody<decltype(solid(Other{}))> body;
   fcl::Vector3d corners[3];
   fcl::detail::GJKSolver_libccd<double> solver;
 };
@@ -100,8 +103,11 @@ void enter_query(const char* name) {
   const auto enter = [&]<class Asked>(std::type_identity<Asked>, const char* way) {
     register_contender(name, "fcl", way, std::make_unique<ContenderOf<Asked, Q>>());
   };
-  if constexpr (AsksOverlap<Q> && is_triangle<Second<Q>>) {
-    enter(std::type_identity<TriangleOverlap<Q>>(), "shapeTriangleIntersect");
+  constexpr bool knows_first = FclKnows<First<Q>> || is_aabox<First<Q>>;
+  if constexpr (AsksOverlap<Q> && knows_first && is_triangle<Second<Q>>) {
+    enter(std::type_identity<TriangleOverlap<Q, false>>(), "shapeTriangleIntersect");
+  } else if constexpr (AsksOverlap<Q> && is_triangle<First<Q>> && FclKnows<Second<Q>>) {
+    enter(std::type_identity<TriangleOverlap<Q, true>>(), "shapeTriangleIntersect");
   } else if constexpr ((AsksOverlap<Q> || AsksDepth<Q>)&&FclKnowsBoth<Q>) {
     enter(std::type_identity<Collision<Q, AsksDepth<Q>>>(), "collide");
   } else if constexpr (AsksBallMotion<Q> && FclKnows<Second<Q>>) {
