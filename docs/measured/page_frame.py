@@ -18,6 +18,14 @@ import re
 import subprocess
 import sys
 
+def catalogue():
+    """The names of all queries, in the catalogue's order."""
+    folder = pathlib.Path(__file__).resolve().parents[2] / "impl" / "catalogue"
+    queries = re.findall(r"^NEARMISS_QUERY\((\w+)\)", (folder / "catalogue.def").read_text(), re.MULTILINE)
+    pairs = re.findall(r"^NEARMISS_OVERLAP\((\w+), (\w+)\)", (folder / "grid.def").read_text(), re.MULTILINE)
+    return queries + [f"{first}_{second}_overlap" for first, second in pairs]
+
+
 # The headers of the columns that name something. All other columns have figures.
 NAMES = {"query", "subject", "library", "program", "batches", "part", "scalar", "class", "configuration", "stored case",
          "the bug and its fix"}
