@@ -293,7 +293,7 @@ TEST(Run, SaysWhatCouldNotBeWrittenAndLeavesAnIndexThatDoesToo) {
   EXPECT_EQ(index["state"], "failed");
   EXPECT_GT(index["cases"], 0) << "the index could be written once more";
 
-  const Ran many = run_with_small_files(folder / "many", "20", "-n 500");  // the index itself becomes too large
+  const Ran many = run_with_small_files(folder / "many", "40", "-n 500");  // the index itself becomes too large
   EXPECT_EQ(many.exit_code, 2);
   EXPECT_NE(many.err.find("/index.json: cannot be written: File too large; "), std::string::npos) << many.err;
   index = index_of(folder / "many");
