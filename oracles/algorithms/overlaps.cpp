@@ -237,9 +237,14 @@ bool surely_spans(const Core<N>& a, const Core<N>& b) {
   return false;
 }
 
+/// Whether a squared length is known so poorly that what is divided by it says nothing: that of a cross product of
+/// nearly parallel edges.
+bool is_vague(const Interval& x) { return !(x.inf() > 0 && x.sup() <= (1 + 0x1p-20) * x.inf()); }
+bool is_vague(const Exact&) { return false; }
+
 /// Encloses the signed distance of two cores: the greatest gap over the directions of length 1. Where it is negative, a
 /// direction of a facet has it, if the Minkowski difference has a volume; without a volume it is not negative.
-/// nullopt: a direction may be zero, so that the intervals cannot tell. The cores are in units of 1 / unit.
+/// nullopt: a direction is vague, so that the intervals cannot tell. The cores are in units of 1 / unit.
 template <class N>
 std::optional<Bounds> signed_distance(const Core<N>& a, const Core<N>& b, const N& unit = N(1)) {
   Bounds s{-HUGE_VAL, surely_spans(a, b) ? -HUGE_VAL : 0.0};
@@ -248,7 +253,7 @@ std::optional<Bounds> signed_distance(const Core<N>& a, const Core<N>& b, const 
   const bool unknown = any_direction(a, b, false, [&](const Vector<N>& n) {
     const N n2 = norm2(n);
     if (surely_zero(n2)) return false;
-    if (may_be_zero(n2)) return true;
+    if (is_vague(n2)) return true;
     for (const N& gap : gaps(n, a, b)) {
       if constexpr (is_enclosure<N>) {
         const Bounds by = bounds(N(gap / root(n2)));

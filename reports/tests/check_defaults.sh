@@ -60,6 +60,7 @@ run scene advise driving --cases 20
 run scene verify "$(find reports/runs -name profile.json)" --cases 10
 run nightly --minutes 0.01
 printf '{"query": "%s", "scalar": "float", "values": [0, 0, 0, 1, 3, 0, 0, 1]}\n' "$query" >"$scratch/trace.jsonl"
+run truth "$scratch/trace.jsonl"
 run import jsonl "$scratch/trace.jsonl" --scene "$scratch/mine.json"
 run oss-fuzz --subject skim --add docs/example-library/nearmiss.cmake --out "$scratch/kit"
 status=0
