@@ -115,9 +115,9 @@ void start_engines_named(const std::vector<std::string>& wanted) {
   if (missing.empty()) return;
   for (Subject& started : start_engines(missing)) {
     declare_of_user(started);
-    for (Subject& s : engines_of_process()) {
-      if (s.name == started.name) s = std::move(started);
-    }
+    const auto listed = std::find_if(engines_of_process().begin(), engines_of_process().end(),
+                                     [&](const Subject& s) { return s.name == started.name; });
+    if (listed != engines_of_process().end()) *listed = std::move(started);
   }
 }
 

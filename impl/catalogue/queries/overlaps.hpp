@@ -12,11 +12,13 @@ namespace nearmiss::inputs {
 namespace overlaps {
 
 /// The shapes by their names in shapes.def.
+// NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared has none
 #define NEARMISS_SHAPE(name, type, words, edges, faces) \
   template <class T>                                    \
   using name = collide::type<T>;
 #include "impl/catalogue/shapes.def"
 #undef NEARMISS_SHAPE
+// NOLINTEND(bugprone-macro-parentheses)
 
 constexpr bool has_size(std::string_view shape) { return shape == "sphere" || shape == "capsule" || shape == "box"; }
 constexpr Role role_of(std::string_view shape) { return shape == "point" ? Role::position : Role::inherited; }

@@ -261,6 +261,8 @@ constexpr Contract overlap() {
 }  // namespace contracts
 }  // namespace collide
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type and a name that is declared have none
+
 /// Defines the function `name` of two shapes and its contract.
 #define COLLIDE_OVERLAP_FUNCTION(name, First, first, Second, second)                                                   \
   COLLIDE_COMPILED(name)                                                                                               \
@@ -288,5 +290,7 @@ constexpr Contract overlap() {
   }                                                                         \
   }                                                                         \
   COLLIDE_OVERLAP_FUNCTION(name, First, first, Second, second)
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 #include <collide/detail/strict_end.hpp>
