@@ -239,7 +239,7 @@ bool surely_spans(const Core<N>& a, const Core<N>& b) {
 
 /// Whether a squared length is known so poorly that what is divided by it says nothing: that of a cross product of
 /// nearly parallel edges.
-bool is_vague(const Interval& x) { return !(x.inf() > 0 && x.sup() <= (1 + 0x1p-20) * x.inf()); }
+bool is_vague(const Interval& x) { return !(x.inf() > 0 && x.sup() < HUGE_VAL && x.sup() <= (1 + 0x1p-20) * x.inf()); }
 bool is_vague(const Exact&) { return false; }
 
 /// Encloses the signed distance of two cores: the greatest gap over the directions of length 1. Where it is negative, a
@@ -257,6 +257,7 @@ std::optional<Bounds> signed_distance(const Core<N>& a, const Core<N>& b, const 
     for (const N& gap : gaps(n, a, b)) {
       if constexpr (is_enclosure<N>) {
         const Bounds by = bounds(N(gap / root(n2)));
+        if (!(by.low <= by.high)) return true;  // not a number
         s = {std::max(s.low, by.low), std::max(s.high, by.high)};
       } else {  // |gap| gap / n2 grows with gap / |n|
         const auto signed_square = [](const N& x) { return may_be_negative(x) ? N(-square(x)) : square(x); };
@@ -280,9 +281,10 @@ std::optional<Bounds> signed_distance(const Core<N>& a, const Core<N>& b, const 
 double movement(const Core<Interval>& core, const Core<Interval>& middle) {
   double furthest2 = 0;
   for (std::size_t i = 0; i < core.vertices.size(); ++i) {
-    furthest2 = std::max(furthest2, norm2(minus(core.vertices[i], middle.vertices[i])).sup());
+    const double way2 = norm2(minus(core.vertices[i], middle.vertices[i])).sup();
+    if (!(way2 <= furthest2)) furthest2 = way2 >= 0 ? way2 : HUGE_VAL;  // not a number: anywhere
   }
-  return root(Interval(furthest2)).sup() + magnitude(core.radius - middle.radius).sup();
+  return root(of_bound(furthest2)).sup() + magnitude(core.radius - middle.radius).sup();
 }
 
 /// The inputs without numbers that are below 2^-100 of the largest length, or of the largest component of a rotation:
@@ -322,13 +324,14 @@ Bounds exact_signed_distance(const std::vector<double>& inputs) {
   static thread_local std::vector<double> last_inputs;  // a search asks many widenings of the same inputs
   static thread_local Bounds last;
   if (inputs == last_inputs) return last;
-  last_inputs = inputs;
+  last_inputs.clear();  // what follows may throw
   const FloatingPointScope standard_modes;
   arithmetic_barrier();
   const auto exact = exact_inputs<Q<Exact>>(inputs);
   const Core<Exact> a = core_of(exact.a), b = core_of(exact.b);
   last = *signed_distance(times(b.unit, a), times(a.unit, b), Exact(a.unit * b.unit));
   arithmetic_barrier();
+  last_inputs = inputs;
   return last;
 }
 
@@ -342,9 +345,9 @@ Decisions by_distance(const Q<Interval>& q, std::span<const double> inputs) {
   const Vector<Interval> place = place_near(a);
   std::optional<Bounds> s = signed_distance(relative_to(place, a), relative_to(place, b));
   if (!s) s = exact_signed_distance<Q>(middle);
-  const Interval reach = Interval(movement(core_of(q.a), a)) + Interval(movement(core_of(q.b), b));
+  const Interval reach = of_bound(movement(core_of(q.a), a)) + of_bound(movement(core_of(q.b), b));
   const Interval radii = a.radius + b.radius;
-  return {(of_bound(s->high) - radii + reach).sup() > 0, (of_bound(s->low) - radii - reach).inf() <= 0};
+  return {!((of_bound(s->high) - radii + reach).sup() <= 0), !((of_bound(s->low) - radii - reach).inf() > 0)};
 }
 
 template <class N, template <class> class Q, class Out>
