@@ -232,9 +232,13 @@ void touch_at_rest(CaseBuilder& d) {
   const Operand& first = d.plan.operands[0];
   const Contact c = touch_operand(d, first, d.plan.operands[1]);
   for (std::size_t i = 0; i < first.positions.size(); ++i) {
-    const Numbers away = i == 0 ? Numbers{} : plus(draw_along(d, c.outward), c.outward, d.random.between(0, 3));
-    d.set_vector(first.positions[i],
-                 plus(c.place, c.block.frame.in_space(away), c.block.step * d.random.power_of_two(0, 3)));
+    Numbers away{};
+    if (i > 0) {
+      const int outwards = d.random.between(0, 3);
+      away = plus(draw_along(d, c.outward), c.outward, outwards);
+    }
+    const double stretch = d.random.power_of_two(0, 3);
+    d.set_vector(first.positions[i], plus(c.place, c.block.frame.in_space(away), c.block.step * stretch));
   }
 }
 
