@@ -1,13 +1,13 @@
 /// Whether a sphere and a segment overlap.
 #pragma once
 
-#include <collide/detail/overlaps.hpp>
+#include <collide/detail/overlaps_of_axes.hpp>
 
 namespace collide {
 
 /// Whether the closed ball and the segment meet. Touching is an overlap. A radius of 0 is allowed.
 ///
-/// Units: lengths. Never fails. Non-finite input: no. Source: detail/overlaps.hpp.
-COLLIDE_OVERLAP(sphere_segment_overlap, Sphere, sphere, Segment, segment)
+/// Units: lengths. Never fails. Non-finite input: no. Source: detail/overlaps_of_axes.hpp.
+COLLIDE_OVERLAP_OF_AXES(sphere_segment_overlap, Sphere, sphere, Segment, segment)
 
 }  // namespace collide

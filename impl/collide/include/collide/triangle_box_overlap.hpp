@@ -9,6 +9,6 @@ namespace collide {
 /// no front here; collinear vertices are a segment.
 ///
 /// Units: lengths. Never fails. Non-finite input: no. Source: detail/overlaps_of_boxes.hpp.
-COLLIDE_OVERLAP(triangle_box_overlap, Triangle, triangle, Box, box)
+COLLIDE_OVERLAP_FUNCTION(triangle_box_overlap, Triangle, triangle, Box, box)
 
 }  // namespace collide

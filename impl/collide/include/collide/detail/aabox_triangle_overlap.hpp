@@ -17,24 +17,20 @@ namespace collide {
 
 namespace detail {
 
-/// Filter in doubles: whether box and triangle meet; nullopt if rounding may change the decision.
+/// Filter in doubles: whether a triangle a, b, c meets the box around the origin, unless a coordinate axis separates
+/// them; nullopt if rounding may change the decision. Each coordinate of a corner and each half extent has an error of
+/// at most `error`; the sum of the magnitudes of each of them is at most `size`.
 ///
-/// The comparisons along the coordinate axes do not round. Let G be the largest coordinate and u = 2^-53. Relative to
-/// the box's center, a corner has an error of 3 u G, the half extents u G, an edge 2 u G. Along a cross product, a
-/// corner then has an error of 36 u G^2 and the box's projected radius 16 u G^2, so their difference has an error of at
-/// most 64 u G^2. Along the normal that error is at most 700 u G^3.
-template <class T>
-std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
+/// Let u = 2^-53, e the error, S the size. A coordinate of an edge has an error of 2 e + 2 u S. Along a cross product,
+/// a corner and the box's projected radius then have an error of 4 e S + 8 u S^2 each, so their difference has an error
+/// of less than 32 S (e + u S). The normal has an error of 8 e S + 20 u S^2; along it a corner and the radius have an
+/// error of 20 e S^2 + 32 u S^3 each, so their difference has an error of less than 128 S^2 (e + u S).
+inline std::optional<bool> filtered_overlap_at_origin(const Lanes<double>& half, const Lanes<double>& a,
+                                                      const Lanes<double>& b, const Lanes<double>& c, double size,
+                                                      double error) {
   using L = Lanes<double>;
-  const L low = wide_lanes(box.min), high = wide_lanes(box.max), zero = L::splat(0.0), half_of = L::splat(0.5);
-  const L v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1), v2 = wide_lanes(triangle.v2);
-  const double size = sum_of_three(absolute(low) + absolute(high) + absolute(v0) + absolute(v1) + absolute(v2)).first();
-  if (!(size >= 0x1p-250 && size <= 0x1p250)) return std::nullopt;
-  if (any_of_three((high < smaller(smaller(v0, v1), v2)) | (larger(larger(v0, v1), v2) < low))) return false;
-
-  const L center = (low + high) * half_of, half = (high - low) * half_of, half1 = yzx(half), half2 = zxy(half);
-  const L a = v0 - center, b = v1 - center, c = v2 - center;
-  const L bound2 = L::splat(0x1p-46 * size * size);
+  const L zero = L::splat(0.0), half1 = yzx(half), half2 = zxy(half);
+  const double unsure = error + 0x1p-53 * size, bound2 = 32 * size * unsure, bound3 = 128 * size * size * unsure;
   // The distance between the interval [p, q] (in either order) and the box's interval [-reach, reach]; negative if they
   // overlap.
   const auto gap = [&](const L& p, const L& q, const L& reach)
@@ -47,13 +43,26 @@ std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& tri
   };
   const L ab = b - a, gaps_ab = gaps(ab, a, c), gaps_bc = gaps(c - b, b, a), gaps_ca = gaps(a - c, c, b);
   const L n = cross(ab, c - a), of_plane = sum_of_three(n * a), reach = sum_of_three(absolute(n) * half);
-  const double plane_gap = detail::abs(of_plane.first()) - reach.first(), bound3 = 0x1p-43 * size * size * size;
-  const L largest = larger(larger(gaps_ab, gaps_bc), gaps_ca);
-  if (any_of_three(bound2 < largest) || plane_gap > bound3) return false;
-  if (all_three(largest < zero - bound2) && plane_gap < -bound3) return true;
+  const double plane_gap = detail::abs(of_plane.first()) - reach.first();
+  const L largest = larger(larger(gaps_ab, gaps_bc), gaps_ca), limit = L::splat(bound2);
+  if (any_of_three(limit < largest) || plane_gap > bound3) return false;
+  if (all_three(largest < zero - limit) && plane_gap < -bound3) return true;
   return std::nullopt;
 }
 
+/// Filter in doubles for a box that is aligned with the axes. The comparisons along the coordinate axes do not round.
+/// Relative to the box's center a coordinate has an error of 3 u S.
+template <class T>
+std::optional<bool> filtered_overlap(const AABox<T>& box, const Triangle<T>& triangle) {
+  using L = Lanes<double>;
+  const L low = wide_lanes(box.min), high = wide_lanes(box.max), half_of = L::splat(0.5);
+  const L v0 = wide_lanes(triangle.v0), v1 = wide_lanes(triangle.v1), v2 = wide_lanes(triangle.v2);
+  const double size = sum_of_three(absolute(low) + absolute(high) + absolute(v0) + absolute(v1) + absolute(v2)).first();
+  if (!(size >= 0x1p-250 && size <= 0x1p250)) return std::nullopt;
+  if (any_of_three((high < smaller(smaller(v0, v1), v2)) | (larger(larger(v0, v1), v2) < low))) return false;
+  const L center = (low + high) * half_of, half = (high - low) * half_of;
+  return filtered_overlap_at_origin(half, v0 - center, v1 - center, v2 - center, size, 0x1p-51 * size);
+}
 }  // namespace detail
 
 #endif

@@ -90,19 +90,6 @@ Core<T, 2> core_of(const Capsule<T>& capsule, const Vec3<T>& origin) {
   core.radius = capsule.radius;
   return core;
 }
-template <class Tier, class T>
-Core<T, 3> core_of(const Triangle<T>& triangle, const Vec3<T>& origin) {
-  Core<T, 3> core;
-  core.vertices = {triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin};
-  const std::array<Vec3<T>, 3> sides{triangle.v1 - triangle.v0, triangle.v2 - triangle.v1, triangle.v0 - triangle.v2};
-  for (int i = 0; i < 3; ++i) {
-    core.directions[i] = of_moderate_length(sides[i]);
-    core.edges[i] = {i, i};
-  }
-  core.normals[0] = Tier::cross(core.directions[0], core.directions[1]);
-  core.count_of_normals = 1;
-  return core;
-}
 template <class T>
 const Vec3<T>& any_point_of(const Vec3<T>& point) {
   return point;
@@ -135,6 +122,36 @@ Vec3<T> perpendicular_part(const Vec3<T>& v, const Vec3<T>& direction) {
   } else {
     return part;
   }
+}
+
+/// The normal of a triangle with these sides, which have these directions; any length. In machine numbers that of the
+/// two shorter sides, which loses the fewest digits, without its part along the longest side: what is left of its error
+/// turns the plane about that side, so it moves no vertex by more than an error of the sides.
+template <class Tier, class T>
+Vec3<T> normal_of_sides(const std::array<Vec3<T>, 3>& sides, const std::array<Vec3<T>, 3>& directions) {
+  if constexpr (MachineNumber<T>) {
+    std::array<T, 3> sizes;
+    for (int i = 0; i < 3; ++i) sizes[i] = larger(larger(abs(sides[i].x), abs(sides[i].y)), abs(sides[i].z));
+    const int longest = sizes[0] >= sizes[1] ? (sizes[0] >= sizes[2] ? 0 : 2) : (sizes[1] >= sizes[2] ? 1 : 2);
+    const Vec3<T> normal = Tier::cross(directions[(longest + 1) % 3], directions[(longest + 2) % 3]);
+    return perpendicular_part<Tier>(normal, directions[longest]);
+  } else {
+    return Tier::cross(directions[0], directions[1]);
+  }
+}
+
+template <class Tier, class T>
+Core<T, 3> core_of(const Triangle<T>& triangle, const Vec3<T>& origin) {
+  Core<T, 3> core;
+  core.vertices = {triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin};
+  const std::array<Vec3<T>, 3> sides{triangle.v1 - triangle.v0, triangle.v2 - triangle.v1, triangle.v0 - triangle.v2};
+  for (int i = 0; i < 3; ++i) {
+    core.directions[i] = of_moderate_length(sides[i]);
+    core.edges[i] = {i, i};
+  }
+  core.normals[0] = normal_of_sides<Tier>(sides, core.directions);
+  core.count_of_normals = 1;
+  return core;
 }
 
 /// The ends of a projection on a direction.
@@ -210,8 +227,15 @@ class SeparationOfCores {
     }
     return false;
   }
-  /// Whether `normal` or its opposite separates.
+  /// Whether `normal` or its opposite separates. Machine numbers: not so short that products underflow.
   bool separates(const Vec3<T>& normal) const {
+    if constexpr (MachineNumber<T>) {
+      constexpr T least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+      if (!(Tier::dot(normal, normal) >= least)) return separates_scaled(of_moderate_length(normal));
+    }
+    return separates_scaled(normal);
+  }
+  bool separates_scaled(const Vec3<T>& normal) const {
     const ProjectedRange<T> a = projected<Tier>(a_, normal), b = projected<Tier>(b_, normal);
     const T gap = larger(b.least - a.most, a.least - b.most);
     if (!(gap > T(0))) return false;
