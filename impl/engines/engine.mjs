@@ -1,8 +1,9 @@
 // What the subjects of engines share: the package of npm, arithmetic, and the table.
 //
-//     node impl/engines/NAME/subject.mjs [FOLDER] [--undeclared] [--package PACKAGE]
+//     node impl/engines/NAME/subject.mjs [FOLDER] [--setting SETTING] [--undeclared] [--package PACKAGE]
 //
-// FOLDER has node_modules; without it the engine is the one that './nearmiss engines NAME' installed. With --undeclared the
+// FOLDER has node_modules; without it the engine is the one that './nearmiss engines NAME' installed. --setting takes other
+// settings of the engine than the usual ones, a word of its settings.txt; the subject is then NAME-SETTING. With --undeclared the
 // subject declares nothing, as if its documentation said nothing, --package takes another package than usual and its name for that of the subject.
 import fs from "node:fs";
 import path from "node:path";
@@ -13,7 +14,10 @@ import { answer } from "../program/nearmiss.mjs";
 const options = process.argv.slice(3);
 /** Whether the subject declares its conventions, and leaves out what the documentation calls undefined. */
 export const declares = !options.includes("--undeclared");
-export const otherPackage = options.includes("--package") ? options[options.indexOf("--package") + 1] : undefined;
+const option = (name) => (options.includes(name) ? options[options.indexOf(name) + 1] : undefined);
+export const otherPackage = option("--package");
+/** A word of settings.txt; undefined for the usual settings. */
+export const setting = option("--setting");
 
 /** The file of an installed package, with its version. `file` is relative to the package; without it, its entry. */
 export function packaged(name, file) {
@@ -30,12 +34,12 @@ export async function load(name, file) {
 }
 
 /** Answers by a table of nearmiss.mjs. */
-export function answerBy({ queries, ...hello }) {
+export function answerBy({ name, queries, ...hello }) {
   const offers = Object.entries(queries).map(([query, offer]) => {
     const { declares: declared, ...others } = typeof offer === "function" ? { answer: offer } : offer;
     return [query, declares && declared ? { ...others, declares: declared } : others];
   });
-  answer({ ...hello, queries: Object.fromEntries(offers) });
+  answer({ ...hello, name: setting ? `${name}-${setting}` : name, queries: Object.fromEntries(offers) });
 }
 
 /** A convention with the sentence of the engine's documentation. */
@@ -73,6 +77,16 @@ export const around = {
   box: ({ center, half }) => [center, length(half)],
   capsule: ({ p0, p1, radius }) => [scaled(plus(p0, p1), 0.5), length(minus(p1, p0)) / 2 + radius],
 };
+
+/** The vector from one point to another one; undefined where a float does not hold it exactly. */
+export function exactWay(from, to) {
+  const way = minus(to, from);
+  const isExact = way.every((d, i) => {  // the rounding error of the difference, by Knuth's exact sum
+    const part = d - to[i];
+    return Math.fround(d) === d && to[i] - (d - part) + (-from[i] - part) === 0;
+  });
+  return isExact ? way : undefined;
+}
 
 /** The rotation that turns the axis `axis` (x, y or z) into the direction of unit length. */
 export function turnOf(axis, [x, y, z]) {

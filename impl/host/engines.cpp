@@ -27,6 +27,14 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, error);
 }
 
+/// The settings of the engine whose sources are in this folder: the usual ones first.
+std::vector<std::string> settings_in(const fs::path& sources) {
+  std::vector<std::string> all{""};
+  std::ifstream in(sources / "settings.txt");
+  for (std::string word; in >> word;) all.push_back(word);
+  return all;
+}
+
 }  // namespace
 
 std::vector<Engine> engines() {
@@ -41,7 +49,9 @@ std::vector<Engine> engines() {
     // The launcher copies the file that pins the version at the end of an installation.
     const fs::path pinned = sources / (is_plugin ? "subject.cpp" : "package-lock.json");
     const bool is_installed = is_there(folder / "installed") && text_of(folder / "installed") == text_of(pinned);
-    all.push_back({name, sources.string(), folder.string(), is_installed, is_plugin});
+    for (const std::string& setting : settings_in(sources))
+      all.push_back({setting.empty() ? name : name + "-" + setting, setting, sources.string(), folder.string(),
+                     is_installed, is_plugin});
   }
   std::sort(all.begin(), all.end(), [](const Engine& a, const Engine& b) { return a.name < b.name; });
   return all;
@@ -50,7 +60,8 @@ std::vector<Engine> engines() {
 std::string how_to_install(std::string_view name) {
   for (const Engine& e : engines()) {
     if (e.name == name && !e.is_installed)
-      return e.name + " is not installed; './nearmiss engines " + e.name + "' installs it";
+      return e.name + " is not installed; './nearmiss engines " + fs::path(e.sources).filename().string() +
+             "' installs it";
   }
   return {};
 }

@@ -396,8 +396,12 @@ std::string from_any_folder(const std::string& command, const std::vector<std::s
 
 /// How an engine's subject is started.
 HostProgram program_of(const Engine& engine) {
-  if (engine.is_plugin) return {{host_of_plugins(), engine.folder + "/subject.so"}};
-  return {{"node", engine.sources + "/subject.mjs", engine.folder}, HostProgram::Batches::json};
+  const bool is_usual = engine.setting.empty();
+  if (engine.is_plugin)
+    return {{host_of_plugins(), engine.folder + "/subject" + (is_usual ? "" : "-" + engine.setting) + ".so"}};
+  HostProgram program{{"node", engine.sources + "/subject.mjs", engine.folder}, HostProgram::Batches::json};
+  if (!is_usual) program.arguments.insert(program.arguments.end(), {"--setting", engine.setting});
+  return program;
 }
 
 /// The subject that the hello of an engine describes. Throws BadSubject.

@@ -140,7 +140,7 @@ std::string subjects_table() {
 std::string missing_engines_line() {
   std::vector<std::string> missing;
   for (const Engine& e : engines()) {
-    if (!e.is_installed) missing.push_back(e.name);
+    if (!e.is_installed && e.setting.empty()) missing.push_back(e.name);
   }
   return missing.empty() ? "" : fmt::format("'./nearmiss engines NAME' installs {}\n", fmt::join(missing, ", "));
 }

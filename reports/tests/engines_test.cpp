@@ -37,6 +37,8 @@ TEST(Engines, OneThatIsNotInstalledSaysHowToInstallIt) {
   const std::vector<std::string> none{installed_in((folder / "none").string())};
   constexpr const char* how = "jolt is not installed; './nearmiss engines jolt' installs it";
   expect_one_line(nearmiss({"run", "--subject", "jolt", "--cases", "1"}, none), how);
+  expect_one_line(nearmiss({"run", "--subject", "jolt-strict", "--cases", "1"}, none),
+                  "jolt-strict is not installed; './nearmiss engines jolt' installs it");
   json report = json::parse(read_file(source_folder() + "/corpus/upstream/ode/overlapping-boxes.json"));
   report["finding"] = json::object(), report["subject"] = {{"name", "jolt"}};
   const std::string file = folder.file("report.json", report.dump());

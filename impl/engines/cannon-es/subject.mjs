@@ -15,6 +15,12 @@ const body = (shape, at, turn = new C.Quaternion()) => {
 };
 const sphere = ({ center, radius }) => body(new C.Sphere(radius), center);
 const box = ({ center, half, orientation }) => body(new C.Box(vec(half)), center, new C.Quaternion(...orientation.map((x) => x / Math.hypot(...orientation))));
+const point = (at) => body(new C.Particle(), at);
+const triangle = ({ v0, v1, v2 }) => {
+  const corners = [...v0, ...v1, ...v2];
+  if (corners.some((x) => Math.fround(x) !== x)) throw new Cannot("Trimesh stores its vertices as floats");
+  return body(new C.Trimesh(corners, [0, 1, 2]), [0, 0, 0]);
+};
 const plane = ({ normal, offset }) => {  // cannon's plane faces +z of its body
   const n = unit(normal), turn = new C.Quaternion();
   turn.setFromVectors(new C.Vec3(0, 0, 1), vec(n));
@@ -72,6 +78,9 @@ answerBy({
     moving_point_box: { answer: (q) => rayToBall(q, box(q.box), around.box(q.box)), declares: [declared("contact where it leaves", backfaces)] },
     moving_point_plane: { answer: rayToPlane, declares: [declared("two-sided", backfaces), declared("normal of the front", backfaces)] },
     sphere_sphere_overlap: (q) => touches("sphereSphere", sphere(q.sphere1), sphere(q.sphere2)),
+    sphere_triangle_overlap: (q) => touches("sphereTrimesh", sphere(q.sphere), triangle(q.triangle)),
+    point_sphere_overlap: (q) => touches("sphereParticle", sphere(q.sphere), point(q.point)),
+    point_box_overlap: (q) => touches("boxParticle", box(q.box), point(q.point)),
     sphere_box_overlap: (q) => touches("sphereBox", sphere(q.sphere), box(q.box)),
     box_box_overlap: { answer: (q) => contacts("boxBox", box(q.box1), box(q.box2)).some((c) => c.depth >= 0), gives: [] },
     sphere_sphere_penetration: (q) => depth("sphereSphere", sphere(q.sphere1), sphere(q.sphere2), ({ contact }) => ({ contact })),

@@ -1,4 +1,4 @@
-// Havok: ray casts, shape casts and shape proximity against one body in a world.
+// Havok: ray casts, shape casts, and the proximity of shapes and points, against one body in a world.
 import fs from "node:fs";
 import path from "node:path";
 import { Cannot } from "../../program/nearmiss.mjs";
@@ -36,6 +36,13 @@ const triangle = ({ v0, v1, v2 }) => {
   return { shape: made(H.HP_Shape_CreateMesh(vertices, 3, indices, 1)), at: center, turn: still };
 };
 
+/** The hull of the ends of a segment or of the corners of a triangle. Havok has no proximity of two meshes. */
+const hull = (...points) => {
+  H.HEAPF32.set(points.flat(), vertices / 4);
+  return { shape: made(H.HP_Shape_CreateConvexHull(vertices, points.length)), at: center, turn: still };
+};
+const segmentHull = ({ v0, v1 }) => hull(v0, v1), triangleHull = ({ v0, v1, v2 }) => hull(v0, v1, v2);
+
 // Calls. A world is asked about one body; a hit is the fraction or the distance, then points of contact, each with its
 // place and normal.
 const place = 3, normal = 4;
@@ -68,6 +75,10 @@ function overlap(a, b) {
   return hit && hit[0] <= 0 && { depth: -hit[0], normal: scaled(hit[2][normal], -1) };
 }
 const meet = (a, b) => !!overlap(a, b);
+function contains(target, point) {
+  const hit = against(target, () => H.HP_World_PointProximityWithCollector(world, hits, [point, 0, everything, triggers, noBody]), H.HP_QueryCollector_GetPointProximityResult);
+  return hit !== null && hit[0] <= 0;
+}
 const aroundTriangle = ({ v0, v1, v2 }) => [v0, Math.max(length(minus(v1, v0)), length(minus(v2, v0)))];
 
 // Babylon's page of the shape cast query: 'Result will not be correct for intersecting shapes'.
@@ -85,6 +96,14 @@ const queries = {
   sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
   sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
   sphere_triangle_overlap: (q) => meet(sphere(q.sphere), triangle(q.triangle)),
+  point_sphere_overlap: (q) => contains(sphere(q.sphere), q.point),
+  point_capsule_overlap: (q) => contains(capsule(q.capsule), q.point),
+  point_box_overlap: (q) => contains(box(q.box), q.point),
+  sphere_segment_overlap: (q) => meet(sphere(q.sphere), segmentHull(q.segment)),
+  segment_capsule_overlap: (q) => meet(capsule(q.capsule), segmentHull(q.segment)),
+  segment_triangle_overlap: (q) => meet(segmentHull(q.segment), triangle(q.triangle)),
+  segment_box_overlap: (q) => meet(box(q.box), segmentHull(q.segment)),
+  triangle_triangle_overlap: (q) => meet(triangleHull(q.triangle1), triangle(q.triangle2)),
   sphere_capsule_overlap: (q) => meet(sphere(q.sphere), capsule(q.capsule)),
   capsule_capsule_overlap: (q) => meet(capsule(q.capsule1), capsule(q.capsule2)),
   capsule_box_overlap: (q) => meet(capsule(q.capsule), box(q.box)),

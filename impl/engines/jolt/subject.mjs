@@ -1,6 +1,7 @@
-// Jolt: rays, collisions and casts of its shapes, by TransformedShape. The convex radius of boxes is zero.
+// Jolt: rays, collisions and casts of its shapes, by TransformedShape. The convex radius of boxes is zero. The setting strict
+// takes the least tolerances that floats can have, and the deepest point of bodies that overlap at the start of a cast.
 import { Cannot } from "../../program/nearmiss.mjs";
-import { answerBy, around, declared, length, load, minus, plus, scaled, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
+import { answerBy, around, declared, exactWay, length, load, minus, plus, scaled, setting, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
 
 const { version, library } = await load("jolt-physics", "dist/jolt-physics.wasm-compat.js");
 const J = await library.default();
@@ -30,6 +31,13 @@ const capsule = ({ p0, p1, radius }) => {  // Jolt's capsules are along y
   return { shape: new J.CapsuleShape(l / 2, radius), at: scaled(plus(p0, p1), 0.5), turn: turnOf("y", unit(minus(p1, p0))) };
 };
 const plane = ({ normal, offset }) => ({ shape: new J.PlaneShape(keep(new J.Plane(vec(unit(normal)), offset / length(normal)))), at: [0, 0, 0], turn: still });
+const triangle = ({ v0, v1, v2 }) => {  // a mesh, whose corners Jolt stores with 21 bits for each coordinate of their bounds
+  const triangles = keep(new J.TriangleList());
+  triangles.push_back(keep(new J.Triangle(vec(v0), vec(v1), vec(v2))));
+  const made = keep(new J.MeshShapeSettings(triangles)).Create();
+  if (made.HasError()) throw new Cannot(`MeshShapeSettings::Create: ${made.GetError().c_str()}`);
+  return { shape: made.Get(), at: [0, 0, 0], turn: still };
+};
 const placed = ({ shape, at, turn }) => {
   shape.AddRef();
   return shape.GetSubShapeTransformedShape(keep(new J.SubShapeID()), vec(at), quat(turn), vec([1, 1, 1]), keep(new J.SubShapeID()));
@@ -37,6 +45,8 @@ const placed = ({ shape, at, turn }) => {
 
 // Calls.
 const anyShape = new J.ShapeFilter(), zero = new J.RVec3(0, 0, 0);
+const isStrict = setting === "strict", leastTolerance = 2 ** -23;
+const settled = (how) => (isStrict ? Object.assign(how, { mCollisionTolerance: leastTolerance, mPenetrationTolerance: leastTolerance }) : how);
 function ray({ point, velocity }, make, [center, radius]) {
   const horizon = timeToPass(point, velocity, center, radius);
   if (horizon === 0) return new Cannot("a ray has two ends");
@@ -54,12 +64,13 @@ function cast({ sphere: moving, velocity }, make, horizon, isConvex = true) {
   a.shape.AddRef();
   const pose = J.RMat44.prototype.sRotationTranslation(quat(a.turn), rvec(a.at));
   const way = keep(new J.RShapeCast(a.shape, vec([1, 1, 1]), pose, vec(scaled(velocity, horizon))));
-  const collector = keep(new J.CastShapeClosestHitCollisionCollector()), how = keep(new J.ShapeCastSettings());
+  const collector = keep(new J.CastShapeClosestHitCollisionCollector()), how = settled(keep(new J.ShapeCastSettings()));
+  how.mReturnDeepestPoint = isStrict;
   if (isConvex) how.mBackFaceModeConvex = J.EBackFaceMode_CollideWithBackFaces;  // also hits where it starts inside and leaves
   placed(b).CastShape(way, how, zero, collector, anyShape);
   const { mFraction, mContactPointOn2, mPenetrationAxis } = collector.mHit, time = mFraction * horizon;
-  // Where they overlap at the start it computes no deepest point (ShapeCastSettings::mReturnDeepestPoint).
-  const hit = collector.HadHit() && (mFraction > 0 ? { time, location: list(mContactPointOn2), normal: scaled(unit(list(mPenetrationAxis)), -1) } : { time });
+  // Where they overlap at the start it computes the deepest point only on request.
+  const hit = collector.HadHit() && (mFraction > 0 || isStrict ? { time, location: list(mContactPointOn2), normal: scaled(unit(list(mPenetrationAxis)), -1) } : { time });
   a.shape.Release(), b.shape.Release();
   return freeing(hit);
 }
@@ -68,7 +79,8 @@ const castTo = (make, shape, member = shape) => (q) => {
   return cast(q, () => make(q[member]), timeToPass(q.sphere.center, q.velocity, center, radius + q.sphere.radius));
 };
 function collision(a, b) {
-  const how = keep(new J.CollideShapeSettings()), collector = keep(new J.CollideShapeClosestHitCollisionCollector());
+  const how = settled(keep(new J.CollideShapeSettings())), collector = keep(new J.CollideShapeClosestHitCollisionCollector());
+  how.mBackFaceMode = J.EBackFaceMode_CollideWithBackFaces;  // triangles have two sides
   a.shape.AddRef();
   const pose = J.RMat44.prototype.sRotationTranslation(quat(a.turn), rvec(a.at));
   placed(b).CollideShape(a.shape, vec([1, 1, 1]), pose, how, zero, collector, anyShape);
@@ -77,6 +89,24 @@ function collision(a, b) {
   return freeing(hit);
 }
 const meet = (a, b) => collision(a, b) !== false;
+function contains(b, point) {
+  const collector = keep(new J.CollidePointAnyHitCollisionCollector());
+  placed(b).CollidePoint(rvec(point), collector, anyShape);
+  const found = collector.HadHit();
+  b.shape.Release();
+  return freeing(found);
+}
+/** Whether a segment meets a solid shape, by a ray from its one end to the other. */
+function reaches({ v0, v1 }, make) {
+  const way = exactWay(v0, v1);
+  if (!way) return new Cannot("a ray has a start and a way, and floats do not hold the way between the ends");
+  if (!(length(way) > 0)) return new Cannot("a ray has two ends");
+  const b = make(), hit = keep(new J.RayCastResult());
+  placed(b).CastRay(keep(new J.RRayCast(rvec(v0), vec(way))), hit);
+  const fraction = hit.mFraction;
+  b.shape.Release();
+  return freeing(fraction <= 1);
+}
 
 const solid = [declared("start in contact is a hit",
   "RayCastSettings::mTreatConvexAsSolid: 'If convex shapes should be treated as solid. When true, a ray starting inside a convex shape will generate a hit at fraction 0.'")];
@@ -93,9 +123,18 @@ answerBy({
     moving_sphere_plane: (q) => cast(q, () => plane(q.plane), timeToPlane(q.sphere.center, q.velocity, q.plane, q.sphere.radius), false),
     sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
     sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
+    sphere_triangle_overlap: (q) => meet(sphere(q.sphere), triangle(q.triangle)),
+    point_sphere_overlap: (q) => contains(sphere(q.sphere), q.point),
+    point_capsule_overlap: (q) => contains(capsule(q.capsule), q.point),
+    point_box_overlap: (q) => contains(box(q.box), q.point),
+    sphere_segment_overlap: (q) => reaches(q.segment, () => sphere(q.sphere)),
+    segment_capsule_overlap: (q) => reaches(q.segment, () => capsule(q.capsule)),
+    segment_box_overlap: (q) => reaches(q.segment, () => box(q.box)),
     sphere_capsule_overlap: (q) => meet(sphere(q.sphere), capsule(q.capsule)),
     capsule_capsule_overlap: (q) => meet(capsule(q.capsule1), capsule(q.capsule2)),
+    capsule_triangle_overlap: (q) => meet(capsule(q.capsule), triangle(q.triangle)),
     capsule_box_overlap: (q) => meet(capsule(q.capsule), box(q.box)),
+    triangle_box_overlap: (q) => meet(box(q.box), triangle(q.triangle)),
     box_box_overlap: { answer: (q) => meet(box(q.box1), box(q.box2)), gives: [] },
     sphere_sphere_penetration: { answer: (q) => collision(sphere(q.sphere1), sphere(q.sphere2)), gives },
     sphere_box_penetration: { answer: (q) => collision(sphere(q.sphere), box(q.box)), gives },

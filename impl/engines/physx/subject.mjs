@@ -1,9 +1,9 @@
-// PhysX: raycasts, sweeps and overlaps of PxGeometryQuery, and PxGjkQuery.proximityInfo for depths. The package is built for
-// browsers, and gets its WebAssembly file here.
+// PhysX: raycasts, sweeps, overlaps and distances of PxGeometryQuery, and PxGjkQuery.proximityInfo for depths. The setting strict
+// has the flags of exact sweeps and of depths at their start. The package is built for browsers, and gets its WebAssembly file here.
 import fs from "node:fs";
 import { pathToFileURL } from "node:url";
 import { Cannot } from "../../program/nearmiss.mjs";
-import { answerBy, around, declared, declares, length, minus, packaged, plus, scaled, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
+import { answerBy, around, declared, declares, length, minus, packaged, plus, scaled, setting, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
 
 const { version, file } = packaged("physx-js-webidl", "physx-js-webidl.mjs");
 const { process } = globalThis;
@@ -23,6 +23,8 @@ const Query = P.PxGeometryQuery.prototype;
 const origin = new P.PxVec3(), direction = new P.PxVec3();
 const raycastHit = new P.PxRaycastHit(), sweepHit = new P.PxSweepHit(), proximity = new P.PxGjkQueryProximityInfoResult();
 const flags = new P.PxHitFlags(P.PxHitFlagEnum.eDEFAULT);
+const isStrict = setting === "strict";
+if (isStrict) flags.raise(P.PxHitFlagEnum.ePRECISE_SWEEP), flags.raise(P.PxHitFlagEnum.eMTD);
 /** Two of each shape, one for each body: with its pose, and as a support where it has one. */
 const bodies = [0, 1].map(() => {
   const pose = new P.PxTransform(P.PxIDENTITYEnum.PxIdentity);
@@ -48,6 +50,26 @@ const bodies = [0, 1].map(() => {
 });
 const [first, second] = bodies;
 
+// A triangle is a mesh of one.
+const Make = P.PxTopLevelFunctions.prototype;
+Make.CreateFoundation(Make.PHYSICS_VERSION, new P.PxDefaultAllocator(), new P.PxDefaultErrorCallback());
+const cooking = new P.PxCookingParams(new P.PxTolerancesScale()), mesh = new P.PxTriangleMeshDesc();
+const corners = P._webidl_malloc(36), indices = P._webidl_malloc(12);
+Object.assign(mesh.points, { count: 3, stride: 12, data: P.wrapPointer(corners, P.VoidPtr) });
+Object.assign(mesh.triangles, { count: 1, stride: 12, data: P.wrapPointer(indices, P.VoidPtr) });
+P.HEAPU32.set([0, 1, 2], indices / 4);
+const still = new P.PxTransform(P.PxIDENTITYEnum.PxIdentity);
+function meetTriangle(body, { v0, v1, v2 }) {
+  if (noGeometry(body)) return refused;
+  new Float32Array(P.HEAPU32.buffer, corners, 9).set([...v0, ...v1, ...v2]);
+  const cooked = Make.CreateTriangleMesh(cooking, mesh);
+  if (P.getPointer(cooked) === 0) return new Cannot("PxCreateTriangleMesh refuses the triangle");
+  const geometry = new P.PxTriangleMeshGeometry(cooked);
+  const isMet = Query.overlap(body.geometry, body.pose, geometry, still);
+  P.destroy(geometry), cooked.release();
+  return isMet;
+}
+
 // Calls.
 const noGeometry = (body) => !Query.isValid(body.geometry);
 const refused = new Cannot("PxGeometryQuery::isValid says that the shape is not valid");
@@ -68,8 +90,8 @@ function sweep({ sphere, velocity }, body, horizon) {
   if (noGeometry(moving) || noGeometry(body)) return refused;
   const hit = Query.sweep(set(direction, unit(velocity)), horizon * speed, moving.geometry, moving.pose, body.geometry, body.pose, sweepHit, flags, 0);
   if (!hit) return false;
-  const time = sweepHit.distance / speed;
-  // It flags the position as missing where they overlap at the start; the normal is then only the opposite direction.
+  const time = Math.max(sweepHit.distance, 0) / speed;  // with eMTD it is minus the depth where they overlap at the start
+  // It flags the position as missing where they overlap at the start without eMTD; the normal is then only the opposite direction.
   return sweepHit.flags.isSet(P.PxHitFlagEnum.ePOSITION) ? { time, location: list(sweepHit.position), normal: list(sweepHit.normal) } : { time };
 }
 const sweepTo = (shape, member = shape) => (q) => {
@@ -81,6 +103,10 @@ function meet(a, b) {
   if (noGeometry(a) || noGeometry(b)) return refused;
   return Query.overlap(a.geometry, a.pose, b.geometry, b.pose);
 }
+function contains(body, point) {
+  if (noGeometry(body)) return refused;
+  return Query.pointDistance(set(origin, point), body.geometry, body.pose) === 0;
+}
 function depth(a, b) {
   if (noGeometry(a) || noGeometry(b)) return refused;
   const found = P.PxGjkQuery.prototype.proximityInfo(a.support, b.support, a.pose, b.pose, 0, 1, proximity);
@@ -90,6 +116,7 @@ function depth(a, b) {
 const inside = [declared("start in contact is a hit", "Geometry Queries, Raycasts against Spheres, Capsules, Boxes and Convex Meshes: 'If the ray origin is inside a solid object: the reported hit distance is set to zero', 'the hit normal is set to be the opposite of the ray's direction'")];
 const overlapping = [declared("start in contact is a hit", "PxScene::sweep: 'If a shape from the scene is already overlapping with the query shape in its starting position, the hit is returned unless eASSUME_NO_INITIAL_OVERLAP was specified.'")];
 const gives = ["depth", "normal"];
+const holds = (shape) => ({ answer: (q) => contains(first[shape](q[shape]), q.point), how: "PxGeometryQuery::pointDistance is 0", by_equivalence: true });
 answerBy({
   name: "physx", version: `PhysX 5.6.1, physx-js-webidl ${version}`, scalar: "float",
   queries: {
@@ -103,9 +130,15 @@ answerBy({
     moving_sphere_plane: { answer: sweepToPlane, declares: overlapping },
     sphere_sphere_overlap: (q) => meet(first.sphere(q.sphere1), second.sphere(q.sphere2)),
     sphere_box_overlap: (q) => meet(first.sphere(q.sphere), second.box(q.box)),
+    sphere_triangle_overlap: (q) => meetTriangle(first.sphere(q.sphere), q.triangle),
+    point_sphere_overlap: holds("sphere"),
+    point_capsule_overlap: holds("capsule"),
+    point_box_overlap: holds("box"),
     sphere_capsule_overlap: (q) => meet(first.sphere(q.sphere), second.capsule(q.capsule)),
     capsule_capsule_overlap: (q) => meet(first.capsule(q.capsule1), second.capsule(q.capsule2)),
+    capsule_triangle_overlap: (q) => meetTriangle(first.capsule(q.capsule), q.triangle),
     capsule_box_overlap: (q) => meet(first.capsule(q.capsule), second.box(q.box)),
+    triangle_box_overlap: (q) => meetTriangle(first.box(q.box), q.triangle),
     box_box_overlap: { answer: (q) => meet(first.box(q.box1), second.box(q.box2)), gives: [] },
     sphere_sphere_penetration: { answer: (q) => depth(first.sphere(q.sphere1), second.sphere(q.sphere2)), gives },
     sphere_box_penetration: { answer: (q) => depth(first.sphere(q.sphere), second.box(q.box)), gives },

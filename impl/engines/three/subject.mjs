@@ -12,6 +12,7 @@ const list = (v) => [v.x, v.y, v.z];
 
 // Shapes.
 const sphere = ({ center, radius }) => new T.Sphere(vec(center), radius);
+const line = ({ v0, v1 }) => new T.Line3(vec(v0), vec(v1)), axis = ({ p0, p1 }) => new T.Line3(vec(p0), vec(p1));
 const box3 = ({ min, max }) => new T.Box3(vec(min), vec(max));
 const triangle = ({ v0, v1, v2 }) => new T.Triangle(vec(v0), vec(v1), vec(v2));
 const plane = ({ normal, offset }) => new T.Plane(vec(normal), offset).normalize();
@@ -31,6 +32,11 @@ function wayMeetsBox({ sphere: { center, radius }, velocity, box, limit, forever
   const way = new Capsule(vec(center), vec(plus(center, velocity, limit)), radius);
   return way.intersectsBox(box3({ min: plus(box.center, box.half, -1), max: plus(box.center, box.half) }));
 }
+
+/** Whether a point, or two lines, are no further apart than `reach`. */
+const near = (of, reach) => ({ answer: (q) => of(q) <= reach(q), by_equivalence: true, how: "a distance of Line3, and the radii" });
+const toPoint = (segment, point) => segment.closestPointToPoint(point, true, new T.Vector3()).distanceTo(point);
+const toLine = (a, b) => Math.sqrt(a.distanceSqToLine3(b));
 
 const exit = "Ray.js: 'the ray is inside the sphere, so return the second exit point scaled by t1, in order to always return an intersect point that is in front of the ray'; of boxes: 'return point closest to the ray (positive side)'";
 const leaves = [declared("contact where it leaves", exit)];
@@ -58,9 +64,15 @@ answerBy({
     sphere_box_overlap: (q) => obb(q.box).intersectsSphere(sphere(q.sphere)),
     box_box_overlap: { answer: (q) => obb(q.box1).intersectsOBB(obb(q.box2)), gives: [] },
     sphere_triangle_overlap: (q) => !!new Octree().triangleSphereIntersect(sphere(q.sphere), triangle(q.triangle)),
+    point_capsule_overlap: near((q) => toPoint(axis(q.capsule), vec(q.point)), (q) => q.capsule.radius),
+    sphere_segment_overlap: near((q) => toPoint(line(q.segment), vec(q.sphere.center)), (q) => q.sphere.radius),
+    sphere_capsule_overlap: near((q) => toPoint(axis(q.capsule), vec(q.sphere.center)), (q) => q.sphere.radius + q.capsule.radius),
+    segment_capsule_overlap: near((q) => toLine(line(q.segment), axis(q.capsule)), (q) => q.capsule.radius),
+    capsule_capsule_overlap: near((q) => toLine(axis(q.capsule1), axis(q.capsule2)), (q) => q.capsule1.radius + q.capsule2.radius),
+    capsule_triangle_overlap: ({ capsule: { p0, p1, radius }, triangle: t }) => !!new Octree().triangleCapsuleIntersect(new Capsule(vec(p0), vec(p1), radius), triangle(t)),
     aabox_triangle_overlap: (q) => box3(q.box).intersectsTriangle(triangle(q.triangle)),
     moving_sphere_passes_box: wayMeetsBox,
-    closest_point_segment: (q) => ({ point: list(new T.Line3(vec(q.segment.v0), vec(q.segment.v1)).closestPointToPoint(vec(q.point), true, new T.Vector3())) }),
+    closest_point_segment: (q) => ({ point: list(line(q.segment).closestPointToPoint(vec(q.point), true, new T.Vector3())) }),
     point_in_triangle: (q) => {
       const t = triangle(q.triangle), p = vec(q.point), weights = t.getBarycoord(p, new T.Vector3());
       return t.containsPoint(p) && { weights: list(weights) };

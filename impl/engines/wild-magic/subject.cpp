@@ -1,12 +1,27 @@
-/// Wild Magic 5 as a plugin: rays, static and moving spheres, and lines, by the Find() of its Intersection and Distance
-/// classes, in double.
+/// Wild Magic 5 as a plugin, in double: rays, moving spheres and lines by the Find() of its classes of intersection and
+/// distance, overlaps by their Test() and by its functions of containment.
+#include <Wm5ContBox3.h>
+#include <Wm5ContCapsule3.h>
+#include <Wm5ContSphere3.h>
 #include <Wm5DistLine3Line3.h>
+#include <Wm5DistPoint3Segment3.h>
+#include <Wm5DistSegment3Box3.h>
+#include <Wm5DistSegment3Triangle3.h>
+#include <Wm5IntrBox3Box3.h>
 #include <Wm5IntrBox3Sphere3.h>
+#include <Wm5IntrCapsule3Capsule3.h>
 #include <Wm5IntrRay3Box3.h>
 #include <Wm5IntrRay3Capsule3.h>
 #include <Wm5IntrRay3Sphere3.h>
 #include <Wm5IntrRay3Triangle3.h>
+#include <Wm5IntrSegment3Box3.h>
+#include <Wm5IntrSegment3Capsule3.h>
+#include <Wm5IntrSegment3Sphere3.h>
+#include <Wm5IntrSegment3Triangle3.h>
 #include <Wm5IntrSphere3Sphere3.h>
+#include <Wm5IntrTriangle3Box3.h>
+#include <Wm5IntrTriangle3Sphere3.h>
+#include <Wm5IntrTriangle3Triangle3.h>
 
 #include <cmath>
 #include <cstring>
@@ -34,6 +49,10 @@ Wm5::Box3<double> box(const double* p) {
           p[4],
           p[5]};
 }
+
+Wm5::Segment3<double> segment(const double* p) { return {vector(p), vector(p + 3)}; }
+Wm5::Capsule3<double> capsule(const double* p) { return {segment(p), p[6]}; }
+Wm5::Triangle3<double> triangle(const double* p) { return {vector(p), vector(p + 3), vector(p + 6)}; }
 
 int cannot(nearmiss_answer* answer, const char* why) {
   std::strcpy(answer->why, why);
@@ -69,14 +88,13 @@ int moving_point_box(const double* in, std::size_t, nearmiss_answer* answer) {
   return ray<Wm5::IntrRay3Box3<double>>(in, box(in + 6), answer);
 }
 int moving_point_capsule(const double* in, std::size_t, nearmiss_answer* answer) {
-  const Wm5::Segment3<double> axis(vector(in + 6), vector(in + 9));
-  return ray<Wm5::IntrRay3Capsule3<double>>(in, Wm5::Capsule3<double>(axis, in[12]), answer);
+  return ray<Wm5::IntrRay3Capsule3<double>>(in, capsule(in + 6), answer);
 }
 int moving_point_triangle(const double* in, std::size_t, nearmiss_answer* answer) {
   const double speed = std::hypot(in[3], in[4], in[5]);
   if (!(speed > 0)) return cannot(answer, "a ray has a direction");
   const Wm5::Ray3<double> r(vector(in), vector(in + 3) / speed);
-  const Wm5::Triangle3<double> t(vector(in + 6), vector(in + 9), vector(in + 12));
+  const Wm5::Triangle3<double> t = triangle(in + 6);
   Wm5::IntrRay3Triangle3<double> i(r, t);
   return i.Find() ? hit(answer, i.GetRayParameter() / speed, nullptr) : miss(answer);
 }
@@ -110,6 +128,72 @@ int closest_points_lines(const double* in, std::size_t, nearmiss_answer* answer)
   return NEARMISS_ANSWERED;
 }
 
+int said(bool yes, nearmiss_answer* answer) {
+  answer->yes = yes;
+  answer->given = 0;
+  return NEARMISS_ANSWERED;
+}
+int point_sphere_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return said(Wm5::InSphere(vector(in), sphere(in + 3)), answer);
+}
+int point_capsule_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return said(Wm5::InCapsule(vector(in), capsule(in + 3)), answer);
+}
+int point_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return said(Wm5::InBox(vector(in), box(in + 3)), answer);
+}
+/// Whether two shapes meet, by the class of their intersection.
+template <template <class> class Intersection, class A, class B, class... Options>
+int meet(const A& a, const B& b, nearmiss_answer* answer, Options... options) {
+  return said(Intersection<double>(a, b, options...).Test(), answer);
+}
+int sphere_sphere_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrSphere3Sphere3>(sphere(in), sphere(in + 4), answer);
+}
+int sphere_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrBox3Sphere3>(box(in + 4), sphere(in), answer);
+}
+int box_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrBox3Box3>(box(in), box(in + 10), answer);
+}
+int sphere_triangle_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrTriangle3Sphere3>(triangle(in + 4), sphere(in), answer);
+}
+int sphere_segment_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrSegment3Sphere3>(segment(in + 4), sphere(in), answer);
+}
+int segment_capsule_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrSegment3Capsule3>(segment(in), capsule(in + 6), answer);
+}
+int segment_triangle_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrSegment3Triangle3>(segment(in), triangle(in + 6), answer);
+}
+int segment_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrSegment3Box3>(segment(in), box(in + 6), answer, true);  // solid
+}
+int capsule_capsule_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrCapsule3Capsule3>(capsule(in), capsule(in + 7), answer);
+}
+int triangle_triangle_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrTriangle3Triangle3>(triangle(in), triangle(in + 9), answer);
+}
+int triangle_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  return meet<Wm5::IntrTriangle3Box3>(triangle(in), box(in + 9), answer);
+}
+int sphere_capsule_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Wm5::Capsule3<double> c = capsule(in + 4);
+  return said(Wm5::DistPoint3Segment3<double>(vector(in), c.Segment).Get() <= in[3] + c.Radius, answer);
+}
+int capsule_triangle_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Wm5::Capsule3<double> c = capsule(in);
+  return said(Wm5::DistSegment3Triangle3<double>(c.Segment, triangle(in + 7)).Get() <= c.Radius, answer);
+}
+int capsule_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Wm5::Capsule3<double> c = capsule(in);
+  return said(Wm5::DistSegment3Box3<double>(c.Segment, box(in + 7)).Get() <= c.Radius, answer);
+}
+
+constexpr const char* by_distance = "a class of distance, and the radii";
 const nearmiss_offer offers[] = {
     {"moving_point_sphere", 11, 7, nullptr, nullptr, moving_point_sphere, 0},
     {"moving_point_box", 16, 7, nullptr, nullptr, moving_point_box, 0},
@@ -117,9 +201,26 @@ const nearmiss_offer offers[] = {
     {"moving_point_triangle", 15, 7, nullptr, nullptr, moving_point_triangle, 0},
     {"moving_sphere_sphere", 11, 7, nullptr, nullptr, moving_sphere_sphere, 0},
     {"moving_sphere_box", 17, 7, nullptr, nullptr, moving_sphere_box, 0},
+    {"point_sphere_overlap", 7, 0, nullptr, nullptr, point_sphere_overlap, 0},
+    {"point_capsule_overlap", 10, 0, nullptr, nullptr, point_capsule_overlap, 0},
+    {"point_box_overlap", 13, 0, nullptr, nullptr, point_box_overlap, 0},
+    {"sphere_sphere_overlap", 8, 0, nullptr, nullptr, sphere_sphere_overlap, 0},
+    {"sphere_box_overlap", 14, 0, nullptr, nullptr, sphere_box_overlap, 0},
+    {"box_box_overlap", 21, 1, nullptr, nullptr, box_box_overlap, 0},
+    {"sphere_triangle_overlap", 13, 0, nullptr, nullptr, sphere_triangle_overlap, 0},
+    {"sphere_segment_overlap", 10, 0, nullptr, nullptr, sphere_segment_overlap, 0},
+    {"sphere_capsule_overlap", 11, 0, by_distance, nullptr, sphere_capsule_overlap, 0},
+    {"segment_capsule_overlap", 13, 0, nullptr, nullptr, segment_capsule_overlap, 0},
+    {"segment_triangle_overlap", 15, 0, nullptr, nullptr, segment_triangle_overlap, 0},
+    {"segment_box_overlap", 16, 0, nullptr, nullptr, segment_box_overlap, 0},
+    {"capsule_capsule_overlap", 14, 0, nullptr, nullptr, capsule_capsule_overlap, 0},
+    {"capsule_triangle_overlap", 16, 0, by_distance, nullptr, capsule_triangle_overlap, 0},
+    {"capsule_box_overlap", 17, 0, by_distance, nullptr, capsule_box_overlap, 0},
+    {"triangle_triangle_overlap", 18, 0, nullptr, nullptr, triangle_triangle_overlap, 0},
+    {"triangle_box_overlap", 19, 0, nullptr, nullptr, triangle_box_overlap, 0},
     {"closest_points_lines", 12, 6, nullptr, nullptr, closest_points_lines, 0},
 };
-const nearmiss_plugin wild_magic = {NEARMISS_PLUGIN_VERSION,        "wild-magic", "Wild Magic 5.17", NEARMISS_DOUBLE,
+const nearmiss_plugin wild_magic = {NEARMISS_PLUGIN_VERSION,        SUBJECT, "Wild Magic 5.17", NEARMISS_DOUBLE,
                                     sizeof offers / sizeof *offers, offers};
 
 }  // namespace
