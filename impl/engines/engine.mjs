@@ -1,15 +1,16 @@
 // What the subjects of engines share: the package of npm, arithmetic, and the table.
 //
-//     node impl/engines/NAME/subject.mjs [FOLDER] [--setting SETTING] [--undeclared] [--package PACKAGE]
+//     node impl/engines/NAME/subject.mjs [FOLDER] [--setting SETTING] [--undeclared] [--package PACKAGE] [--time FILE]
 //
 // FOLDER has node_modules; without it the engine is the one that './nearmiss engines NAME' installed. --setting takes other
 // settings of the engine than the usual ones, a word of its settings.txt; the subject is then NAME-SETTING. With --undeclared the
-// subject declares nothing, as if its documentation said nothing, --package takes another package than usual and its name for that of the subject.
+// subject declares nothing, as if its documentation said nothing, --package takes another package than usual and its name for that of the subject. With --time it
+// answers no cases of Nearmiss: it writes how long the calls take for the cases of a file, {"query": ..., "inputs": ...} in each line.
 import fs from "node:fs";
 import path from "node:path";
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
-import { answer } from "../program/nearmiss.mjs";
+import { answer, Cannot } from "../program/nearmiss.mjs";
 
 const options = process.argv.slice(3);
 /** Whether the subject declares its conventions, and leaves out what the documentation calls undefined. */
@@ -33,8 +34,42 @@ export async function load(name, file) {
   return { version: found.version, library: await import(pathToFileURL(found.file)) };
 }
 
+/** The inputs as a subject of that scalar gets them. */
+const inScalar = (scalar, x) => {
+  if (typeof x === "number") return scalar === "float" ? Math.fround(x) : x;
+  if (Array.isArray(x)) return x.map((part) => inScalar(scalar, part));
+  return typeof x === "object" && x !== null ? Object.fromEntries(Object.entries(x).map(([k, part]) => [k, inScalar(scalar, part)])) : x;
+};
+function isAnswered(ask, inputs) {
+  try {
+    return !(ask(inputs) instanceof Cannot);
+  } catch {
+    return false;
+  }
+}
+/** Nanoseconds of a call with the making of its shapes: the median of 15 rounds over the cases that the function answers. */
+function timeOf(ask, cases) {
+  const asked = cases.filter((inputs) => isAnswered(ask, inputs)), rounds = [];
+  for (let round = -5; round < 15; ++round) {  // the first ones warm up
+    const start = process.hrtime.bigint();
+    for (const inputs of asked) ask(inputs);
+    if (round >= 0) rounds.push(Number(process.hrtime.bigint() - start) / asked.length);
+  }
+  return asked.length > 0 ? rounds.sort((a, b) => a - b)[7] : null;
+}
+function writeTimes(scalar, queries, file) {
+  const cases = new Map(Object.keys(queries).map((query) => [query, []]));
+  for (const line of fs.readFileSync(file, "utf8").split("\n").filter(Boolean)) {
+    const { query, inputs } = JSON.parse(line);
+    cases.get(query)?.push(inScalar(scalar, inputs));
+  }
+  const times = [...cases].filter(([, of]) => of.length > 0).map(([query, of]) => [query, timeOf(queries[query].answer ?? queries[query], of)]);
+  console.log(JSON.stringify(Object.fromEntries(times)));
+}
+
 /** Answers by a table of nearmiss.mjs. */
 export function answerBy({ name, queries, ...hello }) {
+  if (option("--time")) return writeTimes(hello.scalar, queries, option("--time"));
   const offers = Object.entries(queries).map(([query, offer]) => {
     const { declares: declared, ...others } = typeof offer === "function" ? { answer: offer } : offer;
     return [query, declares && declared ? { ...others, declares: declared } : others];

@@ -58,7 +58,7 @@ function ray({ point, velocity }, make, [center, radius]) {
   return freeing(fraction <= 1 && { time: fraction * horizon });
 }
 /** A cast of the moving sphere against what `make` makes, which it has passed at the time `horizon`. */
-function cast({ sphere: moving, velocity }, make, horizon, isConvex = true) {
+function cast({ sphere: moving, velocity }, make, horizon) {
   if (horizon === 0) return new Cannot("a cast has two ends");
   const a = sphere(moving), b = make();
   a.shape.AddRef();
@@ -66,7 +66,7 @@ function cast({ sphere: moving, velocity }, make, horizon, isConvex = true) {
   const way = keep(new J.RShapeCast(a.shape, vec([1, 1, 1]), pose, vec(scaled(velocity, horizon))));
   const collector = keep(new J.CastShapeClosestHitCollisionCollector()), how = settled(keep(new J.ShapeCastSettings()));
   how.mReturnDeepestPoint = isStrict;
-  if (isConvex) how.mBackFaceModeConvex = J.EBackFaceMode_CollideWithBackFaces;  // also hits where it starts inside and leaves
+  how.mBackFaceModeConvex = J.EBackFaceMode_CollideWithBackFaces;  // also hits where it starts inside and leaves
   placed(b).CastShape(way, how, zero, collector, anyShape);
   const { mFraction, mContactPointOn2, mPenetrationAxis } = collector.mHit, time = mFraction * horizon;
   // Where they overlap at the start it computes the deepest point only on request.
@@ -110,6 +110,7 @@ function reaches({ v0, v1 }, make) {
 
 const solid = [declared("start in contact is a hit",
   "RayCastSettings::mTreatConvexAsSolid: 'If convex shapes should be treated as solid. When true, a ray starting inside a convex shape will generate a hit at fraction 0.'")];
+const halfSpace = [declared("start in contact is a hit", "PlaneShape: 'A plane shape. The negative half space is considered solid.'")];
 const rays = { gives: ["time"], declares: solid }, gives = ["depth", "normal"];
 answerBy({
   name: "jolt", version: `jolt-physics ${version}`, scalar: "float",
@@ -120,7 +121,9 @@ answerBy({
     moving_sphere_sphere: castTo(sphere, "sphere", "fixed"),
     moving_sphere_box: castTo(box, "box"),
     moving_sphere_capsule: castTo(capsule, "capsule"),
-    moving_sphere_plane: (q) => cast(q, () => plane(q.plane), timeToPlane(q.sphere.center, q.velocity, q.plane, q.sphere.radius), false),
+    moving_sphere_plane: {
+      answer: (q) => cast(q, () => plane(q.plane), timeToPlane(q.sphere.center, q.velocity, q.plane, q.sphere.radius)), declares: halfSpace,
+    },
     sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
     sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
     sphere_triangle_overlap: (q) => meet(sphere(q.sphere), triangle(q.triangle)),
