@@ -94,7 +94,8 @@ bool are_flat(const std::vector<Operand>& operands) {
 /// Moves the second operand so that a point of it is a point of the first one, but for rounding.
 void let_meet(CaseBuilder& d) {
   const Operand& moved = d.plan.operands[1];
-  const Numbers way = plus(point_of(d, d.plan.operands[0]), point_of(d, moved), -1);
+  const Numbers from = point_of(d, moved), to = point_of(d, d.plan.operands[0]);
+  const Numbers way = plus(to, from, -1);
   for (std::size_t v : moved.positions) d.set_vector(v, plus(d.vector(v), way));
 }
 
