@@ -19,11 +19,11 @@ RTCDevice device() {
 }
 
 /// A scene with one primitive.
-class Scene {
+class TracedShape {
  public:
   /// `floats_each`: 3 for positions, 4 for positions with a radius.
-  Scene(RTCGeometryType type, int floats_each, const std::vector<float>& vertices,
-        std::initializer_list<unsigned> indices)
+  TracedShape(RTCGeometryType type, int floats_each, const std::vector<float>& vertices,
+              std::initializer_list<unsigned> indices)
       : scene_(rtcNewScene(device())) {
     const RTCGeometry geometry = rtcNewGeometry(device(), type);
     const RTCFormat format = floats_each == 3 ? RTC_FORMAT_FLOAT3 : RTC_FORMAT_FLOAT4;
@@ -42,9 +42,9 @@ class Scene {
     if (std::string_view(SETTING) == "robust") rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     rtcCommitScene(scene_);
   }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-  ~Scene() { rtcReleaseScene(scene_); }
+  TracedShape(const TracedShape&) = delete;
+  TracedShape& operator=(const TracedShape&) = delete;
+  ~TracedShape() { rtcReleaseScene(scene_); }
 
   operator RTCScene() const { return scene_; }
 
@@ -53,7 +53,7 @@ class Scene {
 };
 
 std::vector<float> floats(const double* from, int count) { return {from, from + count}; }
-Scene triangle(const double* in) { return {RTC_GEOMETRY_TYPE_TRIANGLE, 3, floats(in, 9), {0, 1, 2}}; }
+TracedShape triangle(const double* in) { return {RTC_GEOMETRY_TYPE_TRIANGLE, 3, floats(in, 9), {0, 1, 2}}; }
 
 RTCRay ray_of(const double* start, const double* way, float end) {
   RTCRay ray{};
@@ -70,7 +70,7 @@ int cannot(nearmiss_answer* answer, const char* why) {
 }
 
 /// The closest hit of a ray with the velocity as its direction, so that its distance is a time.
-int hit(const double* in, const Scene& scene, nearmiss_answer* answer) {
+int hit(const double* in, const TracedShape& scene, nearmiss_answer* answer) {
   if (in[3] == 0 && in[4] == 0 && in[5] == 0) return cannot(answer, "a ray has a direction");
   RTCRayHit found{};
   found.ray = ray_of(in, in + 3, std::numeric_limits<float>::infinity());
