@@ -49,9 +49,11 @@ std::vector<Engine> engines() {
     // The launcher copies the file that pins the version at the end of an installation.
     const fs::path pinned = sources / (is_plugin ? "subject.cpp" : "package-lock.json");
     const bool is_installed = is_there(folder / "installed") && text_of(folder / "installed") == text_of(pinned);
-    for (const std::string& setting : settings_in(sources))
-      all.push_back({setting.empty() ? name : name + "-" + setting, setting, sources.string(), folder.string(),
-                     is_installed, is_plugin});
+    for (const std::string& setting : settings_in(sources)) {
+      std::string subject = name;
+      if (!setting.empty()) subject.append("-").append(setting);
+      all.push_back({subject, setting, sources.string(), folder.string(), is_installed, is_plugin});
+    }
   }
   std::sort(all.begin(), all.end(), [](const Engine& a, const Engine& b) { return a.name < b.name; });
   return all;

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -66,7 +67,8 @@ TEST(FieldCauses, EachStoredAnswerIsAFinding) {
   if (is_sanitized) GTEST_SKIP() << "it examines the set, not the code";
   const std::string python = example_py().substr(0, example_py().find(' '));
   for (const auto& [subject, cases] : cases_by_subject()) {
-    const bool in_float = subject == "bullet-float" || subject == "rapier3d" || subject == "jolt";
+    const std::set<std::string> of_floats{"bullet-float", "rapier3d", "jolt", "physx"};
+    const bool in_float = of_floats.contains(subject);
     const std::string scalar = in_float ? "float" : "double";
     const TemporaryFolder folder;
     std::vector<std::string> arguments{
