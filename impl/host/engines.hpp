@@ -1,6 +1,6 @@
 /// Engines: libraries that people ship and Debian lacks, each with its subject in impl/engines/NAME. './nearmiss
-/// engines NAME' installs one into the build folder. An engine is asked only where it is named. One with other settings,
-/// a word of each line of impl/engines/NAME/settings.txt, is a subject too: NAME-SETTING.
+/// engines NAME' installs one into the build folder. An engine is asked only where it is named. One with other
+/// settings, a word of each line of impl/engines/NAME/settings.txt, is a subject too: NAME-SETTING.
 #pragma once
 
 #include <string>
