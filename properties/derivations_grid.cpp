@@ -1,6 +1,7 @@
-/// The derivation of the grid's overlaps: the point of the Minkowski difference of the cores that is nearest to the
-/// origin, by the algorithm of Wolfe (Finding the nearest point in a polytope, Mathematical Programming 11, 1976) in
-/// rationals. Unlike the oracle it finds nearest points, and looks for no direction that separates.
+/// The derivation of the grid's overlaps and signed distances: the point of the Minkowski difference of the cores that
+/// is nearest to the origin, by the algorithm of Wolfe (Finding the nearest point in a polytope, Mathematical
+/// Programming 11, 1976) in rationals. Unlike the oracle it finds nearest points, and looks for no direction that
+/// separates.
 #include "properties/derivation.hpp"
 
 namespace nearmiss::derived {
@@ -47,6 +48,7 @@ Body read_box(Reader& r) {
 struct Combination {
   std::vector<V> points;
   std::vector<Q> weights;
+  std::vector<std::size_t> numbers;  ///< of the points in a list
 
   V sum() const {
     V x{0, 0, 0};
@@ -93,38 +95,83 @@ void approach(Combination& c) {
     Combination kept;
     for (std::size_t i = 0; i < to.size(); ++i) {
       const Q weight = c.weights[i] + share * (to[i] - c.weights[i]);
-      if (weight > 0) kept.points.push_back(c.points[i]), kept.weights.push_back(weight);
+      if (weight <= 0) continue;
+      kept.points.push_back(c.points[i]), kept.weights.push_back(weight), kept.numbers.push_back(c.numbers[i]);
     }
     c = std::move(kept);
     if (share == 1) return;
   }
 }
 
-/// The squared distance of the origin from the convex hull.
-Q least_square(const std::vector<V>& points) {
+/// The point of the convex hull that is nearest to the origin, from the point number `start` on.
+Combination nearest_to_origin(const std::vector<V>& points, std::size_t start = 0) {
   const auto least_along = [&](const V& direction) {
-    return *std::min_element(points.begin(), points.end(),
-                             [&](const V& a, const V& b) { return dot(direction, a) < dot(direction, b); });
+    const auto least = std::min_element(points.begin(), points.end(),
+                                        [&](const V& a, const V& b) { return dot(direction, a) < dot(direction, b); });
+    return std::size_t(least - points.begin());
   };
-  Combination c{{points.front()}, {1}};
+  Combination c{{points[start]}, {1}, {start}};
   while (true) {
-    const V x = c.sum(), next = least_along(x);
-    if (dot(x, next) >= square_of(x)) return square_of(x);
-    c.points.push_back(next);
+    const V x = c.sum();
+    const std::size_t next = least_along(x);
+    if (dot(x, points[next]) >= square_of(x)) return c;
+    c.points.push_back(points[next]);
     c.weights.push_back(0);
+    c.numbers.push_back(next);
     approach(c);
   }
 }
 
+/// The vertices of the Minkowski difference, and those of the bodies that each of them comes from.
+struct Difference {
+  std::vector<V> all, of_a, of_b;
+
+  Difference(const Body& a, const Body& b) {
+    for (const V& v : a.vertices) {
+      for (const V& w : b.vertices) all.push_back(sub(w, v)), of_a.push_back(v), of_b.push_back(w);
+    }
+  }
+};
+
 template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
 Reference reference_overlap(Reader r) {
   const Body a = read_first(r), b = read_second(r);
-  std::vector<V> difference;
-  for (const V& v : a.vertices) {
-    for (const V& w : b.vertices) difference.push_back(sub(w, v));
-  }
   const Q reach = a.radius + b.radius;
-  return least_square(difference) <= reach * reach ? yes() : no();
+  return square_of(nearest_to_origin(Difference(a, b).all).sum()) <= reach * reach ? yes() : no();
+}
+
+/// Of cores whose difference has no volume. The nearest points are a combination of those of two runs of the algorithm:
+/// the pairs of nearest points are a convex set.
+template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
+Reference reference_signed_distance(Reader r) {
+  const Body a = read_first(r), b = read_second(r);
+  const Difference d(a, b);
+  V point1{}, way{};
+  const Q share = r.choose.is_free() ? r.choose.share() : Q(0);
+  for (const Q& weight : {Q(1 - share), share}) {
+    const Combination c = nearest_to_origin(d.all, std::size_t(r.choose.below(int(d.all.size()))));
+    way = c.sum();
+    for (std::size_t i = 0; i < c.numbers.size(); ++i) {
+      point1 = add(point1, d.of_a[c.numbers[i]], weight * c.weights[i]);
+    }
+  }
+  const V point2 = add(point1, way);
+  Reference reference = yes(R(length(way) - real(Q(a.radius + b.radius))));
+  std::optional<V> direction = way;
+  if (square_of(way) == 0) {  // any that separates weakly
+    std::vector<V> against;
+    for (const V& x : d.all) against.push_back(scaled(x, -1));
+    direction = r.choose.in_cone({}, against);
+  }
+  if (!direction) return reference;
+  reference.give_unit(*direction);
+  const R n = length(*direction);
+  const auto moved = [&](const V& x, const Q& by) {
+    for (int k = 0; k < 3; ++k) reference.give(R(real(x[k]) + real(by) * real((*direction)[k]) / n));
+  };
+  moved(point1, a.radius);
+  moved(point2, -b.radius);
+  return reference;
 }
 
 }  // namespace
@@ -133,6 +180,8 @@ std::span<const Derived> of_grid() {
   static constexpr Derived all[] = {
 #define NEARMISS_OVERLAP(first, second) \
   {#first "_" #second "_overlap", &reference_overlap<&read_##first, &read_##second>},
+#define NEARMISS_SIGNED_DISTANCE(first, second) \
+  {#first "_" #second "_signed_distance", &reference_signed_distance<&read_##first, &read_##second>},
 #include "impl/catalogue/grid.def"
   };
   return all;

@@ -430,6 +430,12 @@ INSTANTIATE_TEST_SUITE_P(
                               for (std::size_t k = 6; along > 0 && k < 10; ++k) w[k] = -v[k];
                               return right("moving_point_plane", w);
                             }},
+                    Planted{"sign-of-distance", "sphere_capsule_signed_distance",  // the radius of the sphere left out
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[3] = 0;
+                              return right("sphere_capsule_signed_distance", w);
+                            }},
                     Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
                             [](std::span<const double> v) {
                               std::vector<double> w(v.begin(), v.end());

@@ -28,6 +28,8 @@ const Values triangle{0, 0, 0, 4, 0, 0, 0, 4, 0};
 const Values square{0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0};
 const Values floor_plane{0, 0, 1, 0};
 const Values capsule{0, 0, 0, 4, 0, 0, 1};
+const Values x_axis{0, 0, 0, 4, 0, 0};
+const Values raised{1, -4, 5, 1, 4, 5};  ///< a segment, across the x axis
 const Values cube{0, 0, 0, 1, 1, 1, 0, 0, 0, 1};
 const Values turned{0, 0, 0, 1, 1, 1, 0, 0, 1, 2};  ///< about z, with cosine 3/5 and sine 4/5
 const Values aligned{-1, -1, -1, 1, 1, 1};
@@ -70,6 +72,25 @@ const Placed placed[] = {
     {"off_first", "closest_points_lines", x_and_raised_y, {0, 1, 0, 0, 0, 2}, false},
     {"along_second", "closest_points_lines", x_and_raised_y, {0, 0, 0, 0, 1, 2}, true},
     {"off_second", "closest_points_lines", x_and_raised_y, {0, 0, 0, 1, 0, 2}, false},
+    // What is nearest lies on the z axis, or above the place x = 1 of the x axis.
+    {"elsewhere", "point_sphere_signed_distance", {0, 0, 5, 0, 0, 0, 1}, {4, 0, 0, -1, 0, 0, 5, 0, 1, 0}, true},
+    {"inside", "point_sphere_signed_distance", {0, 0, 5, 0, 0, 0, 1}, {4, 0, 0, -1, 0, 0, 5, 0, 0, 0}, false},
+    {"along", "point_segment_signed_distance", Values{1, 0, 5} + x_axis, {5, 0, 0, -1, 1, 0, 5, 2, 0, 0}, true},
+    {"beside", "point_segment_signed_distance", Values{1, 0, 5} + x_axis, {5, 0, 0, -1, 1, 0, 5, 1, 1, 0}, false},
+    {"along", "point_capsule_signed_distance", Values{1, 0, 5} + capsule, {4, 0, 0, -1, 1, 0, 5, 2, 0, 1}, true},
+    {"inside", "point_capsule_signed_distance", Values{1, 0, 5} + capsule, {4, 0, 0, -1, 1, 0, 5, 1, 0, 0}, false},
+    {"elsewhere", "sphere_sphere_signed_distance", {0, 0, 0, 1, 0, 0, 5, 1}, {3, 0, 0, 1, 0, 1, 0, 0, 0, 4}, true},
+    {"inside", "sphere_sphere_signed_distance", {0, 0, 0, 1, 0, 0, 5, 1}, {3, 0, 0, 1, 0, 0, 0, 0, 0, 4}, false},
+    {"along", "sphere_segment_signed_distance", Values{1, 0, 5, 1} + x_axis, {4, 0, 0, -1, 1, 0, 4, 2, 0, 0}, true},
+    {"beside", "sphere_segment_signed_distance", Values{1, 0, 5, 1} + x_axis, {4, 0, 0, -1, 1, 0, 4, 1, 1, 0}, false},
+    {"along", "sphere_capsule_signed_distance", Values{1, 0, 5, 1} + capsule, {3, 0, 0, -1, 1, 0, 4, 2, 0, 1}, true},
+    {"inside", "sphere_capsule_signed_distance", Values{1, 0, 5, 1} + capsule, {3, 0, 0, -1, 1, 0, 4, 1, 0, 0}, false},
+    {"along", "segment_segment_signed_distance", x_axis + raised, {5, 0, 0, 1, 2, 0, 0, 1, 0, 5}, true},
+    {"beside", "segment_segment_signed_distance", x_axis + raised, {5, 0, 0, 1, 1, 1, 0, 1, 0, 5}, false},
+    {"along", "segment_capsule_signed_distance", raised + capsule, {4, 0, 0, -1, 1, 0, 5, 2, 0, 1}, true},
+    {"inside", "segment_capsule_signed_distance", raised + capsule, {4, 0, 0, -1, 1, 0, 5, 1, 0, 0}, false},
+    {"along", "capsule_capsule_signed_distance", capsule + raised + Values{1}, {3, 0, 0, 1, 2, 0, 1, 1, 0, 4}, true},
+    {"inside", "capsule_capsule_signed_distance", capsule + raised + Values{1}, {3, 0, 0, 1, 1, 0, 0, 1, 0, 4}, false},
     // Down from height 2 at speed 1: at time 2.
     {"elsewhere", "moving_point_plane", Values{1, 1, 2, 0, 0, -1} + floor_plane, {2, 3, 1, 0, 0, 0, 1}, true},
     {"above", "moving_point_plane", Values{1, 1, 2, 0, 0, -1} + floor_plane, {2, 1, 1, four_ulps, 0, 0, 1}, false},

@@ -59,7 +59,7 @@ Follow translated, rotated;
 Follow turned_corners, reversed_corners, swapped, reversed_directions, another_hint;
 Follow later_start, split_motion;
 Follow grown_size, contained_ball, longer_limit;
-Follow prepared, one_point, sphere_as_point, two_triangles, same_decision, hits_pass, other_side;
+Follow prepared, one_point, sphere_as_point, two_triangles, same_decision, sign_of_distance, hits_pass, other_side;
 
 }  // namespace metamorphic
 }  // namespace nearmiss

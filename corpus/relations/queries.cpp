@@ -96,7 +96,7 @@ std::optional<FollowUps> one_point(const Case& c, std::uint64_t) {
   return same_answer(c, *link);
 }
 
-/// A moving sphere of radius 0 as a point, and a point as such a sphere, which also hits the edges of a one-sided
+/// A sphere of radius 0 as a point, and a point as such a sphere, which also hits the edges of a one-sided
 /// shape.
 std::optional<FollowUps> sphere_as_point(const Case& c, std::uint64_t) {
   if (const Link* link = link_of(c, Link::Kind::point_as_sphere)) return hit_at_the_same_time(c, *link, true);
@@ -139,6 +139,17 @@ std::optional<FollowUps> same_decision(const Case& c, std::uint64_t) {
       return Agreement::decisions_differ;
     }
     return Agreement::same;
+  });
+}
+
+/// A distance of 0 may be one that is too small for the scalar.
+std::optional<FollowUps> sign_of_distance(const Case& c, std::uint64_t) {
+  const Link* link = link_of(c, Link::Kind::sign_of_distance);
+  if (link == nullptr) return std::nullopt;
+  const std::size_t at = index_of(c.query->outputs, "distance");
+  return ordered({recast(c, *link)}, [at](const Answer& own, std::span<const Answer> others) {
+    if (!own.gives(at) || !(own.values[at] < 0 || own.values[at] > 0)) return Agreement::same;
+    return (own.values[at] < 0) == others[0].yes ? Agreement::same : Agreement::numbers_differ;
   });
 }
 

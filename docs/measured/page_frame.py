@@ -22,8 +22,8 @@ def catalogue():
     """The names of all queries, in the catalogue's order."""
     folder = pathlib.Path(__file__).resolve().parents[2] / "impl" / "catalogue"
     queries = re.findall(r"^NEARMISS_QUERY\((\w+)\)", (folder / "catalogue.def").read_text(), re.MULTILINE)
-    pairs = re.findall(r"^NEARMISS_OVERLAP\((\w+), (\w+)\)", (folder / "grid.def").read_text(), re.MULTILINE)
-    return queries + [f"{first}_{second}_overlap" for first, second in pairs]
+    grid = re.findall(r"^NEARMISS_([A-Z_]+)\(([a-z]+), ([a-z]+)\)", (folder / "grid.def").read_text(), re.MULTILINE)
+    return queries + [f"{first}_{second}_{operation.lower()}" for operation, first, second in grid]
 
 
 # The headers of the columns that name something. All other columns have figures.

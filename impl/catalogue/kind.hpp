@@ -53,6 +53,8 @@ struct KindOf<collide::EdgePoint> : Is<Kind::points> {};
 template <>
 struct KindOf<collide::ClosestPoints> : Is<Kind::points> {};
 template <>
+struct KindOf<collide::SignedDistance> : Is<Kind::points> {};
+template <>
 struct KindOf<collide::Penetration> : Is<Kind::depth> {};
 template <>
 struct KindOf<collide::BoxPenetration> : Is<Kind::depth> {};

@@ -61,6 +61,7 @@ struct Link {
     halves,             ///< the two triangles that a rectangle consists of
     same_decision,      ///< the same decision
     implied_decision,   ///< a yes of this query implies a yes of the other
+    sign_of_distance,   ///< the decision whether the distance is at most 0
     within_any_time,    ///< a hit at any time implies a yes of the query without a limit
     contained_ball,     ///< a ball inside a solid operand
     point_as_sphere,    ///< a moving point as a sphere of radius 0

@@ -166,6 +166,10 @@ class AnswerSink : public EnclosureAccumulator {
   void yes(const A& a, const SetDistance& set, const Place& from = Place::current()) {
     put(from, true, a, Normals<N>::as_given(), Answer::capacity, set);
   }
+  /// The same, with any of these normals: `set` holds the distance of a normal too.
+  void yes(const A& a, const Normals<N>& normals, const SetDistance& set, const Place& from = Place::current()) {
+    put(from, true, a, normals, Answer::capacity, set);
+  }
   /// Any answer may be right, for example after a division by a number that may be zero.
   void everything(const Place& from = Place::current()) {
     note(from);
@@ -323,7 +327,7 @@ void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std:
   if (yes != about_.yes) return count(yes, {}, 0, {});
   Errors errors;
   const std::size_t given = errors_of(a, normals.many, leaves, false, errors);
-  SetDistance nearest = normals.many ? from(normals) : set;
+  SetDistance nearest = normals.many && set.vectors.empty() ? from(normals) : set;
   if constexpr (is_enclosure<N>) include_enclosure(errors, nearest);
   count(yes, errors, given, nearest);
 }

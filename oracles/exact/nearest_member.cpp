@@ -400,49 +400,146 @@ NearestNormal nearest_normal(const GivenVector& given, const Cone& cone) {
 }
 
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const NormalOffset& lever) {
-  if (lever.reach == 0) throw std::logic_error("oracle: a place that does not depend on the normal");
-  Rational bound(0);
-  for (const Rational& x : lever.base) bound = std::max(bound, CGAL::abs(x));
-  bound += lever.reach;
-  const auto find = [&](double ulps) -> std::optional<Vector<Exact>> {
-    const std::vector<RationalBox> normals = within(given, ulps, Rational(1));
-    for (RationalBox box : within(lever.place, ulps, bound)) {
-      for (int i = 0; i < 3; ++i) {
-        box.low[i] = (box.low[i] - lever.base[i]) / lever.reach,
-        box.high[i] = (box.high[i] - lever.base[i]) / lever.reach;
-      }
-      for (const RationalBox& other : normals) {
-        const RationalBox both = common(box, other);
-        if (auto member = UnitVectorIn(both, cone).found()) return member;
-      }
+  const NearestTuple nearest = nearest_tuple(given, cone, {lever}, {0, 0, 0});
+  return {nearest.ulps, nearest.member ? std::optional(nearest.member->normal) : std::nullopt};
+}
+
+namespace {
+
+/// Narrows [low, high] to the t for which factor t lies in [least, most].
+void narrow(Rational& low, Rational& high, const Rational& factor, const Rational& least, const Rational& most) {
+  if (factor == 0) {
+    if (least > 0 || most < 0) low = 1, high = 0;
+    return;
+  }
+  const Rational a = least / factor, b = most / factor;
+  low = std::max(low, std::min(a, b)), high = std::min(high, std::max(a, b));
+}
+
+/// Finds a normal of the cone in boxes around the given one, whose places lie in boxes around the given places.
+class TupleIn {
+ public:
+  TupleIn(const Cone& cone, const std::vector<NormalOffset>& places, const RationalVector& along)
+      : cone_(cone), places_(places), along_(along) {}
+
+  std::optional<NearestTuple::Member> found(const GivenVector& normal, double ulps) const {
+    for (const RationalBox& box : within(normal, ulps, Rational(1))) {
+      if (auto member = found(0, ulps, box, 0, 1)) return member;
     }
     return std::nullopt;
-  };
-  return with_slack(nearest<NearestNormal>(given.scalar, find), given);
+  }
+
+ private:
+  /// With the places from number k on; those before leave the normals of the box, and [low, high] for t.
+  std::optional<NearestTuple::Member> found(std::size_t k, double ulps, const RationalBox& normals, const Rational& low,
+                                            const Rational& high) const {
+    if (normals.empty() || low > high) return std::nullopt;
+    if (k == places_.size()) {
+      auto normal = UnitVectorIn(normals, cone_).found();
+      if (!normal) return std::nullopt;
+      return NearestTuple::Member{*normal, (low + high) / 2};
+    }
+    const NormalOffset& p = places_[k];
+    for (RationalBox box : within(p.place, ulps, bound(p))) {
+      if (box.empty()) continue;
+      for (int i = 0; i < 3; ++i) box.low[i] -= p.base[i], box.high[i] -= p.base[i];
+      Rational from = low, to = high;
+      if (p.reach == 0) {
+        for (int i = 0; i < 3; ++i) narrow(from, to, along_[i], box.low[i], box.high[i]);
+        if (auto member = found(k + 1, ulps, normals, from, to)) return member;
+        continue;
+      }
+      narrow_along(box, from, to);
+      if (auto member = found(k + 1, ulps, common(normals, normals_of(box, p.reach, from, to)), from, to))
+        return member;
+    }
+    return std::nullopt;
+  }
+  /// By the part of a place along `along`, to which the normal adds nothing.
+  void narrow_along(const RationalBox& box, Rational& low, Rational& high) const {
+    const Rational length2 = dot(along_, along_);
+    if (length2 == 0) return;
+    Rational least(0), most(0);
+    for (int i = 0; i < 3; ++i) {
+      const Rational x = along_[i] * box.low[i], y = along_[i] * box.high[i];
+      least += std::min(x, y), most += std::max(x, y);
+    }
+    narrow(low, high, length2, least, most);
+  }
+  /// The normals n with reach n + t along in the box for a t of [low, high], at most.
+  RationalBox normals_of(const RationalBox& box, const Rational& reach, const Rational& low,
+                         const Rational& high) const {
+    RationalBox normals;
+    for (int i = 0; i < 3; ++i) {
+      const Rational a = along_[i] * low, b = along_[i] * high;
+      const Rational x = (box.low[i] - std::max(a, b)) / reach, y = (box.high[i] - std::min(a, b)) / reach;
+      normals.low[i] = std::min(x, y), normals.high[i] = std::max(x, y);
+    }
+    return normals;
+  }
+  /// No place has a larger component.
+  Rational bound(const NormalOffset& p) const {
+    Rational largest(0);
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, Rational(CGAL::abs(p.base[i]) + CGAL::abs(along_[i])));
+    return largest + CGAL::abs(p.reach);
+  }
+
+  const Cone& cone_;
+  const std::vector<NormalOffset>& places_;
+  const RationalVector& along_;
+};
+
+}  // namespace
+
+NearestTuple nearest_tuple(const GivenVector& normal, const Cone& cone, const std::vector<NormalOffset>& places,
+                           const RationalVector& along) {
+  const TupleIn tuple(cone, places, along);
+  NearestTuple best = nearest<NearestTuple>(normal.scalar, [&](double ulps) { return tuple.found(normal, ulps); });
+  if (dot(along, along) != 0) best.ulps.high = HUGE_VAL;
+  best = with_slack(std::move(best), normal);
+  for (const NormalOffset& p : places) best = with_slack(std::move(best), p.place);
+  return best;
 }
 
 NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<RationalVector>& corners) {
+  return nearest_in_polygon(std::vector<PointOffset>{{given, {0, 0, 0}}}, corners);
+}
+
+namespace {
+
+/// The part of the polygon whose points have all their places, from number k on, within `ulps` of the given ones.
+std::optional<RationalVector> point_within(const std::vector<PointOffset>& places, std::size_t k, double ulps,
+                                           const std::vector<RationalVector>& polygon) {
+  if (polygon.empty()) return std::nullopt;
+  if (k == places.size()) return polygon.front();
+  const RationalVector& offset = places[k].offset;
   Rational bound(0);
-  for (const RationalVector& corner : corners) {
-    for (const Rational& x : corner) bound = std::max(bound, CGAL::abs(x));
+  for (const RationalVector& corner : polygon) {
+    for (int i = 0; i < 3; ++i) bound = std::max(bound, Rational(CGAL::abs(Rational(corner[i] + offset[i]))));
   }
-  const auto find = [&](double ulps) -> std::optional<RationalVector> {
-    for (const RationalBox& box : within(given, ulps, bound)) {
-      std::vector<RationalVector> left = corners;
-      for (int i = 0; i < 3; ++i) left = clipped(clipped(left, i, 1, box.high[i]), i, -1, box.low[i]);
-      if (!left.empty()) return left.front();
+  for (const RationalBox& box : within(places[k].place, ulps, bound)) {
+    std::vector<RationalVector> left = polygon;
+    for (int i = 0; i < 3; ++i) {
+      left = clipped(clipped(left, i, 1, Rational(box.high[i] - offset[i])), i, -1, Rational(box.low[i] - offset[i]));
     }
-    return std::nullopt;
-  };
-  return with_slack(nearest<NearestPoint>(given.scalar, find), given);
+    if (auto point = point_within(places, k + 1, ulps, left)) return point;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+NearestPoint nearest_in_polygon(const std::vector<PointOffset>& places, const std::vector<RationalVector>& corners) {
+  const auto find = [&](double ulps) { return point_within(places, 0, ulps, corners); };
+  NearestPoint best = nearest<NearestPoint>(places.front().place.scalar, find);
+  for (const PointOffset& p : places) best = with_slack(std::move(best), p.place);
+  return best;
 }
 
 // If a vector differs from the given one by more than 2^-8 of the given one's largest number, its distance exceeds
 // `far_ulps`. For a nearer vector the unit is at most that of a number larger by that share.
 
 double far_ulps(Scalar scalar) { return std::ldexp(1.0, digits(scalar) - 10); }
-
-namespace {
 
 bool all_finite(const GivenVector& g) {
   return all_given(g) && std::isfinite(g.high[0]) && std::isfinite(g.high[1]) && std::isfinite(g.high[2]);
@@ -453,15 +550,17 @@ Vector<Interval> enclosed(const GivenVector& g) {
   return {Interval(g.high[0]) + g.low[0] + slack, Interval(g.high[1]) + g.low[1] + slack,
           Interval(g.high[2]) + g.low[2] + slack};
 }
+double ulps_across(double apart, const Interval& per_ulp, Scalar scalar) {
+  if (!(apart > 0) || !(per_ulp.sup() > 0)) return 0;
+  return std::clamp((Interval(apart) / Interval(per_ulp.sup())).inf(), 0.0, far_ulps(scalar));
+}
+
+namespace {
+
 /// Lower bound of the distance between two numbers.
 double gap(const Interval& a, const Interval& b) {
   const Interval between = a - b;
   return Bounds{between.inf(), between.sup()}.nearest_to_zero();
-}
-/// The distance `apart` in ulps, for a quantity that changes by at most `per_ulp` per ulp.
-double ulps_across(double apart, const Interval& per_ulp, Scalar scalar) {
-  if (!(apart > 0) || !(per_ulp.sup() > 0)) return 0;
-  return std::clamp((Interval(apart) / Interval(per_ulp.sup())).inf(), 0.0, far_ulps(scalar));
 }
 
 }  // namespace

@@ -39,11 +39,18 @@ struct Side {
 /// The set of all x that satisfy every side.
 using Cone = std::vector<Side>;
 
-/// With the normal n, the right place is base + reach n, reach >= 0.
+/// With the normal n, the right place is base + reach n.
 struct NormalOffset {
   GivenVector place;
   RationalVector base;
   Rational reach;
+};
+
+/// With the point x of a polygon, the right place is x + offset. The slack of the given place covers that of the
+/// offset.
+struct PointOffset {
+  GivenVector place;
+  RationalVector offset;
 };
 
 /// The distance in ulps, and a member within its upper end. No member if the lower end reaches the largest distance
@@ -65,13 +72,36 @@ std::optional<Vector<Exact>> only_normal(const Cone& cone);
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone);
 /// The same for the normal together with its place.
 NearestNormal nearest_normal(const GivenVector& given, const Cone& cone, const NormalOffset& lever);
+/// A normal n of a cone and a number t of [0, 1], with the places base + reach n + t along.
+struct NearestTuple {
+  Bounds ulps;
+  struct Member {
+    Vector<Exact> normal;
+    Rational t;
+  };
+  std::optional<Member> member;  ///< with `along` any one of them, not within the upper end
+};
+/// The nearest of them. `along` is zero, or perpendicular to each normal of the cone. Where it is not zero, the lower
+/// end of the distance may be too small, by the distance that a change of t within the range that it leaves can
+/// explain, and the upper end is infinite.
+NearestTuple nearest_tuple(const GivenVector& normal, const Cone& cone, const std::vector<NormalOffset>& places,
+                           const RationalVector& along);
 /// The nearest point of a convex polygon. Two corners form a segment, one corner a point.
 NearestPoint nearest_in_polygon(const GivenVector& given, const std::vector<RationalVector>& corners);
+/// The same for several places of one point.
+NearestPoint nearest_in_polygon(const std::vector<PointOffset>& places, const std::vector<RationalVector>& corners);
 
 // The interval stage: lower bounds, each from one equation or inequality that every member satisfies. The rounding mode
 // must be upward. No bound exceeds `far_ulps`.
 
 double far_ulps(Scalar scalar);
+/// The unit of the last place of each vector within `far_ulps` of the given one, at most.
+double near_unit(const GivenVector& given);
+bool all_finite(const GivenVector& given);
+Vector<Interval> enclosed(const GivenVector& given);
+/// The distance in ulps of the given numbers from those of a member, where a quantity differs by `apart` and changes by
+/// at most `per_ulp` for each ulp.
+double ulps_across(double apart, const Interval& per_ulp, Scalar scalar);
 
 /// direction . (x - from) lies within `value` for every member x.
 struct Form {

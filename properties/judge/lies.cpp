@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "corpus/generator/case_builder.hpp"
 #include "impl/catalogue/query_ids.hpp"
@@ -610,6 +611,27 @@ void within_ball(const Vector& center, const Number& radius, std::size_t leaf, L
   const Real reach = radius.at + radius.slack + center.slack;
   out.within(Topic::place, leaf + k, center.at[k] - reach, center.at[k] + reach, bodies::length(center.at) + reach);
 }
+/// Of bodies whose difference has no volume without their radii. With each of its points near to the other, and each
+/// normal, a bound: every right normal n has n . (to - from) at least as large as the distance of the cores.
+template <Body (Inputs::*first)(), Body (Inputs::*second)()>
+void signed_distance(Inputs in, Liar& out) {
+  const Body a = (in.*first)(), b = (in.*second)();
+  const Gap g = gap_of(a, b);
+  const Real slack = a.slack + b.slack, radii = a.radius + b.radius, least = std::max(g.low, -radii);
+  constexpr std::size_t distance_leaf = 0, point_leaf = 4;
+  out.within(Topic::number, distance_leaf, least - slack, g.high + slack, 0);
+  const std::size_t k = out.below(3), which = out.below(2);
+  const Body& body = which == 0 ? a : b;
+  const Real thick = body.radius + body.slack, low = -body.reach(scaled(direction(k), -1)) - thick,
+             high = body.reach(direction(k)) + thick;
+  out.within(Topic::place, point_leaf + 3 * which + k, low, high, body.size() + bodies::length(body.middle()) + thick);
+  const Point way = minus(g.to, g.from);
+  const Real length = bodies::length(way), cosine = (least + radii - 2 * slack) / (length + 2 * slack);
+  if (!(cosine > 0.5L) || !(cosine <= 1)) return;
+  const Real turn = std::acos(cosine), angle = std::acos(std::clamp<Real>(way[k] / length, -1, 1));
+  out.within(Topic::number, normal_leaf + k, std::cos(std::min<Real>(angle + turn, std::numbers::pi_v<Real>)),
+             std::cos(std::max<Real>(angle - turn, 0)), 1);
+}
 void sphere_sphere_penetration(Inputs in, Liar& out) {
   const Vector center1 = in.vector();
   const Number radius1 = in.number();
@@ -811,6 +833,8 @@ constexpr Known known[] = {
     {QueryId::bounce_direction, bounce_direction},
     {QueryId::slide_direction, slide_direction},
 #define NEARMISS_OVERLAP(first, second) {QueryId::first##_##second##_overlap, overlap<&Inputs::first, &Inputs::second>},
+#define NEARMISS_SIGNED_DISTANCE(first, second) \
+  {QueryId::first##_##second##_signed_distance, signed_distance<&Inputs::first, &Inputs::second>},
 #include "impl/catalogue/grid.def"
 };
 

@@ -161,6 +161,24 @@ struct ClosestPoints {
   }
 };
 
+/// The signed distance of two shapes, and the two points that have it: the nearest points of shapes that are apart, the
+/// deepest ones of shapes that overlap. point2 - point1 = distance * normal.
+template <class T>
+struct SignedDistance {
+  T distance{};      ///< 0: touching; negative: minus the length of the shortest translation that parts them
+  Vec3<T> normal{};  ///< unit, from the first shape to the second: the direction of such a translation of the second
+  Vec3<T> point1{};  ///< the point of the first shape that is furthest along `normal`, one of them
+  Vec3<T> point2{};  ///< the point of the second shape that is least far along `normal`, one of them
+
+  [[nodiscard]] static constexpr bool yes() { return true; }
+  static constexpr auto members() {
+    return std::tuple(member("distance", &SignedDistance::distance, Role::distance),
+                      member("normal", &SignedDistance::normal, Role::normal),
+                      member("point1", &SignedDistance::point1, Role::position),
+                      member("point2", &SignedDistance::point2, Role::position));
+  }
+};
+
 /// The penetration depth of two shapes, with one contact point.
 template <class T>
 struct Penetration {

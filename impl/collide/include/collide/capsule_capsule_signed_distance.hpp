@@ -1,0 +1,18 @@
+/// The signed distance of two capsules, and the points that have it.
+#pragma once
+
+#include <collide/detail/signed_distances.hpp>
+
+namespace collide {
+
+/// The distance of the closed shapes, negative where they overlap, with a normal and two points. A radius of 0 is
+/// allowed. A capsule whose ends are equal is a sphere.
+///
+/// 1. point2 - point1 = distance * normal; the normal is a unit vector from `capsule1` to `capsule2`
+/// 2. no point of `capsule1` is further along the normal than point1, none of `capsule2` less far than point2
+///
+/// Units: lengths; the normal has none. Never fails. Non-finite input: unspecified numbers. Source:
+/// detail/signed_distances.hpp.
+COLLIDE_SIGNED_DISTANCE(capsule_capsule_signed_distance, Capsule, capsule1, Capsule, capsule2)
+
+}  // namespace collide

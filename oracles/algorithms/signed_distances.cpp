@@ -1,0 +1,580 @@
+/// Truth of the grid's signed distances. The signed distance of two cores is the greatest gap between them over all
+/// directions of length 1, and each right normal has that gap. Where the cores are apart, or meet in a volume, it is
+/// one of the directions of any_direction(). Where they only touch or cross without a volume, each direction that
+/// separates them weakly is right: those of a cone. With a normal n the nearest points c1 and c2 of the cores are any
+/// points of theirs with c2 - c1 = gap n, so c1 lies in the common part of a feature of the first and of the moved one
+/// of the second: a polygon, or less. The radii move the points along n.
+#include "impl/catalogue/queries/grid.hpp"
+#include "oracles/algorithms/rounded_polytopes.hpp"
+#include "oracles/algorithms/surface.hpp"
+#include "oracles/algorithms/tuples.hpp"
+#include "oracles/exact/wide.hpp"
+
+namespace nearmiss::oracle {
+
+namespace {
+
+constexpr std::size_t normal_at = begin_of<collide::SignedDistance<double>>("normal");
+constexpr std::size_t point1_at = begin_of<collide::SignedDistance<double>>("point1");
+constexpr std::size_t point2_at = begin_of<collide::SignedDistance<double>>("point2");
+
+/// The answer with a normal, the distance of the cores along it, and their points.
+template <class N>
+collide::SignedDistance<N> signed_distance_answer(const Core<N>& a, const Core<N>& b, const N& distance,
+                                                  const Vector<N>& normal, const Vector<N>& c1, const Vector<N>& c2) {
+  return {distance - (a.radius + b.radius), answer_vector(normal), answer_vector(plus(c1, times(normal, a.radius))),
+          answer_vector(minus(c2, times(normal, b.radius)))};
+}
+
+// Exact numbers.
+
+using ExactVector = Vector<Exact>;
+using ExactCore = Core<Exact>;
+
+/// { x : out . x <= level }, or where that is equal.
+struct Bound {
+  ExactVector out;
+  Exact level;
+  bool level_only = false;
+};
+
+/// The convex hull of points in one plane, as bounds.
+std::vector<Bound> bounds_of_hull(const std::vector<ExactVector>& points) {
+  std::vector<Bound> all;
+  const ExactVector& first = points.front();
+  const auto level_at_first = [&](const ExactVector& out) { all.push_back({out, dot(out, first), true}); };
+  const std::array<ExactVector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  ExactVector along{0, 0, 0}, across{0, 0, 0};
+  for (const ExactVector& x : points) {
+    if (surely_zero(norm2(along))) along = minus(x, first);
+    if (surely_zero(norm2(across))) across = cross(along, minus(x, first));
+  }
+  if (surely_zero(norm2(along))) {
+    for (const ExactVector& axis : axes) level_at_first(axis);
+    return all;
+  }
+  const auto bound_along = [&](const ExactVector& out) {
+    Exact most = dot(out, first);
+    for (const ExactVector& x : points) most = -lesser(Exact(-most), Exact(-dot(out, x)));
+    all.push_back({out, most});
+  };
+  if (surely_zero(norm2(across))) {
+    for (const ExactVector& axis : axes) level_at_first(cross(along, axis));
+    bound_along(along), bound_along(negated(along));
+    return all;
+  }
+  level_at_first(across);
+  for (const ExactVector& x : points) {
+    for (const ExactVector& y : points) {
+      const ExactVector out = cross(minus(y, x), across);
+      const Exact level = dot(out, x);
+      if (!surely_zero(norm2(out)) && std::none_of(points.begin(), points.end(), [&](const ExactVector& z) {
+            return may_be_less(level, dot(out, z));
+          }))
+        all.push_back({out, level});
+    }
+  }
+  return all;
+}
+
+/// The part of a convex polygon, whose corners are in order, within a bound. Two corners form a segment.
+std::vector<ExactVector> part_within(const std::vector<ExactVector>& polygon, const ExactVector& out,
+                                     const Exact& level) {
+  std::vector<ExactVector> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ExactVector &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Exact of_a = dot(out, a) - level, of_b = dot(out, b) - level;
+    if (!may_be_positive(of_a)) kept.push_back(a);
+    if (may_be_negative(Exact(of_a * of_b))) kept.push_back(plus(a, times(minus(b, a), Exact(of_a / (of_a - of_b)))));
+  }
+  return kept;
+}
+/// The corners of the common part of two convex polygons, each once; those of the first are in order.
+std::vector<ExactVector> common_part(std::vector<ExactVector> of, const std::vector<ExactVector>& with) {
+  for (const Bound& bound : bounds_of_hull(with)) {
+    of = part_within(of, bound.out, bound.level);
+    if (bound.level_only) of = part_within(of, negated(bound.out), Exact(-bound.level));
+  }
+  std::vector<ExactVector> once;
+  for (ExactVector& x : of) {
+    if (std::none_of(once.begin(), once.end(), [&](const ExactVector& y) { return surely_zero(norm2(minus(x, y))); }))
+      once.push_back(std::move(x));
+  }
+  return once;
+}
+
+/// The vertices furthest along the direction.
+std::vector<ExactVector> furthest(const ExactCore& core, const ExactVector& direction) {
+  std::vector<ExactVector> all;
+  for (const ExactVector& v : core.vertices) {
+    if (!all.empty() && may_be_less(dot(direction, v), dot(direction, all.front()))) continue;
+    if (!all.empty() && may_be_less(dot(direction, all.front()), dot(direction, v))) all.clear();
+    all.push_back(v);
+  }
+  return all;
+}
+
+/// A rational vector near x, and by how much a component of it is off at most.
+struct NearRational {
+  RationalVector vector;
+  double slack = 0;
+};
+NearRational near_rational(const ExactVector& x) {
+  constexpr mpfr_prec_t bits = 256;
+  NearRational near;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!x[k].is_extended()) {
+      near.vector[k] = x[k].a0();
+      continue;
+    }
+    Wide low(bits), high(bits);
+    enclose(x[k], low, high);
+    mpfr_get_q(near.vector[k].mpq(), low.get());
+    mpfr_sub(high.get(), high.get(), low.get(), MPFR_RNDU);
+    near.slack = std::max(near.slack, mpfr_get_d(high.get(), MPFR_RNDU));
+  }
+  return near;
+}
+
+/// The place `number` of the given answer, whose distance from x is wanted for points x near base.
+template <class Out>
+PointOffset offset_place(const Out& out, std::size_t number, const ExactVector& offset) {
+  NearRational near = near_rational(offset);
+  PointOffset p{out.given_vector(number).front(), near.vector};
+  p.place.slack += near.slack;
+  return p;
+}
+
+/// The right answers with one normal, the direction, whose gap is `gap`, both times the direction's length.
+template <class Out>
+void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& direction, const Exact& gap, Out& out) {
+  const Exact length2 = norm2(direction), inverse = root(Exact(Exact(1) / length2));
+  const ExactVector normal = times(direction, inverse), way = times(direction, Exact(gap / length2));
+  std::vector<ExactVector> of_b = furthest(b, negated(direction));
+  for (ExactVector& v : of_b) v = minus(v, way);
+  const std::vector<ExactVector> corners = common_part(furthest(a, direction), of_b);
+  const auto answer = [&](const ExactVector& c) {
+    return signed_distance_answer(a, b, Exact(gap * inverse), normal, c, plus(c, way));
+  };
+  for (const ExactVector& c : corners) out.yes(answer(c));
+  if (corners.size() == 1 || !out.compares_yes()) return;
+  const std::vector<PointOffset> places{offset_place(out, point1_at, times(normal, a.radius)),
+                                        offset_place(out, point2_at, minus(way, times(normal, b.radius)))};
+  std::vector<RationalVector> polygon;
+  for (const ExactVector& c : corners) polygon.push_back(rational(c));
+  const NearestPoint both = nearest_in_polygon(places, polygon);
+  const NearestPoint first = nearest_in_polygon({places[0]}, polygon),
+                     second = nearest_in_polygon({places[1]}, polygon);
+  const RationalVector& x = both.member ? *both.member : polygon.front();
+  out.yes(answer({Exact(x[0]), Exact(x[1]), Exact(x[2])}),
+          SetDistance{{{point1_at, first.ulps}, {point2_at, second.ulps}}, both.ulps});
+}
+
+/// The cores meet, but no volume is common to them: each normal of a cone is right, with each common point.
+template <class Out>
+void report_touch(const ExactCore& a, const ExactCore& b, Out& out) {
+  Normals<Exact> normals = Normals<Exact>::any();
+  for (const ExactVector& v : a.vertices) {
+    for (const ExactVector& w : b.vertices) {
+      const ExactVector way = minus(w, v);
+      if (!surely_zero(norm2(way))) normals.facing.push_back({way, 0, 1});
+    }
+  }
+  const Cone cone = cone_of(normals);
+  const std::vector<ExactVector> corners = common_part(a.vertices, b.vertices);
+  const auto answer = [&](const ExactVector& n, const ExactVector& c) {
+    return signed_distance_answer(a, b, Exact(0), n, c, c);
+  };
+  const ExactVector some = some_normal(cone);
+  for (const ExactVector& c : corners) out.yes(answer(some, c));
+  if (only_normal(cone) && corners.size() == 1) return;
+  if (!out.compares_yes()) {  // for people, one more
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int sign : {1, -1}) {
+        ExactVector n{0, 0, 0};
+        n[axis] = Exact(sign);
+        const bool is_right = std::none_of(normals.facing.begin(), normals.facing.end(), [&](const Facing<Exact>& f) {
+          return may_be_negative(dot(f.direction, n));
+        });
+        if (is_right && !surely_zero(norm2(minus(n, some)))) return out.yes(answer(n, corners.front()));
+      }
+    }
+    return;
+  }
+  const RationalVector base = rational(corners.front()), along = rational(minus(corners.back(), corners.front()));
+  const std::vector<NormalOffset> places{{out.given_vector(point1_at).front(), base, rational(a.radius)},
+                                         {out.given_vector(point2_at).front(), base, rational(Exact(-b.radius))}};
+  const auto nearest = [&](const std::vector<NormalOffset>& to, bool with_normal) {
+    GivenVector nothing;
+    nothing.scalar = places[0].place.scalar;
+    if (!with_normal) return nearest_tuple(nothing, cone, to, along);
+    NearestTuple best;
+    best.ulps = {HUGE_VAL, HUGE_VAL};
+    for (const GivenVector& n : out.given_vector(normal_at)) {
+      NearestTuple of_form = nearest_tuple(n, cone, to, along);
+      if (of_form.ulps.low < best.ulps.low) best.member = of_form.member;
+      best.ulps = nearer(best.ulps, of_form.ulps);
+    }
+    return best;
+  };
+  const NearestTuple all = nearest(places, true);
+  const ExactVector& n = all.member ? all.member->normal : some;
+  const ExactVector c = plus(
+      corners.front(), times(minus(corners.back(), corners.front()), Exact(all.member ? all.member->t : Rational(0))));
+  out.yes(answer(n, c));
+  out.yes(answer(n, c), SetDistance{{{normal_at, ulps_from(out.given_vector(normal_at), normals)},
+                                     {point1_at, nearest({places[0]}, false).ulps},
+                                     {point2_at, nearest({places[1]}, false).ulps}},
+                                    all.ulps});
+}
+
+template <template <class> class Q, class Out>
+void signed_distance_of(const Q<Exact>& q, Out& out) {
+  const auto in_units = [](const ExactCore& core) { return times(Exact(Exact(1) / core.unit), core); };
+  const ExactCore a = in_units(core_of(q.a)), b = in_units(core_of(q.b));
+  struct Separating {
+    ExactVector direction;
+    Exact gap, rank;  ///< the rank grows with gap / |direction|
+  };
+  std::vector<Separating> best;
+  any_direction(a, b, false, [&](const ExactVector& d, TwoEdges<Exact>) {
+    const Exact length2 = norm2(d);
+    if (surely_zero(length2)) return false;
+    const std::array<Exact, 2> both = gaps(d, a, b);
+    for (const int side : {0, 1}) {
+      const Exact& gap = both[std::size_t(side)];
+      const Exact square_of_gap = square(gap);
+      Separating s{side == 0 ? d : negated(d), gap,
+                   Exact((may_be_negative(gap) ? Exact(-square_of_gap) : square_of_gap) / length2)};
+      if (!best.empty() && may_be_less(s.rank, best.front().rank)) continue;
+      if (!best.empty() && may_be_less(best.front().rank, s.rank)) best.clear();
+      const bool is_new = std::none_of(best.begin(), best.end(), [&](const Separating& other) {
+        return surely_zero(norm2(cross(other.direction, s.direction))) &&
+               may_be_positive(dot(other.direction, s.direction));
+      });
+      if (is_new) best.push_back(std::move(s));
+    }
+    return false;
+  });
+  const bool has_volume = surely_spans(a, b);
+  if (best.empty() || surely_zero(best.front().gap) || (may_be_negative(best.front().gap) && !has_volume))
+    return report_touch(a, b, out);
+  for (const Separating& s : best) report_along(a, b, s.direction, s.gap, out);
+}
+
+// Intervals.
+
+using IntervalVector = Vector<Interval>;
+using IntervalCore = Core<Interval>;
+
+/// A lower bound of the distance of the cores: any direction gives one.
+double least_distance(const IntervalCore& a, const IntervalCore& b) {
+  double least = 0;
+  any_direction(a, b, false, [&](const IntervalVector& d, TwoEdges<Interval>) {
+    for (const Interval& gap : gaps(d, a, b)) {
+      if (gap.inf() > 0) least = std::max(least, (of_bound(gap.inf()) / of_bound(root(norm2(d)).sup())).inf());
+    }
+    return false;
+  });
+  return least;
+}
+
+/// The gap of the cores in a direction of about unit length, at most.
+double most_gap(const IntervalVector& direction, const IntervalCore& a, const IntervalCore& b) {
+  return gaps(direction, a, b)[0].sup();
+}
+
+/// Encloses the signed distances within which those of all inputs lie, where that of some inputs is `s`, and their
+/// cores are these: each changes by at most as much as the vertices move.
+Interval widened_by(const Bounds& s, const IntervalCore& a, const IntervalCore& b, const IntervalCore& some_a,
+                    const IntervalCore& some_b) {
+  const auto without_radius = [](IntervalCore core) {
+    core.radius = Interval(0);
+    return core;
+  };
+  const Interval reach = of_bound(movement(without_radius(a), without_radius(some_a))) +
+                         of_bound(movement(without_radius(b), without_radius(some_b)));
+  return {(of_bound(s.low) - reach).inf(), (of_bound(s.high) + reach).sup()};
+}
+
+/// The core of an input in the middle of the others. Not of a box.
+IntervalCore in_the_middle(const IntervalCore& core) {
+  std::vector<IntervalVector> vertices = core.vertices;
+  for (IntervalVector& v : vertices) {
+    for (Interval& x : v) x = Interval(CGAL::to_double(x));
+  }
+  if (vertices.size() > 1) return flat_core(std::move(vertices));
+  IntervalCore middle;
+  middle.vertices = std::move(vertices);
+  return middle;
+}
+
+/// Encloses the signed distances of the cores of all inputs. By exact numbers where the intervals know a direction
+/// poorly, unless the oracle reports in other units: then `inputs` is empty.
+template <template <class> class Q>
+Interval distance_of_all(const Q<Interval>& q, const IntervalCore& a, const IntervalCore& b,
+                         std::span<const double> inputs) {
+  const IntervalCore mid_a = in_the_middle(a), mid_b = in_the_middle(b);
+  if (const std::optional<Bounds> s = signed_distance(mid_a, mid_b)) return widened_by(*s, a, b, mid_a, mid_b);
+  if (inputs.empty()) return {-HUGE_VAL, HUGE_VAL};
+  const std::vector<double> middle = without_tiny_numbers<Q<double>>(inputs);
+  const auto some = inputs_at<Q<Interval>>(middle);
+  return widened_by(exact_signed_distance<Q>(middle), core_of(q.a), core_of(q.b), core_of(some.a), core_of(some.b));
+}
+
+/// A box around the vertices for which `may_be` is true.
+template <class MayBe>
+IntervalVector hull_of(const IntervalCore& core, MayBe may_be) {
+  std::optional<IntervalVector> hull;
+  for (const IntervalVector& v : core.vertices) {
+    if (!may_be(v)) continue;
+    if (!hull) hull = v;
+    for (std::size_t k = 0; k < 3; ++k) (*hull)[k] = join((*hull)[k], v[k]);
+  }
+  return hull.value_or(core.vertices.front());
+}
+IntervalVector within_both(const IntervalVector& a, const IntervalVector& b) {
+  return {meet(a[0], b[0]), meet(a[1], b[1]), meet(a[2], b[2])};
+}
+
+/// How far the given answer is from a right one at least, by properties that every right answer has: its normal n has
+/// the greatest gap; p1 - rA n and p2 + rB n are points of the cores; p2 - p1 = s n.
+struct Proofs {
+  double normal = 0, point1 = 0, point2 = 0, together = 0;
+};
+
+template <class Out>
+class GivenAnswer {
+ public:
+  /// The cores are relative to the place.
+  GivenAnswer(const IntervalCore& a, const IntervalCore& b, const IntervalVector& place, const Interval& distance,
+              const Out& out)
+      : a_(a),
+        b_(b),
+        distance_(distance),
+        normals_(out.given_vector(normal_at)),
+        p1_(out.given_vector(point1_at).front()),
+        p2_(out.given_vector(point2_at).front()),
+        at1_(minus(enclosed(p1_), place)),
+        at2_(minus(enclosed(p2_), place)) {
+    proofs_.point1 = ulps_of_place(p1_, at1_, a_);
+    proofs_.point2 = ulps_of_place(p2_, at2_, b_);
+    proofs_.normal = proofs_.together = HUGE_VAL;
+    for (const GivenVector& n : normals_) {  // in the nearer of its forms
+      const double of_form = ulps_of_normal(n);
+      proofs_.normal = std::min(proofs_.normal, of_form);
+      proofs_.together = std::min(proofs_.together, std::max(of_form, ulps_together(n)));
+    }
+    proofs_.together = std::max({proofs_.together, proofs_.point1, proofs_.point2});
+  }
+
+  /// For right answers whose normals lie within `normal`, and are perpendicular to the directions of the edges, if any.
+  SetDistance from(const IntervalVector& normal, const TwoEdges<Interval>& edges) const {
+    const IntervalVector origin{Interval(0), Interval(0), Interval(0)};
+    double of_normal = HUGE_VAL;
+    for (const GivenVector& n : normals_) {
+      double of_form = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        IntervalVector axis = origin;
+        axis[k] = Interval(1);
+        of_form = std::max(of_form, least_ulps(n, {axis, origin, normal[k]}));
+      }
+      for (const IntervalVector* d : {edges.of_a, edges.of_b}) {
+        if (d != nullptr) of_form = std::max(of_form, least_ulps(n, {*d, origin, Interval(0)}));
+      }
+      of_normal = std::min(of_normal, of_form);
+    }
+    of_normal = std::max(of_normal, proofs_.normal);
+    SetDistance set{{{point1_at, {proofs_.point1, HUGE_VAL}}, {point2_at, {proofs_.point2, HUGE_VAL}}},
+                    {std::max(of_normal, proofs_.together), HUGE_VAL}};
+    if (all_finite(normals_.front())) set.vectors.push_back({normal_at, {of_normal, HUGE_VAL}});
+    return set;
+  }
+
+ private:
+  static IntervalCore core_at(const IntervalVector& x) {
+    IntervalCore core;
+    core.vertices = {x};
+    return core;
+  }
+  Interval per_ulp_of(const GivenVector& v) const { return root(Interval(3)) * near_unit(v); }
+  /// No point of the body is further from its core than the radius.
+  double ulps_of_place(const GivenVector& given, const IntervalVector& at, const IntervalCore& core) const {
+    if (!all_finite(given)) return 0;
+    const double apart = (of_bound(least_distance(core_at(at), core)) - core.radius).inf();
+    return ulps_across(apart, per_ulp_of(given), given.scalar);
+  }
+  double ulps_of_normal(const GivenVector& n) const {
+    if (!all_finite(n)) return 0;
+    double furthest = 0;
+    for (const IntervalVector& v : a_.vertices) {
+      for (const IntervalVector& w : b_.vertices) furthest = std::max(furthest, root(norm2(minus(w, v))).sup());
+    }
+    const double missing = (of_bound(distance_.inf()) - of_bound(most_gap(enclosed(n), a_, b_))).inf();
+    return ulps_across(missing, of_bound(furthest) * per_ulp_of(n), n.scalar);
+  }
+  double ulps_together(const GivenVector& n) const {
+    if (!all_finite(n) || !all_finite(p1_) || !all_finite(p2_)) return 0;
+    const IntervalVector normal = enclosed(n), c1 = minus(at1_, times(normal, a_.radius)),
+                         c2 = plus(at2_, times(normal, b_.radius));
+    const Interval per_ulp1 = per_ulp_of(p1_) + a_.radius * per_ulp_of(n),
+                   per_ulp2 = per_ulp_of(p2_) + b_.radius * per_ulp_of(n);
+    double least = std::max(ulps_across(least_distance(core_at(c1), a_), per_ulp1, n.scalar),
+                            ulps_across(least_distance(core_at(c2), b_), per_ulp2, n.scalar));
+    const Interval distance = distance_ - (a_.radius + b_.radius);
+    const Interval per_ulp =
+        Interval(near_unit(p1_)) + Interval(near_unit(p2_)) + magnitude(distance) * Interval(near_unit(n));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Interval off = at2_[k] - at1_[k] - distance * normal[k];
+      least = std::max(least, ulps_across(bounds(off).nearest_to_zero(), per_ulp, n.scalar));
+    }
+    return least;
+  }
+
+  const IntervalCore &a_, &b_;
+  const Interval distance_;
+  const NumberVector<GivenVector> normals_;
+  const GivenVector p1_, p2_;
+  const IntervalVector at1_, at2_;
+  Proofs proofs_;
+};
+
+/// Where two lines along edges of the cores are nearest: the point of the first one. Empty where the intervals cannot
+/// tell.
+std::optional<IntervalVector> nearest_on_first(const IntervalVector& at1, const IntervalVector& along1,
+                                               const IntervalVector& at2, const IntervalVector& along2) {
+  const IntervalVector across = cross(along1, along2);
+  const Interval length2 = norm2(across);
+  if (!(length2.inf() > 0)) return std::nullopt;
+  const Interval t = dot(cross(minus(at2, at1), along2), across) / length2;
+  return plus(at1, times(along1, t));
+}
+
+/// direction / |direction|, each component as tight as the direction's are: it grows with the same component of the
+/// direction, and its magnitude falls with the others.
+IntervalVector unit_of(const IntervalVector& direction) {
+  IntervalVector unit;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Interval &x = direction[k], others2 = square(direction[(k + 1) % 3]) + square(direction[(k + 2) % 3]);
+    const auto at = [&](double end, bool upper) {
+      const Interval along = of_bound(end), across2 = of_bound((end > 0) == upper ? others2.inf() : others2.sup());
+      const Interval value = along / root(square(along) + across2);
+      return upper ? value.sup() : value.inf();
+    };
+    unit[k] = Interval(at(x.inf(), false), at(x.sup(), true));
+    unit[k] = assume_within(unit[k], -1.0, 1.0);
+  }
+  return unit;
+}
+
+/// Narrows a point of the core to those that are nearest to a point, by a segment's equation. The point is nearest to
+/// it where the cores are apart.
+IntervalVector nearest_to(const IntervalVector& to, const IntervalCore& core, IntervalVector point) {
+  if (core.vertices.size() != 2) return point;
+  for (const auto& [from, other] : {std::pair(0, 1), std::pair(1, 0)}) {
+    const IntervalVector along = minus(core.vertices[std::size_t(other)], core.vertices[std::size_t(from)]);
+    const Interval length2 = norm2(along);
+    if (!(length2.inf() > 0)) return point;
+    const Interval t = assume_within(dot(minus(to, core.vertices[std::size_t(from)]), along) / length2, 0.0, 1.0);
+    point = within_both(point, plus(core.vertices[std::size_t(from)], times(along, t)));
+  }
+  return point;
+}
+
+/// Encloses the normal by the boxes that the points of the way lie in.
+IntervalVector normal_between(const IntervalVector& from, const IntervalVector& to, const Interval& distance,
+                              const IntervalVector& normal) {
+  if (!(distance.inf() > 0)) return normal;
+  IntervalVector between = times(minus(to, from), Interval(Interval(1) / distance));
+  for (Interval& x : between) x = assume_within(x, -1.0, 1.0);
+  return within_both(normal, between);
+}
+
+template <template <class> class Q, class Out>
+void signed_distance_of(const Q<Interval>& q, Out& out) {
+  IntervalCore a = core_of(q.a), b = core_of(q.b);
+  const IntervalVector place = place_near(a);
+  a = relative_to(place, std::move(a)), b = relative_to(place, std::move(b));
+  const bool has_no_volume = a.normals.empty() && b.normals.empty();  // of the difference of two segments
+  const double apart = least_distance(a, b);
+  const Interval distance = meet(Interval(has_no_volume || apart > 0 ? apart : -HUGE_VAL, HUGE_VAL),
+                                 distance_of_all<Q>(q, a, b, out.middle()));
+  const GivenAnswer<Out> given(a, b, place, distance, out);
+
+  const auto answer = [&](const Interval& s, const IntervalVector& n, const IntervalVector& c1,
+                          const IntervalVector& c2) {
+    return signed_distance_answer(a, b, s, n, plus(c1, place), plus(c2, place));
+  };
+  const Interval any(-1, 1);
+  const IntervalVector any_normal{any, any, any};
+  const auto everywhere = [](const IntervalVector&) { return true; };
+  const auto report_loosely = [&](const TwoEdges<Interval>& edges) {
+    IntervalVector c1 = hull_of(a, everywhere), c2 = hull_of(b, everywhere);
+    if (distance.inf() > 0) {
+      c2 = nearest_to(c1, b, c2);
+      c1 = nearest_to(c2, a, c1);
+    }
+    const IntervalVector n = normal_between(c1, c2, distance, any_normal);
+    out.yes(answer(distance, n, c1, c2), given.from(n, edges));
+  };
+  if (distance.inf() <= 0) report_loosely({});  // a cone of normals
+  if (distance.sup() <= 0 && has_no_volume) return;
+  any_direction(a, b, false, [&](const IntervalVector& d, const TwoEdges<Interval>& edges) {
+    const Interval length = root(norm2(d));
+    if (surely_zero(length)) return false;
+    if (!(length.inf() > 0 && length.sup() < HUGE_VAL)) {
+      report_loosely(edges);
+      return false;
+    }
+    const auto both = gaps(d, a, b);
+    for (const std::size_t side : {0, 1}) {
+      Interval s = both[side] / length;
+      if (!narrow(s, distance)) continue;
+      IntervalVector n = unit_of(side == 0 ? d : negated(d));
+      const auto is_furthest = [&](const IntervalCore& core, double sign) {
+        return [&core, &n, sign](const IntervalVector& v) {
+          return std::none_of(core.vertices.begin(), core.vertices.end(), [&](const IntervalVector& other) {
+            return (Interval(sign) * dot(n, minus(other, v))).inf() > 0;
+          });
+        };
+      };
+      const IntervalVector way = times(n, s);
+      const IntervalVector of_a = hull_of(a, is_furthest(a, 1)), of_b = hull_of(b, is_furthest(b, -1));
+      IntervalVector c1 = within_both(of_a, minus(of_b, way)), c2 = within_both(of_b, plus(of_a, way));
+      if (edges.of_a != nullptr && a.edges.size() == 1 && b.edges.size() == 1) {
+        const IntervalVector &from_a = a.vertices[0], &from_b = b.vertices[0];
+        if (const auto on_a = nearest_on_first(from_a, *edges.of_a, from_b, *edges.of_b)) c1 = within_both(c1, *on_a);
+        if (const auto on_b = nearest_on_first(from_b, *edges.of_b, from_a, *edges.of_a)) c2 = within_both(c2, *on_b);
+      }
+      c1 = within_both(c1, minus(c2, way)), c2 = within_both(c2, plus(c1, way));
+      if (s.inf() > 0) c1 = nearest_to(c2, a, c1), c2 = nearest_to(c1, b, c2);
+      n = normal_between(c1, c2, s, n);
+      out.yes(answer(s, n, c1, c2), given.from(n, edges));
+    }
+    return false;
+  });
+}
+
+/// At the radius from the core, whose edges and vertices are those of a point or a segment.
+template <class N, class Shape>
+bool may_be_on_surface_of(const Shape& shape, const GivenPlace<N>& place) {
+  const Core<N> core = core_of(shape);
+  const N distance2 = distance2_of_segment(place, core.vertices.front(), core.vertices.back());
+  return may_be_at_radius(place, distance2, core.radius);
+}
+
+}  // namespace
+
+#define NEARMISS_SIGNED_DISTANCE(first, second)                                                               \
+  template <class N, class Out>                                                                               \
+  void first##_##second##_signed_distance(const inputs::first##_##second##_signed_distance<N>& q, Out& out) { \
+    signed_distance_of(q, out);                                                                               \
+  }                                                                                                           \
+  template <class N>                                                                                          \
+  bool on_surface(const inputs::first##_##second##_signed_distance<N>& q, const GivenPlace<N>& place) {       \
+    return place.number == point1_at ? may_be_on_surface_of(q.a, place) : may_be_on_surface_of(q.b, place);   \
+  }                                                                                                           \
+  NEARMISS_ORACLE(first##_##second##_signed_distance)
+#include "impl/catalogue/grid.def"
+
+}  // namespace nearmiss::oracle
