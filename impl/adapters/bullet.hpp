@@ -15,6 +15,8 @@
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
@@ -262,6 +264,24 @@ struct BulletInDoubles : private BulletShapes {
     } else {
       return only(d, {"depth", "normal"});
     }
+  }
+
+  template <AsksSignedDistance Q>
+    requires BulletKnows<First<Q>> && BulletKnows<Second<Q>>
+  static Reply<typename Q::Answer> answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    const BulletBody first(a), second(b);
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    btGjkPairDetector detector(&first.geometry, &second.geometry, &simplex, &depth);
+    btGjkPairDetector::ClosestPointInput input;
+    input.m_transformA = first.pose(), input.m_transformB = second.pose();
+    btPointCollector nearest;
+    detector.getClosestPoints(input, nearest, nullptr);
+    if (!nearest.m_hasResult) return CannotAnswer{"btGjkPairDetector finds no result"};
+    const btVector3 on_first = nearest.m_pointInWorld + nearest.m_normalOnBInWorld * nearest.m_distance;
+    return typename Q::Answer{nearest.m_distance, doubles(nearest.m_normalOnBInWorld) * -1.0, doubles(on_first),
+                              doubles(nearest.m_pointInWorld)};
   }
 
   template <AsksPointMotion Q>

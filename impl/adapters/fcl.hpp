@@ -269,11 +269,11 @@ struct FclDistance : FclShapes {
   }
   template <class Q>
   static std::string equivalence() {
-    return "minus FCL's signed distance";
+    return AsksSignedDistance<Q> ? "" : "minus FCL's signed distance";
   }
   template <class Q>
   static std::string left_out() {
-    return "normal and contact, which a distance has not";
+    return AsksSignedDistance<Q> ? "normal and points" : "normal and contact, which a distance has not";
   }
   template <class Q>
   static std::string why_not() {
@@ -281,7 +281,7 @@ struct FclDistance : FclShapes {
         requires(const Q& q) { q.plane; } && !requires(const Q& q) { q.velocity; }) {
       return "FCL 0.7 has no distance to a plane or half-space, and crashes when it is asked for one (its issue 623)";
     }
-    if constexpr (AsksDepth<Q>) {
+    if constexpr (AsksDepth<Q> || (AsksSignedDistance<Q> && FclKnowsBoth<Q>)) {
       return "GST_LIBCCD builds the ball from triangles, which may take minutes";
     }
     return "it is no distance; see the subject fcl";
@@ -298,6 +298,17 @@ struct FclDistance : FclShapes {
     // For separated boxes the query asks for the gap along an axis, which is not their distance.
     if (TellsAxis<Q> && d.depth < 0) return only(d, {});
     return only(d, {"depth"});
+  }
+
+  template <AsksSignedDistance Q>
+    requires(FclKnowsBoth<Q> && solver == fcl::GST_INDEP)
+  static auto answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    fcl::DistanceRequestd request(false, true);
+    request.gjk_solver_type = solver;
+    typename Q::Answer d;
+    d.distance = FclPair(a, b).distance(request);
+    return only(d, {"distance"});
   }
 };
 

@@ -77,6 +77,7 @@ struct Ode : private OdeShapes {
 
   template <class Q>
   static std::string equivalence() {
+    if (TellsSignedDistance<Q> && !OfTwoShapes<Q>) return "minus the depth of the point";
     return requires(const Q& q) {
       q.point, q.velocity;
     } ? "a ray that is long enough; time is its length over the speed" : "";
@@ -88,6 +89,9 @@ struct Ode : private OdeShapes {
       return "the axis, which ODE keeps to itself";
     } else if constexpr (AsksDepth<Q>) {
       return TellsAxis<Q> ? "the axis, which it keeps to itself, and " + contact : contact;
+    } else if constexpr (TellsSignedDistance<Q>) {
+      return OfTwoShapes<Q> ? "the distance and the normal, which follow from the points"
+                            : "the normal and the points, of which it tells none";
     }
     return "";
   }
@@ -103,7 +107,7 @@ struct Ode : private OdeShapes {
     } else if constexpr (requires(const Q& q) { q.ray; }) {
       return "ODE's rays have an end, and a box turns their start inside into an exit";
     }
-    return "ODE answers how geometries overlap";
+    return "ODE answers how geometries overlap, and how far a point is from one";
   }
 
   template <AsksOverlap Q>
@@ -125,6 +129,22 @@ struct Ode : private OdeShapes {
     d.depth = contact->depth;
     d.normal = {turn * contact->normal[0], turn * contact->normal[1], turn * contact->normal[2]};
     return only(d, {"depth", "normal"});
+  }
+
+  static Partly<collide::SignedDistance<double>> answer(const in::point_sphere_signed_distance<double>& q) {
+    return out_of(q, dGeomSpherePointDepth);
+  }
+  static Partly<collide::SignedDistance<double>> answer(const in::point_capsule_signed_distance<double>& q) {
+    return out_of(q, dGeomCapsulePointDepth);
+  }
+  static auto answer(const in::segment_segment_signed_distance<double>& q) {
+    const auto vector = [](const Vec3d& v) { return std::array<dReal, 4>{v.x, v.y, v.z}; };
+    const auto a1 = vector(q.a.v0), a2 = vector(q.a.v1), b1 = vector(q.b.v0), b2 = vector(q.b.v1);
+    dVector3 on_a, on_b;
+    dClosestLineSegmentPoints(a1.data(), a2.data(), b1.data(), b2.data(), on_a, on_b);
+    collide::SignedDistance<double> d;
+    d.point1 = {on_a[0], on_a[1], on_a[2]}, d.point2 = {on_b[0], on_b[1], on_b[2]};
+    return only(d, {"point1", "point2"});
   }
 
   static Reply<Impact> answer(const in::moving_point_sphere<double>& q) {
@@ -149,6 +169,13 @@ struct Ode : private OdeShapes {
   }
 
  private:
+  /// How far the point is out of the shape.
+  template <class Q>
+  static Partly<collide::SignedDistance<double>> out_of(const Q& q, dReal (*depth)(dGeomID, dReal, dReal, dReal)) {
+    collide::SignedDistance<double> d;
+    d.distance = -depth(geometry(q.b).get(), q.a.x, q.a.y, q.a.z);
+    return only(d, {"distance"});
+  }
   static double largest_of(double so_far, const Vec3d& v) {
     return std::max({so_far, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   }

@@ -84,6 +84,11 @@ concept AsksOverlap = OfTwoShapes<Q> && !OfMotion<Q> && AnswersWith<Q, Kind::dec
 /// How deep two shapes overlap.
 template <class Q>
 concept AsksDepth = OfTwoShapes<Q> && AnswersWith<Q, Kind::depth>;
+/// How far two shapes are apart, or how deep they overlap, with two points; of which one may be a point.
+template <class Q>
+concept TellsSignedDistance = requires(const typename Q::Answer& a) { a.distance, a.point1, a.point2; };
+template <class Q>
+concept AsksSignedDistance = OfTwoShapes<Q> && TellsSignedDistance<Q>;
 /// When a moving sphere meets a shape.
 template <class Q>
 concept AsksBallMotion = OfTwoShapes<Q> && OfMotion<Q> && AnswersWith<Q, Kind::impact>;

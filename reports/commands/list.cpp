@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corpus/storage/store.hpp"
+#include "impl/catalogue/roles.hpp"
 #include "impl/host/engines.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -161,9 +162,10 @@ std::string queries_table() {
 }
 
 /// What is asked about two shapes. A query with another number of operands, or about their parts, is none of these.
-enum class PairOperation { overlap, penetration, contact, path };
+enum class PairOperation { overlap, signed_distance, penetration, contact, path };
 constexpr std::pair<PairOperation, std::string_view> pair_operations[] = {
     {PairOperation::overlap, "whether two shapes overlap"},
+    {PairOperation::signed_distance, "how far two shapes are apart, or how deep they overlap"},
     {PairOperation::penetration, "how deep two shapes overlap"},
     {PairOperation::contact, "when the first shape, moving, meets the second"},
     {PairOperation::path, "whether the first shape, moving, meets the second"}};
@@ -173,6 +175,7 @@ std::optional<PairOperation> pair_operation_of(const Query& q) {
   const bool moves = !q.operands.velocities.empty();
   if (q.kind == Kind::impact && moves) return PairOperation::contact;
   if (q.kind == Kind::depth) return PairOperation::penetration;
+  if (q.kind == Kind::points && index_of_role(q.outputs, Role::distance)) return PairOperation::signed_distance;
   if (q.kind != Kind::decision || !q.traits.touching_is_yes || q.traits.projects) return std::nullopt;
   return moves ? PairOperation::path : PairOperation::overlap;
 }

@@ -72,9 +72,9 @@ constexpr std::string_view distance = R"(fcl::DistanceRequestd request(false, tr
 request.gjk_solver_type = $solver;
 fcl::DistanceResultd result;
 fcl::distance(&$a, $a_pose, &$b, $b_pose, request, result);
-got_depth = -result.min_distance;
-got_yes = got_depth >= 0;
 )";
+constexpr std::string_view depth_of_distance = "got_depth = -result.min_distance;\ngot_yes = got_depth >= 0;\n";
+constexpr std::string_view distance_itself = "got_distance = result.min_distance;\ngot_yes = true;\n";
 constexpr std::string_view distance_of_boxes =
     "if (!got_yes) got_depth = NAN;  // a distance is not the gap along an axis\n";
 
@@ -136,9 +136,11 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
     asking.statements += motion(moving_of(shapes), a, b, solver, subject.name != "fcl-conservative-advancement");
     asking.members = {"time"};
   } else if (subject.name.starts_with("fcl-distance")) {
+    const bool is_depth = question.query->kind == Kind::depth;
     asking.statements += call(distance, a, b, by);
+    asking.statements += is_depth ? depth_of_distance : distance_itself;
     if (is_a<Box>(a) && is_a<Box>(b)) asking.statements += distance_of_boxes;
-    asking.members = {"depth"};
+    asking.members = {is_depth ? "depth" : "distance"};
   } else if (is_a<Triangle>(b)) {
     asking.statements += call(triangle, a, b, by);
   } else if (question.query->kind == Kind::depth) {
