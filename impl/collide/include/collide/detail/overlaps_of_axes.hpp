@@ -42,18 +42,18 @@ T extent_of(const Vec3<T>& v) {
 /// Of two rounded shapes relative to a vertex of the first: a shortest way between the cores, the gap of the cores
 /// along it, times its length, and the sum of the magnitudes of all coordinates of vertices and edges.
 template <class T>
-struct WayBetween {
+struct MeasuredWay {
   Vec3<T> way;
   T gap, extent;
 };
 template <class T>
-WayBetween<T> way_between(const Sphere<T>& sphere, const Capsule<T>& capsule) {
+MeasuredWay<T> way_between(const Sphere<T>& sphere, const Capsule<T>& capsule) {
   const Axis<T> axis(capsule.p0, capsule.p1, sphere.center);
   const Vec3<T> end = capsule.p1 - sphere.center, way = shortest_way<Plain>(Vec3<T>{}, axis);
   return {way, smaller(Plain::dot(way, axis.start), Plain::dot(way, end)), extent_of(axis.start) + extent_of(end)};
 }
 template <class T>
-WayBetween<T> way_between(const Capsule<T>& capsule1, const Capsule<T>& capsule2) {
+MeasuredWay<T> way_between(const Capsule<T>& capsule1, const Capsule<T>& capsule2) {
   const Axis<T> first(capsule1.p0, capsule1.p1, capsule1.p0), second(capsule2.p0, capsule2.p1, capsule1.p0);
   const Vec3<T> end1 = capsule1.p1 - capsule1.p0, end2 = capsule2.p1 - capsule1.p0;
   const Vec3<T> way = shortest_way<Plain>(first, second);
@@ -73,7 +73,7 @@ WayBetween<T> way_between(const Capsule<T>& capsule1, const Capsule<T>& capsule2
 template <class A, class B>
 std::optional<bool> filtered_overlap(const A& a, const B& b) {
   const double radii = a.radius + b.radius;
-  const WayBetween<double> between = way_between(a, b);
+  const MeasuredWay<double> between = way_between(a, b);
   const double s = between.extent, error = 0x1p-48 * s, slack = 0x1p-49 * radii;
   if (!(s >= 0x1p-200 && s <= 0x1p200 && radii <= 0x1p200)) return std::nullopt;
   const double length2 = Plain::dot(between.way, between.way), sure = radii - slack - error;
