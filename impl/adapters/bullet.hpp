@@ -270,7 +270,8 @@ struct BulletInDoubles : private BulletShapes {
     requires BulletKnows<First<Q>> && BulletKnows<Second<Q>>
   static Reply<typename Q::Answer> answer(const Q& q) {
     const auto& [a, b] = shapes_of(q);
-    const BulletBody first(a), second(b);
+    const BulletBody first(a);
+    const BulletBody second(b);
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
     btGjkPairDetector detector(&first.geometry, &second.geometry, &simplex, &depth);
