@@ -355,8 +355,8 @@ class GivenAnswer {
         normals_(out.given_vector(normal_at)),
         p1_(out.given_vector(point1_at).front()),
         p2_(out.given_vector(point2_at).front()),
-        at1_(minus(enclosed(p1_), place)),
-        at2_(minus(enclosed(p2_), place)) {
+        at1_(relative_to_place(p1_, place)),
+        at2_(relative_to_place(p2_, place)) {
     proofs_.point1 = ulps_of_place(p1_, at1_, a_);
     proofs_.point2 = ulps_of_place(p2_, at2_, b_);
     proofs_.normal = proofs_.together = HUGE_VAL;
@@ -392,6 +392,10 @@ class GivenAnswer {
   }
 
  private:
+  /// Not used where the given numbers are not finite.
+  static IntervalVector relative_to_place(const GivenVector& given, const IntervalVector& place) {
+    return all_finite(given) ? minus(enclosed(given), place) : place;
+  }
   static IntervalCore core_at(const IntervalVector& x) {
     IntervalCore core;
     core.vertices = {x};
@@ -423,7 +427,7 @@ class GivenAnswer {
                             ulps_across(least_distance(core_at(c2), b_), per_ulp2, n.scalar));
     const Interval distance = distance_ - (a_.radius + b_.radius);
     const Interval per_ulp =
-        Interval(near_unit(p1_)) + Interval(near_unit(p2_)) + magnitude(distance) * Interval(near_unit(n));
+        of_bound(near_unit(p1_)) + of_bound(near_unit(p2_)) + magnitude(distance) * of_bound(near_unit(n));
     for (std::size_t k = 0; k < 3; ++k) {
       const Interval off = at2_[k] - at1_[k] - distance * normal[k];
       least = std::max(least, ulps_across(bounds(off).nearest_to_zero(), per_ulp, n.scalar));

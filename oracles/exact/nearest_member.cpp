@@ -551,8 +551,8 @@ Vector<Interval> enclosed(const GivenVector& g) {
           Interval(g.high[2]) + g.low[2] + slack};
 }
 double ulps_across(double apart, const Interval& per_ulp, Scalar scalar) {
-  if (!(apart > 0) || !(per_ulp.sup() > 0)) return 0;
-  return std::clamp((Interval(apart) / Interval(per_ulp.sup())).inf(), 0.0, far_ulps(scalar));
+  if (!(apart > 0) || !(per_ulp.sup() > 0 && per_ulp.sup() < HUGE_VAL)) return 0;
+  return std::clamp((of_bound(apart) / of_bound(per_ulp.sup())).inf(), 0.0, far_ulps(scalar));
 }
 
 namespace {
