@@ -3,7 +3,6 @@
 /// for a direction that separates (detail/overlaps.hpp): that needs no division and no case distinction.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include <collide/detail/nearest_points.hpp>
@@ -78,7 +77,7 @@ std::optional<bool> filtered_overlap(const A& a, const B& b) {
   if (!(s >= 0x1p-200 && s <= 0x1p200 && radii <= 0x1p200)) return std::nullopt;
   const double length2 = Plain::dot(between.way, between.way), sure = radii - slack - error;
   if (sure >= 0x1p-300 && length2 <= sure * sure) return true;
-  if (length2 >= 0x1p-600 && between.gap > std::sqrt(length2) * (radii + slack + error)) return false;
+  if (length2 >= 0x1p-600 && between.gap > sqrt(length2) * (radii + slack + error)) return false;
   return std::nullopt;
 }
 
