@@ -59,9 +59,10 @@ bool touches_exactly(const Case& question) {
 }
 
 std::string_view feature_of_touch(const Case& question) {
-  constexpr std::array<std::string_view, 9> touching{
-      "touch-by-size", "touch-by-position", "touch-at-edge-or-vertex", "touch-by-diagonals", "touch-by-plane",
-      "grazing",       "head-on",           "start-on-surface",        "limit-at-contact"};
+  constexpr std::array<std::string_view, 11> touching{
+      "touch-by-size",  "touch-by-position", "touch-at-edge-or-vertex", "touch-by-diagonals",
+      "crossing-edges", "touching-features", "touch-by-plane",          "grazing",
+      "head-on",        "start-on-surface",  "limit-at-contact"};
   for (const std::string_view move : question.moves) {
     if (std::find(touching.begin(), touching.end(), move) != touching.end()) return move;
   }

@@ -56,6 +56,7 @@ struct Plan {
   std::vector<std::size_t> upper;      ///< one entry per number of an axis-aligned box's upper corner
   std::vector<std::size_t> lone;  ///< numbers outside of vectors, sizes, rotations and lists: times, flags, indices
   std::vector<Operand> operands;  ///< those with a position, in order
+  std::vector<Operand> bodies;    ///< all, with planes
   std::vector<std::size_t> positions, velocities, directions, movable;  ///< movable: all three
   std::array<std::vector<std::size_t>, 16> numbers;                     ///< by role
 };
@@ -120,8 +121,10 @@ struct Mutator {
 };
 std::span<const Mutator> mutators();
 
+using Numbers = CaseBuilder::Numbers;
+
 /// a + factor b.
-inline CaseBuilder::Numbers plus(const CaseBuilder::Numbers& a, const CaseBuilder::Numbers& b, double factor = 1) {
+inline Numbers plus(const Numbers& a, const Numbers& b, double factor = 1) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 

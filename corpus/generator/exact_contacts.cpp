@@ -7,8 +7,6 @@ namespace nearmiss {
 
 namespace {
 
-using Numbers = CaseBuilder::Numbers;
-
 /// Three orthogonal vectors of whole numbers, each of the whole length `length`: a rotation, scaled.
 struct Frame {
   std::array<double, 4> rotation;  ///< the quaternion x, y, z, w

@@ -108,6 +108,7 @@ Plan::Plan(const Query& q, std::span<const double> values)
     }
   }
   for (const Operand& operand : parts) {
+    bodies.push_back(operand);
     if (!operand.positions.empty()) operands.push_back(operand);
     if (operand.shape == Shape::aabox)
       upper.insert(upper.end(), {operand.begin + 3, operand.begin + 4, operand.begin + 5});

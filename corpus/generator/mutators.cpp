@@ -2,12 +2,17 @@
 #include <cmath>
 
 #include "corpus/generator/constructions.hpp"
+#include "corpus/generator/features.hpp"
 
 namespace nearmiss {
 
-namespace {
+double tiny(CaseBuilder& d, int least, int most) {
+  double x = d.random.sign();
+  for (int i = d.random.between(least, most); i > 0; --i) x /= 10;
+  return x;
+}
 
-using Numbers = CaseBuilder::Numbers;
+namespace {
 
 Numbers difference(const Numbers& a, const Numbers& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
@@ -78,13 +83,6 @@ bool between_positions(CaseBuilder& d) {
   }
   d.set_vector(to, at);
   return true;
-}
-
-/// 1e-16 ... 1e-2, of either sign.
-double tiny(CaseBuilder& d, int least = 2, int most = 16) {
-  double x = d.random.sign();
-  for (int i = d.random.between(least, most); i > 0; --i) x /= 10;
-  return x;
 }
 
 /// Three nearly collinear corners.
@@ -228,8 +226,21 @@ bool aimed_at_corner(CaseBuilder& d) {
   return true;
 }
 
-/// A vector that serves as a direction: another velocity or direction, or the difference of two positions.
+/// Along an edge or across a face of an operand. False if the operand has neither.
+bool some_direction_of_a_feature(CaseBuilder& d, Numbers& out) {
+  if (d.plan.bodies.empty()) return false;
+  const Features f = features_of(d, d.random.pick(d.plan.bodies));
+  const std::size_t edges = f.edges.size(), all = edges + f.normals.size();
+  if (all == 0) return false;
+  const std::size_t i = d.random.below(all);
+  out = i < edges ? f.edges[i].along : f.normals[i - edges];
+  return true;
+}
+
+/// A vector that serves as a direction: another velocity or direction, the difference of two positions, or a direction
+/// of a feature.
 bool some_direction(CaseBuilder& d, std::size_t but, Numbers& out) {
+  if (d.random.one_in(3)) return some_direction_of_a_feature(d, out);
   const auto& list = d.plan.movable;
   const std::size_t v = list[d.random.below(list.size())];
   if (d.plan.fields[v].role != Role::position) {
@@ -338,18 +349,11 @@ bool scaled_rotation(CaseBuilder& d) {
   return true;
 }
 
-/// 1e-3 ... 1e-16.
-double small_angle(CaseBuilder& d) {
-  double angle = d.random.sign();
-  for (int i = d.random.between(3, 16); i > 0; --i) angle /= 10;
-  return angle;
-}
-
 bool near_axis_rotation(CaseBuilder& d) {
   if (!axis_rotation(d)) return false;
   for (std::size_t begin : d.plan.rotations) {
     const std::size_t k = begin + d.random.below(4);
-    d.set(k, d[k] + small_angle(d));
+    d.set(k, d[k] + tiny(d, 3));
   }
   d.repair();
   return true;
@@ -368,7 +372,7 @@ bool near_equal_rotations(CaseBuilder& d) {
   if (!equal_rotations(d)) return false;
   const std::size_t begin = d.random.pick(d.plan.rotations);
   const std::size_t k = begin + d.random.below(4);
-  d.set(k, d[k] + small_angle(d));
+  d.set(k, d[k] + tiny(d, 3));
   d.repair();
   return true;
 }
@@ -696,16 +700,23 @@ constexpr Mutator all_mutators[] = {
     {"touch-by-diagonals", "two boxes as far apart as their half diagonals are long", touch_by_diagonals},
     {"crossed-edges", "two long, thin boxes, apart or not along the cross product of nearly parallel edges alone",
      crossed_edges},
+    {"parallel-edges", "edges of two shapes are parallel, or boxes turned alike", parallel_edges},
+    {"nearly-parallel-edges", "the same, 1e-2 ... 1e-16 off", nearly_parallel_edges},
+    {"coplanar-features", "a shape in the plane of another one's face or through its edge; boxes with flush faces",
+     coplanar_features},
+    {"crossing-edges", "edges, vertices or centers of two shapes share a point", crossing_edges},
+    {"touching-features", "a vertex, edge or face of one shape just reaches one of another, radii included",
+     touching_features},
     {"mirrored", "a shape its own mirror image in a plane through another: as near to both halves", mirrored},
     {"touch-by-plane", "a plane across an axis that just reaches a shape", touch_by_plane},
     {"zero-velocity", "no motion", zero_velocity},
     {"axis-velocity", "motion along one axis", axis_velocity},
     {"aimed-at-position", "motion straight at a vertex or center", aimed_at_position},
     {"aimed-at-corner", "motion straight at a corner or an edge of an upright box", aimed_at_corner},
-    {"parallel", "a velocity or direction along another one or along an edge", parallel},
+    {"parallel", "a velocity or direction along another one, along an edge or across a face", parallel},
     {"antiparallel", "the same, against it", antiparallel},
     {"near-parallel", "the same, 1e-2 ... 1e-16 radians off, either way", near_parallel},
-    {"orthogonal", "a velocity or direction at an exact right angle to another one or to an edge", orthogonal},
+    {"orthogonal", "a velocity or direction at an exact right angle to another one, an edge or a normal", orthogonal},
     {"grazing", "motion along a touching face, from the touch on or before it", grazing},
     {"head-on", "motion straight against a face or away from it, from the touch on or before it", head_on},
     {"along-capsule", "motion from far away nearly along a capsule's axis, nearly touching its side or an end",

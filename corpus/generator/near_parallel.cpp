@@ -2,24 +2,13 @@
 #include <cmath>
 
 #include "corpus/generator/constructions.hpp"
+#include "corpus/generator/features.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Numbers = CaseBuilder::Numbers;
 using Quaternion = std::array<double, 4>;  // x, y, z, w, of any length
-
-double dot(const Numbers& a, const Numbers& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Numbers cross(const Numbers& a, const Numbers& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double norm(const Numbers& a) { return std::sqrt(dot(a, a)); }
-/// a / |a|; zero for zero.
-Numbers unit_of(const Numbers& a) {
-  const double n = norm(a);
-  return n > 0 ? plus({}, a, 1 / n) : Numbers{};
-}
 
 /// The rotation `second` followed by the rotation `first`.
 Quaternion product(const Quaternion& first, const Quaternion& second) {
@@ -27,15 +16,6 @@ Quaternion product(const Quaternion& first, const Quaternion& second) {
   const auto [x, y, z, w] = second;
   return {a * w + d * x + b * z - c * y, b * w + d * y + c * x - a * z, c * w + d * z + a * y - b * x,
           d * w - a * x - b * y - c * z};
-}
-
-/// The unit axes of a rotation of the case.
-std::array<Numbers, 3> axes_of(const CaseBuilder& d, std::size_t begin) {
-  const double x = d[begin], y = d[begin + 1], z = d[begin + 2], w = d[begin + 3];
-  const double n = x * x + y * y + z * z + w * w;
-  return {{{(w * w + x * x - y * y - z * z) / n, 2 * (x * y + w * z) / n, 2 * (x * z - w * y) / n},
-           {2 * (x * y - w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z + w * x) / n},
-           {2 * (x * z + w * y) / n, 2 * (y * z - w * x) / n, (w * w - x * x - y * y + z * z) / n}}};
 }
 
 /// A power of two with that range of exponents, of either sign.

@@ -7,8 +7,6 @@ namespace nearmiss {
 
 namespace {
 
-using Numbers = CaseBuilder::Numbers;
-
 /// One operand of the scene: its position and approximate extent.
 struct Placed {
   Numbers center{};
@@ -133,9 +131,10 @@ bool may_touch_at_rest(const Plan& plan) {
 void aim(CaseBuilder& d, std::size_t velocity, const std::vector<Placed>& placed) {
   if (placed.size() < 2 || d.random.one_in(8)) return d.set_vector(velocity, d.random_vector(2 * d.unit));
   const std::size_t target = 1 + d.random.below(placed.size() - 1);
-  const bool single = d.plan.operands[target].positions.size() == 1;
-  const double around = (single ? 1.5 : 0.25) * (placed[0].reach + placed[target].reach);
-  const Numbers target_point = point_of(d, d.plan.operands[target]);
+  const Operand& aimed = d.plan.operands[target];
+  const double wide = aimed.positions.size() == 1 || aimed.radius ? 1.5 : 0.25;
+  const double around = wide * (placed[0].reach + placed[target].reach);
+  const Numbers target_point = point_of(d, aimed);
   const Numbers to = plus(target_point, d.random_vector(around));
   Numbers along = plus(to, placed[0].center, -1);
   const double per_time = d.random.uniform(0.25, 2);
