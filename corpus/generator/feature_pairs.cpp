@@ -45,13 +45,20 @@ Numbers draw_direction_in(CaseBuilder& d, const Features& f) {
   return d.random.one_in(3) ? plus(first, d.random.pick(f.edges).along) : first;
 }
 
-/// Whether an edge of the operand can take any direction without a change of what else it is: no box.
-bool has_free_edge(const Operand& o) {
-  return o.shape != Shape::aabox && !o.half && (o.positions.size() > 1 || o.direction.has_value());
+bool is_solid(const Operand& o) { return o.half || o.shape == Shape::aabox; }
+/// Whether an edge of the operand, or a plane's normal, can take any direction.
+bool has_free_edge(const Operand& o) { return !is_solid(o) && (o.positions.size() > 1 || o.direction.has_value()); }
+
+/// The plane gets that normal, and keeps a point.
+void turn_plane(CaseBuilder& d, const Operand& plane, const Numbers& normal) {
+  const Numbers point = features_of(d, plane).vertices[0];
+  d.set_vector(*plane.direction, normal);
+  d.set(*plane.offset, -dot(d.vector(*plane.direction), point));
 }
 
 /// The operand's direction, or an edge between two of its positions, becomes that one, from the edge's one end on.
 void turn_edge(CaseBuilder& d, const Operand& operand, const Numbers& along) {
+  if (operand.offset) return turn_plane(d, operand, along);
   if (operand.direction) return d.set_vector(*operand.direction, along);
   const std::size_t count = operand.positions.size(), first = d.random.below(count);
   const std::size_t second = (first + (d.random.one_in(2) ? 1 : count - 1)) % count;
@@ -157,12 +164,10 @@ bool coplanar_features(CaseBuilder& d) {
   Pair pair;
   if (!draw_pair(d, pair)) return false;
   if (make_flush(d, *pair.fixed, *pair.moved)) return true;
-  Features f = features_of(d, *pair.fixed);
-  if (f.edges.empty()) {
-    std::swap(pair.fixed, pair.moved);
-    f = features_of(d, *pair.fixed);
-  }
-  if (f.edges.empty()) return false;
+  const auto has_edges = [](const Operand& o) { return is_solid(o) || has_free_edge(o); };
+  if (!has_edges(*pair.fixed) || is_solid(*pair.moved)) std::swap(pair.fixed, pair.moved);
+  if (!has_edges(*pair.fixed) || pair.moved->positions.empty()) return false;
+  const Features f = features_of(d, *pair.fixed);
   const Flat flat = draw_flat(d, f);
   for (const std::size_t p : pair.moved->positions) {
     const double first = 0.125 * d.random.between(-8, 16), second = 0.125 * d.random.between(-8, 16);
