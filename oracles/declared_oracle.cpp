@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "impl/catalogue/query_ids.hpp"
-#include "impl/catalogue/roles.hpp"
 #include "impl/subject/floating_point.hpp"
 #include "oracles/derived_case.hpp"
 #include "oracles/exact_decision.hpp"
@@ -139,7 +138,7 @@ DeclaredOracle::DeclaredOracle(const Case& question, const Answer& answer, Conve
   const bool ends_by_limit = has(Convention::ends_at_time_one) && question.query->kind != Kind::impact;
   Case meant = ends_by_limit ? with_limit(question) : question;
   if (ends_by_limit) {
-    const std::size_t limit = *index_of_role(question.fields(), Role::time);
+    const std::size_t limit = question.operands().at(Role::time)->begin;
     const bool is_forever = meant.values != question.values;
     meant.values[limit] = is_forever ? 1 : std::min(meant.values[limit], 1.0);
   }
@@ -372,10 +371,9 @@ Alternative DeclaredOracle::start_as_hit() const {
 /// reversed motion, which comes from beyond everything. The rounding of its start widens that case.
 std::optional<DeclaredOracle::Result> DeclaredOracle::where_it_leaves(const Asked& asked) const {
   const View& view = views_[0];
-  const auto inputs = question_.fields();
-  if (const auto solid = index_of_role(inputs, Role::flag); solid && inputs[*solid].name == "solid") {
+  if (const InputMember* solid = question_.operands().at(Role::flag); solid != nullptr && solid->name == "solid") {
     Case hollow = view.question;
-    hollow.values[*solid] = 0;
+    hollow.values[solid->begin] = 0;
     return ask(hollow, view.answer, asked);
   }
   const auto motion = motion_numbers_of(view.question);
@@ -418,6 +416,9 @@ std::optional<DeclaredOracle::Result> DeclaredOracle::where_it_leaves(const Aske
     AlternativeList list;
     oracle.exact(back.values, Answer{}, question_.scalar, &list);
     r.right = std::move(list.all);
+    // The rounded start of the reversed motion may just miss what the motion grazes: then only the hit is known.
+    const bool misses = std::erase_if(r.right, [](const Alternative& a) { return !a.yes; }) > 0;
+    if (misses && r.right.empty()) r.right.emplace_back().yes = true;
     for (Alternative& a : r.right) {
       if (time != nullptr && a.count > time->begin) set_number(a, time->begin, *beyond - a.nearest[time->begin]);
     }

@@ -436,8 +436,8 @@ class Judgement {
     const std::optional<double> most = tolerated(role);
     if (decision_differs_ || role == Role::flag || role == Role::index || follows_wrong_flag(m.member)) {
       exceeds_scene(m, m.backward->above * length_of_epsilon_, scene_->error,
-                    fmt::format("{} to be right for inputs within {} {}", query_.member_name(std::size_t(m.member)),
-                                scene_->error, scene_->unit));
+                    fmt::format("{} to be right for inputs within {} {}",
+                                query_.layout.parts[std::size_t(m.member)].name, scene_->error, scene_->unit));
     } else if (most) {
       exceeds_scene(m, m.forward_absolute, *most,
                     role == Role::time ? fmt::format("times of impact within {} s", *most)

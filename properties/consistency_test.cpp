@@ -90,11 +90,7 @@ std::optional<Values> no_back(const Values&) { return std::nullopt; }
 const Motion motions[] = {
     {"moving_sphere_sphere", [](const Values& x) { return is_yes("sphere_sphere_overlap", x); }, no_back},
     {"moving_sphere_box", [](const Values& x) { return is_yes("sphere_box_overlap", x); }, no_back},
-    {"moving_sphere_capsule",
-     [](const Values& x) {  // the query for shapes at rest
-       return is_yes("moving_sphere_capsule", joined(joined(part(x, 0, 4), {0, 0, 0}), part(x, 4, x.size())));
-     },
-     no_back},
+    {"moving_sphere_capsule", [](const Values& x) { return is_yes("sphere_capsule_overlap", x); }, no_back},
     {"moving_sphere_plane",
      [](const Values& x) {
        Values behind = x;

@@ -42,7 +42,8 @@ bool nearly_parallel_edges(CaseBuilder& d);
 /// All positions of an operand lie in the plane of another operand's face, or in a plane through its edge. Two boxes
 /// have faces in one plane.
 bool coplanar_features(CaseBuilder& d);
-/// A point of an edge of one operand becomes a point of an edge of another one: the cores share it, but for rounding.
+/// A point of an edge of one operand becomes a point of another operand's edge, or its center: the cores share it, but
+/// for rounding.
 bool crossing_edges(CaseBuilder& d);
 /// Vertex, edge or face of one operand meets one of another operand, or the surfaces of their radii meet above these.
 /// In half of the cases the gap is off by 1e-16 ... 1e-2 of the radii.

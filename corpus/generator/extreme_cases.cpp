@@ -31,7 +31,8 @@ bool turns_a_direction(const Query& query) {
 /// The numbers of a case in double, rounded to the scalar only at the end.
 class MovedCase {
  public:
-  MovedCase(const Case& c, std::uint64_t seed) : fields_(c.fields()), values(c.values), random_(seed) {}
+  MovedCase(const Case& c, std::uint64_t seed)
+      : fields_(c.fields()), operands_(c.operands()), values(c.values), random_(seed) {}
 
   void apply(ExtremeAxis axis, double x) {
     switch (axis) {
@@ -45,6 +46,7 @@ class MovedCase {
 
  private:
   const std::span<const Field> fields_;
+  const Operands& operands_;
 
  public:
   std::vector<double> values;
@@ -74,21 +76,16 @@ class MovedCase {
     }
   }
   void resize(double factor) {
-    const auto first =
-        std::find_if(fields_.begin(), fields_.end(), [](const Field& f) { return f.role == Role::size; });
-    if (first == fields_.end()) return;
-    const std::string thing = first->name.substr(0, first->name.find('.') + 1);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (fields_[i].role == Role::size && fields_[i].name.starts_with(thing)) values[i] *= factor;
-    }
+    if (operands_.sizes.empty()) return;
+    for (const std::size_t i : operands_.of_number(operands_.sizes.front())->sizes) values[i] *= factor;
   }
   /// Boxes nearly unrotated; without boxes, the velocity or else a direction nearly along another vector.
   void turn(double angle) {
     if (std::any_of(fields_.begin(), fields_.end(), [](const Field& f) { return f.role == Role::rotation; })) {
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (fields_[i].role != Role::rotation) continue;
-        const bool w = fields_[i].name.ends_with(".w");
-        values[i] = w ? 1 : angle * random_.uniform(-0.5, 0.5);
+        const bool is_w = operands_.member_of(i).begin + 3 == i;
+        values[i] = is_w ? 1 : angle * random_.uniform(-0.5, 0.5);
       }
       return;
     }
@@ -101,10 +98,10 @@ class MovedCase {
   /// A direction along another direction of the query, or in the plane of three of its positions.
   std::array<double, 3> some_direction(std::size_t but) {
     std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (!fields_[i].name.ends_with(".x")) continue;
-      if (fields_[i].role == Role::direction && i != but) return across({values[i], values[i + 1], values[i + 2]});
-      if (fields_[i].role == Role::position) places.push_back(i);
+    for (const InputMember& m : operands_.members) {
+      const std::size_t i = m.begin;
+      if (m.role == Role::direction && i != but) return across({values[i], values[i + 1], values[i + 2]});
+      if (m.role == Role::position) places.push_back(i);
     }
     std::array<double, 3> along{};
     const std::size_t origin = places[places.size() > 2 ? places.size() - 3 : 0];

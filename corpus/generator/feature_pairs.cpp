@@ -182,6 +182,7 @@ bool crossing_edges(CaseBuilder& d) {
   Pair pair;
   if (!draw_pair(d, pair)) return false;
   const Features f = features_of(d, *pair.fixed), m = features_of(d, *pair.moved);
+  if (f.edges.empty() && m.edges.empty()) return false;
   const Numbers to = point_on_edge(d, f);
   translate(d, *pair.moved, plus(to, point_on_edge(d, m), -1));
   start_before(d);

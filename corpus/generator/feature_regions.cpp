@@ -47,17 +47,13 @@ bool has_something_flat(const Case& c) {
 }
 
 bool has_two_places_alike(const Case& c) {
-  const std::span<const Field> inputs = c.fields();
-  const auto operand = [&](std::size_t i) {
-    return std::string_view(inputs[i].name).substr(0, inputs[i].name.find('.'));
-  };
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i + 2 < inputs.size(); ++i) {
-    if (inputs[i].role == Role::position && inputs[i].name.ends_with(".x")) places.push_back(i);
-  }
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  const Operands& all = c.operands();
+  for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (operand(places[i]) != operand(places[k]) && vector_at(c, places[i]) == vector_at(c, places[k])) return true;
+      for (const std::size_t place : all[i].positions) {
+        const auto is_alike = [&](std::size_t other) { return vector_at(c, other) == vector_at(c, place); };
+        if (std::ranges::any_of(all[k].positions, is_alike)) return true;
+      }
     }
   }
   return false;

@@ -54,11 +54,11 @@ std::optional<FollowUps> turned_corners(const Case& c, std::uint64_t) {
   const Query& query = *c.query;
   return counterpart(std::move(other), [&query](const Answer& own) {
     Answer a = own;
-    for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-      if (vector_at(query.outputs, i) && query.outputs[i].role == Role::weight) {
-        for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + (k + 1) % 3);
-      } else if (query.outputs[i].name == "edge") {
-        if (const int edge = as_index(own.values[i]); edge >= 0) a.values[i] = double((edge + 2) % 3);
+    for (const Layout::Part& p : query.layout.parts) {
+      if (p.is_vector() && p.role == Role::weight) {
+        for (std::size_t k = 0; k < 3; ++k) carry(a, p.begin + k, own, p.begin + (k + 1) % 3);
+      } else if (p.name == "edge") {
+        if (const int edge = as_index(own.values[p.begin]); edge >= 0) a.values[p.begin] = double((edge + 2) % 3);
       }
     }
     return a;
@@ -74,10 +74,11 @@ std::optional<FollowUps> reversed_corners(const Case& c, std::uint64_t) {
   const Query& query = *c.query;
   return counterpart(std::move(other), [&query](const Answer& own) {
     Answer a = own;
-    for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-      if (query.outputs[i].name == "edge") a.values[i] = 2 - own.values[i];
-      if (query.outputs[i].name == "weights.y") carry(a, i, own, i + 1);
-      if (query.outputs[i].name == "weights.z") carry(a, i, own, i - 1);
+    for (const Layout::Part& p : query.layout.parts) {
+      if (p.name == "edge") a.values[p.begin] = 2 - own.values[p.begin];
+      if (!p.is_vector() || p.role != Role::weight) continue;
+      carry(a, p.begin + 1, own, p.begin + 2);
+      carry(a, p.begin + 2, own, p.begin + 1);
     }
     return a;
   });
@@ -97,21 +98,17 @@ std::optional<FollowUps> swapped(const Case& c, std::uint64_t) {
   }
   return counterpart(std::move(other), [&query](const Answer& own) {
     Answer a = own;
-    const auto& out = query.outputs;
-    const std::size_t point2 = index_of(out, "point2.x");
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      if (out[i].name.starts_with("point1.")) {
-        const std::size_t twin = point2 + i - index_of(out, "point1.x");
-        carry(a, i, own, twin);
-        carry(a, twin, own, i);
-      } else if (out[i].role == Role::normal) {
-        a.values[i] = -own.values[i];
-      } else if (out[i].role == Role::index) {
-        if (const int axis = as_index(own.values[i]); axis >= 0) a.values[i] = swapped_box_axis(axis);
-      } else if (out[i].name.starts_with("contact.") && query.traits.contact_is_of_the_first) {
-        a = without(a, i);  // of the other sphere
-      } else if (query.traits.frame == OutputFrame::order_of_operands) {
-        a = without(a, i);  // a cross product changes its sign
+    for (const Layout::Part& p : query.layout.parts) {
+      if (p.name == "point1" || p.name == "point2") {
+        const Layout::Part* twin = query.layout.at(p.name == "point1" ? "point2" : "point1");
+        for (std::size_t k = 0; k < 3; ++k) carry(a, p.begin + k, own, twin->begin + k);
+      } else if (p.role == Role::normal) {
+        for (std::size_t i = p.begin; i < p.end; ++i) a.values[i] = -own.values[i];
+      } else if (p.role == Role::index) {
+        if (const int axis = as_index(own.values[p.begin]); axis >= 0) a.values[p.begin] = swapped_box_axis(axis);
+      } else if ((p.name == "contact" && query.traits.contact_is_of_the_first) ||  // of the other sphere
+                 query.traits.frame == OutputFrame::order_of_operands) {           // a cross product changes its sign
+        a = without(a, p);
       }
     }
     return a;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "impl/catalogue/case.hpp"
-#include "impl/catalogue/roles.hpp"
 
 namespace nearmiss::metamorphic {
 
@@ -25,18 +24,19 @@ inline bool has(const Case& c, std::string_view name) { return index_of(c.fields
 inline double& value(Case& c, std::string_view name) { return c.values.at(index_of(c.fields(), name)); }
 inline double value(const Case& c, std::string_view name) { return c.values.at(index_of(c.fields(), name)); }
 
-/// Three consecutive numbers with the names x, y, z.
-inline bool vector_at(std::span<const Field> fields, std::size_t i) {
-  return i + 2 < fields.size() && last(fields[i].name) == "x" && last(fields[i + 1].name) == "y" &&
-         last(fields[i + 2].name) == "z";
-}
 /// The output that is the time of an impact; the number of outputs without one.
 inline std::size_t time_of(const Query& query) {
-  return index_of_role(query.outputs, Role::time).value_or(query.outputs.size());
+  const Layout::Part* time = query.layout.at(Role::time);
+  return time == nullptr ? query.outputs.size() : time->begin;
 }
 
 inline Answer without(Answer a, std::size_t output) {
   a.given &= ~(std::uint64_t{1} << output);
+  return a;
+}
+
+inline Answer without(Answer a, const Layout::Part& member) {
+  for (std::size_t i = member.begin; i < member.end; ++i) a = without(a, i);
   return a;
 }
 

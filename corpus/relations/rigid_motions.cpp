@@ -45,14 +45,15 @@ std::optional<FollowUps> translated(const Case& c, std::uint64_t seed) {
     if (shift == Vector{} || !translate(other, shift) || other.values == c.values) continue;
     const Query& query = *c.query;
     auto follow_ups = counterpart_if_valid(std::move(other), [&query, shift](Answer a) {
-      for (std::size_t i = 0; i < query.outputs.size(); ++i) {
-        const bool place = query.outputs[i].role == Role::position && query.kind != Kind::measure;
-        if (!place || !vector_at(query.outputs, i)) continue;
+      for (const Layout::Part& p : query.layout.parts) {
+        const bool place = p.role == Role::position && query.kind != Kind::measure;
+        if (!place || !p.is_vector()) continue;
+        // Zero stands for no place if there is no contact, and for a corner in front.
+        if (!a.yes || p.is_entry) a = without(a, p);
         for (std::size_t k = 0; k < 3; ++k) {
-          // Zero stands for no place if there is no contact, and for a corner in front.
-          if (!a.yes || query.outputs[i].name.starts_with("corners.")) a = without(a, i + k);
-          if (a.values[i + k] + shift[k] - shift[k] != a.values[i + k]) a = without(a, i + k);
-          a.values[i + k] += shift[k];
+          double& x = a.values[p.begin + k];
+          if (x + shift[k] - shift[k] != x) a = without(a, p.begin + k);
+          x += shift[k];
         }
       }
       return a;

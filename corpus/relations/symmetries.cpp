@@ -76,20 +76,18 @@ std::optional<FollowUps> moved_by(const Case& c, const SignedPermutation& m) {
   const bool weights_of_corners = c.operands().find(Shape::triangle) != nullptr;
   return counterpart_if_valid(image_of(c, m), [&query, m, weights_of_corners](const Answer& own) {
     Answer a = own;
-    const auto& out = query.outputs;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      if (query.traits.frame == OutputFrame::order_of_operands) {  // a cross product may change its sign
-        a = without(a, i);
-      } else if (out[i].name.starts_with("corners.")) {  // in another order
-        a = without(a, i);
-      } else if (vector_at(out, i) && out[i].role != Role::weight) {
+    for (const Layout::Part& p : query.layout.parts) {
+      const std::size_t i = p.begin;
+      if (query.traits.frame == OutputFrame::order_of_operands || p.is_entry) {
+        a = without(a, p);  // a cross product may change its sign; entries come in another order
+      } else if (p.is_vector() && p.role != Role::weight) {
         for (std::size_t k = 0; k < 3; ++k) carry(a, i + k, own, i + m.from[k], m.sign[k]);
-      } else if (vector_at(out, i) && m.turns_over() && weights_of_corners) {
+      } else if (p.is_vector() && m.turns_over() && weights_of_corners) {
         carry(a, i + 1, own, i + 2);
         carry(a, i + 2, own, i + 1);
-      } else if (out[i].name == "edge") {
+      } else if (p.name == "edge") {
         if (m.turns_over()) a.values[i] = 2 - own.values[i];
-      } else if (out[i].role == Role::index && query.traits.frame != OutputFrame::order_of_axes) {
+      } else if (p.role == Role::index && query.traits.frame != OutputFrame::order_of_axes) {
         if (const int axis = as_index(own.values[i]); axis >= 0) a.values[i] = m.box_axis(axis);
       }
     }

@@ -161,17 +161,14 @@ void draw_shapes(Case& into, const Scene& scene, const MixedQuery& mixed, Random
 
 /// Moves the shape that holds a drawn position, all its positions alike.
 void move_one_shape(Case& c, const Scene& scene, Random& random) {
-  const std::span<const Field> fields = c.fields();
+  const Operands& operands = c.operands();
   std::vector<std::size_t> begins;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (fields[i].role == Role::position && fields[i].name.ends_with(".x")) begins.push_back(i);
-  }
+  for (const Operand& o : operands) begins.insert(begins.end(), o.positions.begin(), o.positions.end());
   if (begins.empty()) return;
-  const auto operand_of = [&](std::size_t i) { return fields[i].name.substr(0, fields[i].name.find('.')); };
-  const std::string chosen = operand_of(random.pick(begins));
+  const Operand* chosen = operands.of_number(random.pick(begins));
   const Vector by = scaled(draw_direction(random), draw_gap(random, scene));
   for (const std::size_t begin : begins) {
-    if (operand_of(begin) != chosen) continue;
+    if (!chosen->has(begin)) continue;
     for (std::size_t k = 0; k < 3; ++k) c.values[begin + k] = rounded_to(c.scalar, c.values[begin + k] + by[k]);
   }
 }

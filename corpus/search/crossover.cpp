@@ -48,20 +48,13 @@ struct Range {
   std::size_t begin, count;
 };
 
-/// What the numbers of a part have in common: "box.half" of "box.half.x", or "box".
-std::string_view name_of_part(const Field& f, PartKind kind) {
-  const std::string_view name = f.name;
-  return name.substr(0, kind == PartKind::operand ? name.find('.') : name.rfind('.'));
-}
-
 /// The part of that kind that contains input `at`.
-Range part_around(std::span<const Field> fields, std::size_t at, PartKind kind) {
-  if (kind == PartKind::number || fields[at].role == Role::count) return {at, 1};
-  const auto belongs = [&](std::size_t i) { return name_of_part(fields[i], kind) == name_of_part(fields[at], kind); };
-  std::size_t begin = at, end = at + 1;
-  while (begin > 0 && belongs(begin - 1)) --begin;
-  while (end < fields.size() && belongs(end)) ++end;
-  return {begin, end - begin};
+Range part_around(const Case& c, std::size_t at, PartKind kind) {
+  if (kind == PartKind::number || c.role(at) == Role::count) return {at, 1};
+  const Operand* const operand = c.operands().of_number(at);
+  if (kind == PartKind::operand && operand != nullptr) return {operand->begin, operand->count};
+  const InputMember& member = c.operands().member_of(at);
+  return {member.begin, member.count};
 }
 
 bool has_count(std::span<const Field> fields, Range part) {
@@ -75,9 +68,9 @@ bool have_same_roles(std::span<const Field> fields, Range a, std::span<const Fie
 }
 
 /// Another part of the kind that has the same roles; the part itself if the one drawn has not.
-Range draw_like(Random& random, std::span<const Field> fields, Range part, PartKind kind) {
-  const Range drawn = part_around(fields, random.below(fields.size()), kind);
-  return have_same_roles(fields, part, fields, drawn) ? drawn : part;
+Range draw_like(Random& random, const Case& c, Range part, PartKind kind) {
+  const Range drawn = part_around(c, random.below(c.values.size()), kind);
+  return have_same_roles(c.fields(), part, c.fields(), drawn) ? drawn : part;
 }
 
 bool can_vary(Role role) { return !is_discrete(role); }
@@ -182,8 +175,8 @@ bool cross(Case& into, const Case& other, std::uint64_t seed) {
   Random random(seed);
   return attempt_change(into, [&] {
     const auto kind = PartKind(random.below(3));
-    const Range to = part_around(fields, random.below(fields.size()), kind);
-    const Range from = random.one_in(4) ? draw_like(random, fields, to, kind) : to;
+    const Range to = part_around(into, random.below(fields.size()), kind);
+    const Range from = random.one_in(4) ? draw_like(random, into, to, kind) : to;
     // Lists of different lengths have no place in common.
     if (from.begin + from.count > others.size() || has_count(fields, to)) return;
     if (!into.query->lists.empty() && !have_same_roles(fields, to, others, from)) return;

@@ -33,15 +33,6 @@ Query checked_query(QueryId id, std::string_view name) {
 
 std::string Invalid::text() const { return fmt::format("{} is {}: it must be {}", field, value, rule); }
 
-std::string Query::member_name(std::size_t part) const {
-  const auto [begin, end, role] = layout.parts[part];
-  const std::string &first = outputs[begin].name, &last = outputs[end - 1].name;
-  if (end - begin == 1) return first;
-  const auto [differs, other] = std::mismatch(first.begin(), first.end(), last.begin(), last.end());
-  const std::size_t dot = first.find_last_of('.', std::size_t(differs - first.begin()));
-  return first.substr(0, dot);
-}
-
 std::string_view name_of(Kind kind) {
   switch (kind) {
     case Kind::decision: return "decision";

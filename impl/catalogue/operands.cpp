@@ -130,6 +130,11 @@ const Operand* Operands::of_number(std::size_t number) const {
   return found == all.end() ? nullptr : &*found;
 }
 
+const InputMember* Operands::at(Role role) const {
+  const auto found = std::ranges::find(members, role, &InputMember::role);
+  return found == members.end() ? nullptr : &*found;
+}
+
 const InputMember& Operands::member_of(std::size_t number) const {
   const auto found = std::ranges::find_if(
       members, [number](const InputMember& m) { return number >= m.begin && number < m.begin + m.count; });

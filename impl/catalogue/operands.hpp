@@ -81,6 +81,8 @@ struct Operands {
   const Operand* find(std::string_view name) const;
   /// The operand that has the number; nullptr for a number of a velocity or a parameter.
   const Operand* of_number(std::size_t number) const;
+  /// The first member with that role; nullptr where there is none.
+  const InputMember* at(Role role) const;
   /// The member that has the number.
   const InputMember& member_of(std::size_t number) const;
   /// The first operand with that shape; nullptr where there is none.

@@ -62,9 +62,6 @@ struct Query {
   /// The numbers before the first list, which are at the same place in every case.
   std::size_t numbers_before_lists() const { return lists.empty() ? inputs.size() : lists[0].at; }
   std::size_t most_numbers() const { return lists.empty() ? inputs.size() : lists.most_numbers(); }
-
-  /// "location", "corners.2.point": the name of the member's outputs without their component.
-  std::string member_name(std::size_t part) const;
 };
 
 /// All queries, in the catalogue's order.

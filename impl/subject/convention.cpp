@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "impl/catalogue/query.hpp"
-#include "impl/catalogue/roles.hpp"
 
 namespace nearmiss {
 
@@ -12,8 +11,8 @@ namespace {
 /// A moving body, or a ray, with an obstacle.
 bool has_motion(const Query& q) { return q.operands.start && !q.operands.velocities.empty(); }
 bool has_plane(const Query& q) { return q.operands.find(Shape::plane) != nullptr; }
-bool gives(const Query& q, Role role) { return index_of_role(q.outputs, role).has_value(); }
-bool has_limit(const Query& q) { return index_of_role(q.inputs, Role::time).has_value(); }
+bool gives(const Query& q, Role role) { return q.layout.at(role) != nullptr; }
+bool has_limit(const Query& q) { return q.operands.at(Role::time) != nullptr; }
 
 /// Every normal of a hit from behind is that of the back: not of a sphere, which meets edges too.
 bool has_normal_of_face(const Query& q) {

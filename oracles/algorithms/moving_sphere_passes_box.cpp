@@ -38,7 +38,9 @@ Vector<N> beyond_at(const Path<N>& path, const N& time) {
 
 /// Whether the center is ever within the radius, from time 0 to `limit` (empty: without limit).
 bool passes(const Path<Exact>& path, const Exact& radius2, const std::optional<Exact>& limit) {
-  std::vector<Exact> times{Exact(0)};
+  std::vector<Exact> times;
+  times.reserve(2 + 6 + 26);  // the start, the limit, the faces' planes, and each region outside of the box
+  times.emplace_back(0);
   if (limit) times.push_back(*limit);
   for (int i = 0; i < 3; ++i) {
     if (may_be_zero(path.step[i])) continue;

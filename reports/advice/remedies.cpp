@@ -8,7 +8,6 @@
 #include <functional>
 #include <optional>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 
 namespace nearmiss {
@@ -104,17 +103,19 @@ std::optional<Remedy> split_step(const TradeSource& source, const Query& query, 
   const Operand& mover = query.operands[0];
   if (!mover.velocity) return std::nullopt;
   const double part = step / parts_of_step;
-  const auto time = index_of_role(query.outputs, Role::time), limit = index_of_role(query.inputs, Role::time);
+  const Layout::Part* time = query.layout.at(Role::time);
+  const InputMember* limit = query.operands.at(Role::time);
   const auto change = [time, limit, part, place = mover.positions[0], velocity = *mover.velocity](Case& c) {
     const Truth truth = truth_of(c);
     double contact = 0;
-    if (truth.yes && !truth.alternatives.empty() && time) contact = truth.alternatives.front().values[*time].low;
+    if (truth.yes && !truth.alternatives.empty() && time != nullptr)
+      contact = truth.alternatives.front().values[time->begin].low;
     const double begin = std::clamp(std::floor(contact / part), 0.0, double(parts_of_step - 1)) * part;
     for (std::size_t k = 0; k < 3; ++k) {
       double& x = c.values[place + k];
       x = in_scalar_of(c, x + begin * c.values[velocity + k]);
     }
-    if (limit) c.values[*limit] = in_scalar_of(c, part);
+    if (limit != nullptr) c.values[limit->begin] = in_scalar_of(c, part);
   };
   return Remedy{"split the step", fmt::format("make {} steps of {:g} s of each step", parts_of_step, part),
                 changed_source(source, change)};

@@ -9,7 +9,6 @@
 #include "corpus/scenes/trace_scene.hpp"
 #include "corpus/storage/codec.hpp"
 #include "impl/catalogue/query_ids.hpp"
-#include "impl/catalogue/roles.hpp"
 #include "oracles/exact/oracle.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -33,7 +32,7 @@ namespace fs = std::filesystem;
 constexpr double end_of_time = 1;
 
 /// The index of the time among the numbers of an answer.
-std::size_t time_of(const Query& query) { return index_of_role(query.outputs, Role::time).value(); }
+std::size_t time_of(const Query& query) { return query.layout.at(Role::time)->begin; }
 
 /// The oracle's exact decision of the benchmark's question.
 bool exactly_collides(const Case& question) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "corpus/storage/store.hpp"
-#include "impl/catalogue/roles.hpp"
 #include "impl/host/engines.hpp"
 #include "reports/commands/command.hpp"
 #include "reports/commands/options.hpp"
@@ -175,7 +174,7 @@ std::optional<PairOperation> pair_operation_of(const Query& q) {
   const bool moves = !q.operands.velocities.empty();
   if (q.kind == Kind::impact && moves) return PairOperation::contact;
   if (q.kind == Kind::depth) return PairOperation::penetration;
-  if (q.kind == Kind::points && index_of_role(q.outputs, Role::distance)) return PairOperation::signed_distance;
+  if (q.kind == Kind::points && q.layout.at(Role::distance) != nullptr) return PairOperation::signed_distance;
   if (q.kind != Kind::decision || !q.traits.touching_is_yes || q.traits.projects) return std::nullopt;
   return moves ? PairOperation::path : PairOperation::overlap;
 }

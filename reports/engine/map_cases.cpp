@@ -49,30 +49,28 @@ constexpr std::array<const char*, 3> measure_names = {"distance", "size", "speed
 constexpr std::array<const char*, 3> measure_units = {"{} from the origin", "{}, the largest size", "{} a second"};
 using Measures = std::array<double, 3>;
 
-/// The points of a case, each with the name of its shape.
-struct NamedPoint {
-  std::string_view shape;
+/// The points of a case, each with its shape.
+struct PointOfShape {
+  const Operand* shape;
   scenes::Vector at;
 };
-std::vector<NamedPoint> points_in(const Case& c) {
-  std::vector<NamedPoint> points;
-  for (std::size_t i = 0; i + 2 < c.values.size(); ++i) {
-    const Field& field = c.fields()[i];
-    if (field.role != Role::position || !field.name.ends_with(".x")) continue;
-    const std::string_view shape = std::string_view(field.name).substr(0, field.name.find('.'));
-    points.push_back({shape, {c.values[i], c.values[i + 1], c.values[i + 2]}});
+std::vector<PointOfShape> points_in(const Case& c) {
+  std::vector<PointOfShape> points;
+  for (const Operand& shape : c.operands()) {
+    for (const std::size_t i : shape.positions)
+      points.push_back({&shape, {c.values[i], c.values[i + 1], c.values[i + 2]}});
   }
   return points;
 }
 
 /// The largest radius or half extent, or half of the distance between two points of a shape.
-double largest_size(const Case& c, const std::vector<NamedPoint>& points) {
+double largest_size(const Case& c, const std::vector<PointOfShape>& points) {
   double largest = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (c.role(i) == Role::size) largest = std::max(largest, c.values[i]);
   }
-  for (const NamedPoint& a : points) {
-    for (const NamedPoint& b : points) {
+  for (const PointOfShape& a : points) {
+    for (const PointOfShape& b : points) {
       if (a.shape == b.shape) largest = std::max(largest, scenes::length_of(plus(a.at, b.at, -1)) / 2);
     }
   }
@@ -80,9 +78,9 @@ double largest_size(const Case& c, const std::vector<NamedPoint>& points) {
 }
 
 Measures measures_of(const Case& c) {
-  const std::vector<NamedPoint> points = points_in(c);
+  const std::vector<PointOfShape> points = points_in(c);
   scenes::Vector middle{};
-  for (const NamedPoint& p : points) middle = plus(middle, p.at, 1 / double(points.size()));
+  for (const PointOfShape& p : points) middle = plus(middle, p.at, 1 / double(points.size()));
   double square = 0;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     if (c.role(i) == Role::velocity) square += c.values[i] * c.values[i];

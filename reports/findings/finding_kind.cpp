@@ -63,7 +63,8 @@ FindingKind kind_of_finding(const Query& query, const std::string& subject, cons
   if (f.verdict == Verdict::broke) {
     k.clause = kind_of_breakage(f.clause, f.cause);
   } else if (const MemberFinding* head = f.headline_member()) {
-    k.member = head->member == MemberFinding::decision ? "decision" : query.member_name(std::size_t(head->member));
+    k.member =
+        head->member == MemberFinding::decision ? "decision" : query.layout.parts[std::size_t(head->member)].name;
   }
   return k;
 }

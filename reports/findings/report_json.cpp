@@ -117,7 +117,7 @@ Json forward(const Query& query, int worst, double ulps, double absolute) {
 Json member_finding(const Case& question, const MemberFinding& m) {
   const Query& query = *question.query;
   const bool is_decision = m.member == MemberFinding::decision;
-  Json j{{"member", is_decision ? "decision" : query.member_name(std::size_t(m.member))},
+  Json j{{"member", is_decision ? "decision" : query.layout.parts[std::size_t(m.member)].name},
          {"disagreement", name_of(m.disagreement)},
          {"breaks", m.breaks() ? Json(m.clause) : Json(nullptr)}};
   j["backward"] = backward(question, m.backward);

@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/findings/text.hpp"
 
@@ -50,9 +49,9 @@ Phrases phrases(const Query& query) {
 
 /// The number that completes a decision: " at time 0.5", ", depth 0.25". Empty where the kind has no such number.
 std::string measure_text(const Query& query, bool yes, const std::function<std::string(std::size_t)>& number) {
-  const auto time = index_of_role(query.outputs, Role::time), depth = index_of_role(query.outputs, Role::depth);
-  if (query.kind == Kind::impact && yes && time) return " at time " + number(*time);
-  if (query.kind == Kind::depth && depth) return ", depth " + number(*depth);
+  const Layout::Part *time = query.layout.at(Role::time), *depth = query.layout.at(Role::depth);
+  if (query.kind == Kind::impact && yes && time != nullptr) return " at time " + number(time->begin);
+  if (query.kind == Kind::depth && depth != nullptr) return ", depth " + number(depth->begin);
   return "";
 }
 
@@ -126,7 +125,7 @@ class Explanation {
     return head == nullptr || head->member < 0 ? 0 : std::size_t(head->member);
   }
   std::string name_of_member(std::size_t member) const {
-    return query_.layout.parts.empty() ? "answer" : query_.member_name(member);
+    return query_.layout.parts.empty() ? "answer" : query_.layout.parts[member].name;
   }
   std::string given_member(std::size_t member) const {
     return member_text(query_, member, [&](auto i) { return given(i); });
@@ -183,8 +182,8 @@ class Explanation {
   std::string decision() const {
     const Answer& a = r_.answer;
     if (!decides(query_.kind)) return name_of_member(member()) + " is " + given_member(member());
-    const auto measure = index_of_role(query_.outputs, query_.kind == Kind::depth ? Role::depth : Role::time);
-    const bool measured = measure && is_part(query_, a, *measure);
+    const Layout::Part* measure = query_.layout.at(query_.kind == Kind::depth ? Role::depth : Role::time);
+    const bool measured = measure != nullptr && is_part(query_, a, measure->begin);
     return (a.yes ? phrases_.yes : phrases_.no) +
            (measured ? measure_text(query_, a.yes, [&](auto i) { return given(i); }) : "");
   }
@@ -405,7 +404,7 @@ std::string truth_text(const Query& query, const Truth& truth) {
   const auto number = [&](std::size_t i) {
     return right != nullptr && i < right->count ? right->decimals[i] : std::string("?");
   };
-  if (!decides(query.kind)) return query.member_name(0) + " is " + member_text(query, 0, number);
+  if (!decides(query.kind)) return query.layout.parts[0].name + " is " + member_text(query, 0, number);
   const Phrases p = phrases(query);
   const std::string because = truth.because.empty() ? "" : ", because " + truth.because;
   return (truth.yes ? p.it_yes : p.it_no) + (right == nullptr ? "" : measure_text(query, truth.yes, number)) + because;

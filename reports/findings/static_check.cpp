@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "corpus/relations/recast.hpp"
-#include "impl/catalogue/roles.hpp"
 
 namespace nearmiss {
 
@@ -46,17 +45,17 @@ double step_of(const Case& c) {
 
 /// The time in a hit that gives a finite one; empty otherwise.
 std::optional<double> time_in(const Query& query, const Answer& a) {
-  const auto time = index_of_role(query.outputs, Role::time);
-  if (!time || a.status != Answer::Status::answered || !a.yes || !a.gives(*time)) return std::nullopt;
-  const double t = a.values[*time];
+  const Layout::Part* time = query.layout.at(Role::time);
+  if (time == nullptr || a.status != Answer::Status::answered || !a.yes || !a.gives(time->begin)) return std::nullopt;
+  const double t = a.values[time->begin];
   return std::isfinite(t) && t >= 0 ? std::optional(t) : std::nullopt;
 }
 
 std::optional<double> time_in(const Query& query, const Truth& truth) {
   if (!truth.yes || truth.alternatives.empty()) return std::nullopt;
-  const auto time = index_of_role(query.outputs, Role::time);
-  return time && *time < truth.alternatives.front().count ? std::optional(truth.alternatives.front().values[*time].low)
-                                                          : std::nullopt;
+  const Layout::Part* time = query.layout.at(Role::time);
+  const Alternative& right = truth.alternatives.front();
+  return time != nullptr && time->begin < right.count ? std::optional(right.values[time->begin].low) : std::nullopt;
 }
 
 }  // namespace

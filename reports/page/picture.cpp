@@ -68,11 +68,11 @@ std::optional<PictureValue> vector_in(const nlohmann::json& values, const std::s
 /// False for an item of a list that says by a flag beside the member that it has no meaning: a corner that is no
 /// contact.
 bool has_meaning(const Query& query, std::size_t part, const nlohmann::json& values) {
-  const std::string name = query.member_name(part);
+  const std::string& name = query.layout.parts[part].name;
   const std::size_t item = name.rfind('.');
   if (item == std::string::npos) return true;
   for (std::size_t p = 0; p < query.layout.parts.size(); ++p) {
-    const std::string other = query.member_name(p);
+    const std::string& other = query.layout.parts[p].name;
     if (query.layout.parts[p].role != Role::flag || other.substr(0, other.rfind('.')) != name.substr(0, item)) continue;
     const nlohmann::json* flag = value_at(values, other);
     const bool unset = flag == nullptr || *flag == false || *flag == nlohmann::json::array({0.0, 0.0});
@@ -86,7 +86,7 @@ PictureContact contact_in(const Query& query, const nlohmann::json& values) {
   if (query.traits.frame == OutputFrame::operands) return c;  // not in the space of the inputs
   for (std::size_t p = 0; p < query.layout.parts.size(); ++p) {
     const Layout::Part& part = query.layout.parts[p];
-    const std::string name = query.member_name(p);
+    const std::string& name = part.name;
     if (part.role == Role::time) {
       if (const nlohmann::json* t = value_at(values, name)) c.time = bounds_in(*t);
     }

@@ -11,7 +11,6 @@
 #include "corpus/generator/fit.hpp"
 #include "corpus/generator/generator.hpp"
 #include "corpus/storage/codec.hpp"
-#include "impl/catalogue/roles.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
@@ -466,7 +465,7 @@ TEST(Cause, TooFewHalvingsOfATime) {
 
 /// The same for a point and an axis-aligned box, whose answer has the time after the place.
 Answer bisects_entry(Values q) {
-  static const std::size_t time = *index_of_role(find_query("moving_point_aabox")->outputs, Role::time);
+  static const std::size_t time = find_query("moving_point_aabox")->layout.at(Role::time)->begin;
   Answer a = right("moving_point_aabox", q);
   if (!a.yes) return a;
   const double longest = 2 * std::hypot(q[0] - q[6], q[1] - q[7], q[2] - q[8]) / std::hypot(q[3], q[4], q[5]);
@@ -739,8 +738,8 @@ TEST(Explain, FindsTheConstantsOfTheExampleLibrary) {
   const std::string plugin = plugin_file("skim_plugin");
   for (const auto& [query, key] : {std::pair("sphere_sphere_overlap", "1e-4 length^2"),
                                    std::pair("moving_point_sphere", "1e-6 length^2 speed^2")}) {
-    ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", query, "--cases", "3000", "--seed", "3", "--out",
-                        (folder / query).string()})
+    ASSERT_EQ(nearmiss({"run", "--plugin", plugin, "-s", "skim", "-q", query, "--cases", "10000", "--seed", "3",
+                        "--out", (folder / query).string()})
                   .exit_code,
               1);
     const json index = json::parse(read_file(folder / query / "index.json"));

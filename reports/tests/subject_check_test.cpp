@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "impl/catalogue/roles.hpp"
 #include "reports/tests/mistaken_subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/triage/examination/subject_check.hpp"
@@ -76,7 +75,7 @@ TEST(SubjectCheck, TellsTheOrderOfAQuaternion) {
 
 Answer of_distances(Values values) {
   Answer a = right(values);
-  const std::size_t v = sphere_box().operands.velocities[0], time = *index_of_role(sphere_box().outputs, Role::time);
+  const std::size_t v = sphere_box().operands.velocities[0], time = sphere_box().layout.at(Role::time)->begin;
   if (a.yes) a.values[time] *= std::hypot(values[v], values[v + 1], values[v + 2]);
   return a;
 }

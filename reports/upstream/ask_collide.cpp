@@ -152,13 +152,12 @@ Asking ask_collide(const Case& question, const Subject& subject) {
   asking.statements = arguments.declarations +
                       fmt::format("const auto answer = collide::{}<{}>({});\n", query.name, tier, arguments.list);
   if (decides(query.kind)) asking.statements += "got_yes = answer.yes();\n";
-  for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
-    const Layout::Part& part = query.layout.parts[m];
-    asking.members.push_back(query.member_name(m));
+  for (const Layout::Part& part : query.layout.parts) {
+    asking.members.push_back(part.name);
     for (std::size_t i = part.begin; i < part.end; ++i) {
       const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
-      asking.statements += fmt::format("{}{} = answer.{};\n", variable_of(query.member_name(m)), index,
-                                       expression_of(query.outputs[i].name));
+      asking.statements +=
+          fmt::format("{}{} = answer.{};\n", variable_of(part.name), index, expression_of(query.outputs[i].name));
     }
   }
   asking.build = "g++ -std=c++20 test.cpp" + include_option("impl/collide/include") +

@@ -50,15 +50,13 @@ Asking ask_plugin(const Case& question, const Subject& subject) {
       "  return 1;\n"
       "}\n";
   if (decides(query.kind)) asking.statements += "got_yes = answer.yes;\n";
-  for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
-    const Layout::Part& part = query.layout.parts[m];
-    asking.members.push_back(query.member_name(m));
-    asking.statements +=
-        fmt::format("{} = (int)(answer.given >> {} & 1);\n", flag_of(query.member_name(m)), part.begin);
+  for (const Layout::Part& part : query.layout.parts) {
+    asking.members.push_back(part.name);
+    asking.statements += fmt::format("{} = (int)(answer.given >> {} & 1);\n", flag_of(part.name), part.begin);
     for (std::size_t i = part.begin; i < part.end; ++i) {
       const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
-      asking.statements += fmt::format("if (answer.given >> {} & 1) {}{} = answer.values[{}];\n", i,
-                                       variable_of(query.member_name(m)), index, i);
+      asking.statements +=
+          fmt::format("if (answer.given >> {} & 1) {}{} = answer.values[{}];\n", i, variable_of(part.name), index, i);
     }
   }
   asking.build = fmt::format("cc test.c{} {} -lm", include_option("impl/plugin"), shell_quoted(subject.plugin));

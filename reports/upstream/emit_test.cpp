@@ -45,7 +45,7 @@ class Conditions {
       for (std::size_t i = 1; i < n; ++i) nans += ", NAN";
       text +=
           n == 1 ? fmt::format("double {} = NAN;\n", name(m)) : fmt::format("double {}[] = {{{}}};\n", name(m), nans);
-      if (in_c_) text += fmt::format("int {} = 0;\n", flag_of(query_.member_name(m)));
+      if (in_c_) text += fmt::format("int {} = 0;\n", flag_of(query_.layout.parts[m].name));
     }
     return text;
   }
@@ -90,7 +90,7 @@ class Conditions {
       const std::size_t n = count(m);
       std::string numbers = "%.17g";
       for (std::size_t i = 1; i < n; ++i) numbers += ", %.17g";
-      format += fmt::format("{}{} = {}", format.empty() ? "" : ", ", query_.member_name(m),
+      format += fmt::format("{}{} = {}", format.empty() ? "" : ", ", query_.layout.parts[m].name,
                             n == 1 ? numbers : "(" + numbers + ")");
       for (std::size_t i = 0; i < n; ++i) arguments += ", " + element(m, i);
     }
@@ -104,7 +104,7 @@ class Conditions {
     return part.end - part.begin;
   }
   const char* absolute() const { return in_c_ ? "fabs" : "std::abs"; }
-  std::string name(std::size_t member) const { return variable_of(query_.member_name(member)); }
+  std::string name(std::size_t member) const { return variable_of(query_.layout.parts[member].name); }
   std::string element(std::size_t member, std::size_t i) const {
     return count(member) == 1 ? name(member) : fmt::format("{}[{}]", name(member), i);
   }
@@ -114,7 +114,8 @@ class Conditions {
     for (const MemberCondition& c : r.members) {
       std::vector<std::string> own = conditions(c);
       if (in_c_ && !own.empty()) {  // a plugin may leave the member out
-        all.push_back(fmt::format("(!{} || ({}))", flag_of(query_.member_name(c.member)), fmt::join(own, " && ")));
+        all.push_back(
+            fmt::format("(!{} || ({}))", flag_of(query_.layout.parts[c.member].name), fmt::join(own, " && ")));
       } else {
         std::move(own.begin(), own.end(), std::back_inserter(all));
       }
@@ -150,7 +151,7 @@ class Conditions {
     std::string text;
     for (const std::size_t m : compared_) {
       if (query_.layout.parts[m].role != Role::normal || right_.unit_error == 0) continue;
-      const std::string given = in_c_ ? flag_of(query_.member_name(m)) + " && " : "";
+      const std::string given = in_c_ ? flag_of(query_.layout.parts[m].name) + " && " : "";
       text += fmt::format("if ({}{}!({}(length_of({}) - 1) <= {})) got_right = {};\n",
                           decides(query_.kind) ? "got_yes && " : "", given, absolute(), name(m),
                           literal(right_.unit_error), in_c_ ? "0" : "false");
@@ -170,7 +171,7 @@ std::vector<std::size_t> declared_members(const Report& r, const Asking& asking)
   std::vector<std::size_t> members;
   for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
     const auto& told = asking.members;
-    if (std::find(told.begin(), told.end(), query.member_name(m)) != told.end()) members.push_back(m);
+    if (std::find(told.begin(), told.end(), query.layout.parts[m].name) != told.end()) members.push_back(m);
   }
   return members;
 }

@@ -5,7 +5,6 @@
 #include <set>
 #include <string_view>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 
@@ -115,7 +114,7 @@ class GeometryReader {
     const bool known = p.end <= numbers.size();
     const bool is_vector = p.end - p.begin == 3;
     const LongVector v = is_vector ? LongVector{value(p.begin), value(p.begin + 1), value(p.begin + 2)} : LongVector{};
-    const std::string name = "the answer's " + q_.member_name(k);
+    const std::string name = "the answer's " + q_.layout.parts[k].name;
     if (p.role == Role::position && is_vector) g_.places.push_back({name, "", v, known});
     if (p.role == Role::normal && is_vector) g_.directions.push_back({name, v, known});
     if (p.role == Role::time) g_.time = std::max(0.0L, value(p.begin));
@@ -126,10 +125,10 @@ class GeometryReader {
   /// The first place at the time of the contact, or at the given time.
   void add_moved_place(bool known) {
     if (!g_.velocity || g_.places.empty()) return;
-    const auto given = index_of_role(c_.fields(), Role::time);
-    const bool is_given = given && q_.kind == Kind::direction;
+    const InputMember* given = c_.operands().at(Role::time);
+    const bool is_given = given != nullptr && q_.kind == Kind::direction;
     if (!is_given && q_.kind != Kind::impact) return;
-    const long double time = is_given ? c_.values[*given] : g_.time;
+    const long double time = is_given ? c_.values[given->begin] : g_.time;
     const CaseGeometry::Place& start = g_.places.front();
     g_.places.push_back(
         {start.name + " at the time", start.operand, start.at + *g_.velocity * time, is_given || known});

@@ -81,16 +81,13 @@ class MagnitudeList {
     }
   }
   void add_unit_errors() {
-    for (std::size_t i = 0; i < c_.values.size(); ++i) {
-      const Field& f = c_.fields()[i];
-      const bool begins = f.name.ends_with(".x") && (f.role == Role::direction || f.role == Role::rotation);
-      if (!begins) continue;
-      const std::size_t count = f.role == Role::rotation ? 4 : 3;
+    for (const InputMember& m : c_.operands().members) {
+      if (m.role != Role::direction && m.role != Role::rotation) continue;
       long double square = 0;
-      for (std::size_t k = i; k < i + count; ++k) square += static_cast<long double>(c_.values[k]) * c_.values[k];
-      const std::string of = f.name.substr(0, f.name.size() - 2);
-      add_pure("the squared length of " + of + ", minus 1,", square - 1);
-      add_pure("the length of " + of + ", minus 1,", (square - 1) / (std::sqrt(square) + 1));
+      for (std::size_t k = m.begin; k < m.begin + m.count; ++k)
+        square += static_cast<long double>(c_.values[k]) * c_.values[k];
+      add_pure("the squared length of " + m.name + ", minus 1,", square - 1);
+      add_pure("the length of " + m.name + ", minus 1,", (square - 1) / (std::sqrt(square) + 1));
     }
   }
   void add_weights() {

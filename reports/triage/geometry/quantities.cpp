@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 
@@ -65,10 +64,10 @@ double way_to_flip(const Case& c, bool decision, std::size_t axis, double direct
 
 /// The time of the exact contact; 0 where there is none.
 double contact_time(const Case& c) {
-  const auto time = index_of_role(c.query->outputs, Role::time);
-  if (c.query->kind != Kind::impact || !time) return 0;
+  const Layout::Part* time = c.query->layout.at(Role::time);
+  if (c.query->kind != Kind::impact || time == nullptr) return 0;
   for (const Alternative& right : truth_of(c).alternatives) {
-    if (right.yes) return std::max(0.0, right.values[*time].low);
+    if (right.yes) return std::max(0.0, right.values[time->begin].low);
   }
   return 0;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "impl/catalogue/roles.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/triage/geometry/magnitudes.hpp"
 #include "reports/triage/hypotheses/readings.hpp"
@@ -120,7 +119,7 @@ class TestOfReadings : public TestOfCause {
   /// it explains every false miss, whatever its cause.
   bool is_vacuous(const Reading& reading) {
     Answer miss;
-    if (const auto time = index_of_role(trials().query().outputs, Role::time)) miss.values[*time] = INFINITY;
+    if (const auto* time = trials().query().layout.at(Role::time)) miss.values[time->begin] = INFINITY;
     std::size_t hits = 0, misses = 0, explained = 0;
     for (const Trial& t : asked_.sample()) {
       if (t.outcome == Outcome::none) continue;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/requirements.hpp"
 
 namespace nearmiss {
@@ -129,21 +128,21 @@ class MotionSteps : public TestOfCause {
   static constexpr std::size_t samples = 64;
 
   /// The index of the time among the numbers of an impact.
-  static std::size_t time_of(const Query& q) { return index_of_role(q.outputs, Role::time).value(); }
+  static std::size_t time_of(const Query& q) { return q.layout.at(Role::time)->begin; }
   static double given_time(const Trial& t) { return t.answer.values[time_of(*t.question.query)]; }
 
   /// The sine of the angle between the velocity and the surface at the exact contact, unless it is at the start.
   static void add_sine(const Trial& t, std::vector<double>& sines) {
     const auto& velocities = t.question.operands().velocities;
-    const auto normal = index_of_role(t.question.query->outputs, Role::normal);
-    if (velocities.empty() || !normal || !t.finding.truth_yes) return;
+    const Layout::Part* normal = t.question.query->layout.at(Role::normal);
+    if (velocities.empty() || normal == nullptr || !t.finding.truth_yes) return;
     const double* v = &t.question.values[velocities[0]];
     for (const Alternative& right : truth_of(t.question).alternatives) {
-      if (!right.yes || right.many_normals || *normal + 3 > right.count) continue;
+      if (!right.yes || right.many_normals || normal->end > right.count) continue;
       if (right.values[time_of(*t.question.query)].low <= 0) continue;
       double along = 0;
       for (std::size_t k = 0; k < 3; ++k)
-        along += v[k] * (right.values[*normal + k].low + right.values[*normal + k].high) / 2;
+        along += v[k] * (right.values[normal->begin + k].low + right.values[normal->begin + k].high) / 2;
       sines.push_back(std::abs(along) / std::hypot(v[0], v[1], v[2]));
       return;
     }
@@ -167,7 +166,8 @@ class MotionSteps : public TestOfCause {
   std::optional<std::size_t> limit_of_time() const {
     const Query& q = trials().query();
     if (q.kind != Kind::decision || q.operands.velocities.empty()) return std::nullopt;
-    return index_of_role(question().fields(), Role::time);
+    const InputMember* limit = question().operands().at(Role::time);
+    return limit == nullptr ? std::nullopt : std::optional(limit->begin);
   }
   /// The case with a limit in place of any time.
   Case with_limit(std::size_t limit, double time) const {
@@ -218,10 +218,11 @@ class MotionSteps : public TestOfCause {
   }
   /// The given time less the exact one; empty where one of them is no contact, and where answers have no time.
   static std::optional<double> error_of_time(const Trial& t) {
-    const auto time = index_of_role(t.question.query->outputs, Role::time);
-    if (!time || t.answer.status != Answer::Status::answered || !t.answer.yes) return std::nullopt;
+    const Layout::Part* time = t.question.query->layout.at(Role::time);
+    if (time == nullptr || t.answer.status != Answer::Status::answered || !t.answer.yes) return std::nullopt;
     for (const Alternative& right : truth_of(t.question).alternatives) {
-      if (right.yes) return t.answer.values[*time] - (right.values[*time].low + right.values[*time].high) / 2;
+      if (right.yes)
+        return t.answer.values[time->begin] - (right.values[time->begin].low + right.values[time->begin].high) / 2;
     }
     return std::nullopt;
   }

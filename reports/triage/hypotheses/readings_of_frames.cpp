@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "impl/catalogue/roles.hpp"
 #include "oracles/judge.hpp"
 #include "oracles/requirements.hpp"
 #include "oracles/seen_from_behind.hpp"
@@ -142,12 +141,12 @@ std::optional<double> length_of_axis(const Case& c) {
 /// A number along an axis that is divided by the length of the axis once more.
 Fits along_unit_axis(const Case& c, const Answer& a, const IsRight& is_right) {
   constexpr double nearly_one = 1 - 1e-9;
-  const auto depth = index_of_role(c.query->outputs, Role::distance);
-  if (c.query->outputs.size() != 1 || !depth || a.status != Answer::Status::answered) return std::nullopt;
+  const Layout::Part* distance = c.query->layout.at(Role::distance);
+  if (c.query->outputs.size() != 1 || distance == nullptr || a.status != Answer::Status::answered) return std::nullopt;
   const auto length = length_of_axis(c);
   if (!length || !(*length > 0 && *length < nearly_one)) return std::nullopt;
   Answer other = a;
-  other.values[*depth] *= *length;
+  other.values[distance->begin] *= *length;
   return is_right(c, other);
 }
 

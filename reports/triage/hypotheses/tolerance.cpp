@@ -167,7 +167,7 @@ class ToleranceSearch {
     }
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
-    if (best) return named_tolerance(*best, flips.size());
+    if (best) return named_tolerance(*best, flips.size(), has_further_border(s));
     if (errs_to_both_sides_) {
       saw("Generated cases were asked.", "There are false hits and false misses: a tolerance errs to one side.",
           {CauseKind::absolute_tolerance, CauseKind::relative_tolerance});
@@ -254,7 +254,8 @@ class ToleranceSearch {
     }
     return best;
   }
-  std::optional<Named> named_tolerance(const Constant& q, std::size_t cases) {
+  /// A constant that no one would write is a chance where the finding has another border.
+  std::optional<Named> named_tolerance(const Constant& q, std::size_t cases, bool has_further_border) {
     constexpr double error_of_estimates = 1.05, widest = 1.1;
     const double middle = std::sqrt(q.low * q.high);
     const int decade = int(std::lround(std::log10(middle)));
@@ -267,6 +268,7 @@ class ToleranceSearch {
         fmt::format("At each flip {} is between {:.3g} and {:.3g}, while it differs by a factor of {:.3g} between the "
                     "cases.",
                     q.name, q.low, q.high, q.spread));
+    if (!is_written && has_further_border) return std::nullopt;
     if (!is_written)
       return Named{CauseKind::absolute_tolerance,
                    "",

@@ -68,10 +68,9 @@ Case upright(const Case& c) {
     for (std::size_t k = 0; k < 4; ++k) scene.values[begin + k] = rounded(c, q[k]);
   }
   for (std::size_t k = 0; k < 4; ++k) scene.values[parts.quaternions.front() + k] = k == 3 ? 1 : 0;
-  for (std::size_t i = 0; i + 2 < c.values.size(); ++i) {
-    const Field& f = c.fields()[i];
-    const bool is_vector = f.name.ends_with(".x") && f.role != Role::rotation && f.role != Role::size;
-    if (!is_vector) continue;
+  for (const InputMember& m : parts.members) {
+    if (!m.is_vector() || m.role == Role::size) continue;
+    const std::size_t i = m.begin;
     const Point p = turned({c.values[i], c.values[i + 1], c.values[i + 2]}, back);
     for (std::size_t k = 0; k < 3; ++k) scene.values[i + k] = rounded(c, p[k]);
   }
