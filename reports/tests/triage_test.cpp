@@ -139,20 +139,20 @@ TEST_F(Triaged, WhatWasNotFoundAgainIsAskedBeforeItCountsAsFixed) {
   EXPECT_EQ(signature_in(t, "false-hit", {})["change"], "fixed") << still.out;
 }
 
+/// The number of rows with this change.
+std::size_t with_change(const json& result, const std::string& change) {
+  const json& all = result.at("signatures");
+  return std::size_t(std::count_if(all.begin(), all.end(), [&](const json& s) { return s.at("change") == change; }));
+}
+
 TEST_F(Triaged, ANewMistakeIsNewAgainstARunThatWasNotTriaged) {
   const std::string before = run("before", "b"), after = run("after", "bc");
   const Ran ran = triage("bc", {after, "--baseline", before});
   EXPECT_EQ(ran.exit_code, 1) << ran.out << ran.err;
   const json t = result(after);
-  EXPECT_EQ(signature_in(t, "false-miss", {same_place})["change"], "new") << ran.out;
+  EXPECT_EQ(with_change(t, "new"), 1u) << ran.out;
   EXPECT_EQ(signature_in(t, "false-miss", {zero_size})["change"], "known") << ran.out;
   EXPECT_EQ(triage("b", {before, "--baseline", before}).exit_code, 0);
-}
-
-/// The number of rows with this change.
-std::size_t with_change(const json& result, const std::string& change) {
-  const json& all = result.at("signatures");
-  return std::size_t(std::count_if(all.begin(), all.end(), [&](const json& s) { return s.at("change") == change; }));
 }
 
 TEST_F(Triaged, TheSameMistakesInOtherCasesAreKnownAndOneMoreIsNew) {
