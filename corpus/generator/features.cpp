@@ -96,10 +96,11 @@ Features features_of(const CaseBuilder& d, const Operand& operand) {
 Numbers furthest_point(CaseBuilder& d, const Features& features, const Numbers& direction) {
   const auto along = [&](const Numbers& v) { return dot(v, direction); };
   const Numbers& best = *std::ranges::max_element(features.vertices, {}, along);
-  std::vector<Numbers> all;
+  std::vector<Numbers> all{best};
   constexpr double rounding = 0x1p-40;  // axes and products are computed in double
   for (const Numbers& v : features.vertices) {
-    if (along(best) - along(v) <= rounding * (norm(plus(best, v, -1)) * norm(direction))) all.push_back(v);
+    const bool as_far = along(best) - along(v) <= rounding * (norm(plus(best, v, -1)) * norm(direction));
+    if (&v != &best && as_far) all.push_back(v);
   }
   const Numbers first = d.random.pick(all), second = d.random.pick(all);
   const double share = 0.125 * d.random.between(0, 8);
