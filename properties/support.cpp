@@ -147,6 +147,11 @@ std::string failure_text(const Relation& relation, const Case& question, std::ui
   return text;
 }
 
+int cases_per_family() {
+  const char* value = std::getenv("NEARMISS_FAMILY_CASES");
+  return value != nullptr ? std::stoi(value) : 250;
+}
+
 std::uint64_t stream(std::uint64_t usual) {
   const char* seed = std::getenv("NEARMISS_SEED");
   return seed == nullptr ? usual : std::strtoull(seed, nullptr, 10) + usual;

@@ -53,6 +53,10 @@ std::string failure_text(const Case& question, const Subject& subject,
 /// The same for a broken relation, with all of its cases.
 std::string failure_text(const Relation& relation, const Case& question, std::uint64_t seed, const Subject& subject);
 
+/// How many cases of each family a property about enclosures asks; other counts are multiples. The environment variable
+/// NEARMISS_FAMILY_CASES changes it: the test presets that ask a sample have a small one.
+int cases_per_family();
+
 /// The stream of generated cases for a property whose default seed is `usual`. The environment variable NEARMISS_SEED
 /// changes it.
 std::uint64_t stream(std::uint64_t usual);
