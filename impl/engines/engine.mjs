@@ -8,7 +8,6 @@
 // answers no cases of Nearmiss: it writes how long the calls take for the cases of a file, {"query": ..., "inputs": ...} in each line.
 import fs from "node:fs";
 import path from "node:path";
-import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
 import { answer, Cannot } from "../program/nearmiss.mjs";
 
@@ -16,22 +15,27 @@ const options = process.argv.slice(3);
 /** Whether the subject declares its conventions, and leaves out what the documentation calls undefined. */
 export const declares = !options.includes("--undeclared");
 const option = (name) => (options.includes(name) ? options[options.indexOf(name) + 1] : undefined);
-export const otherPackage = option("--package");
 /** A word of settings.txt; undefined for the usual settings. */
 export const setting = option("--setting");
 
-/** The file of an installed package, with its version. `file` is relative to the package; without it, its entry. */
-export function packaged(name, file) {
+const otherPackage = option("--package");
+/** The name of the subject without its setting. */
+export const named = (name) => otherPackage ?? name;
+
+/** The file that `import` finds for a specifier, "PACKAGE" or "PACKAGE/FILE", and the version of the installed package. */
+export function packaged(specifier) {
+  const [, name, file] = /^((?:@[^/]+\/)?[^/]+)\/?(.*)$/.exec(specifier);
   const own = path.dirname(process.argv[1]);
   const folder = path.resolve(process.argv[2] ?? path.join(own, "../../../build/engines", path.basename(own)));
-  const top = path.join(folder, "node_modules", name);
-  const { version } = JSON.parse(fs.readFileSync(path.join(top, "package.json"), "utf8"));
-  return { version, file: file ? path.join(top, file) : createRequire(path.join(folder, "index.js")).resolve(name) };
+  const top = path.join(folder, "node_modules", named(name));
+  const { version, main, exports } = JSON.parse(fs.readFileSync(path.join(top, "package.json"), "utf8"));
+  const entry = exports?.["."].import ?? exports?.["."] ?? main;
+  return { version, file: path.join(top, file || (entry.default ?? entry)) };
 }
 
-export async function load(name, file) {
-  const found = packaged(name, file);
-  return { version: found.version, library: await import(pathToFileURL(found.file)) };
+export async function load(specifier) {
+  const { version, file } = packaged(specifier);
+  return { version, library: await import(pathToFileURL(file)) };
 }
 
 /** The inputs as a subject of that scalar gets them. */

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "corpus/storage/codec.hpp"
+#include "impl/host/engines.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/commands/options.hpp"
 #include "reports/engine/output.hpp"
@@ -36,6 +37,7 @@ const Subject& subject_named(const std::string& name, const Case& question, cons
     if (const Subject* s = find_subject(stands_for)) return *s;
   }
   if (const Subject* s = find_subject(name)) return *s;
+  if (const std::string how = how_to_install(name); !how.empty()) throw BadInput(how);
   throw BadInput(unknown_text("library or subject", name, subject_names()));
 }
 
@@ -56,7 +58,8 @@ void ChosenFinding::declare(CLI::App& app, const std::string& what) {
   app.add_option("FILE", file_, "A report or a case file")->required()->type_name("");
   declare_foreign_subjects(app);
   app.add_option("--for", for_,
-                 "The library (fcl, libccd, bullet, ode, collide) or the subject to ask. Default: the report's subject")
+                 "The library (fcl, libccd, bullet, ode, collide), the engine or the subject to ask. Default: the "
+                 "report's subject")
       ->type_name("NAME");
   add_measure(app, measure_);
   add_exact(app);

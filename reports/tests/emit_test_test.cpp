@@ -11,6 +11,7 @@
 #include "corpus/files/source_folder.hpp"
 #include "corpus/storage/codec.hpp"
 #include "corpus/storage/store.hpp"
+#include "impl/host/engines.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
@@ -207,6 +208,7 @@ TEST(EmitTest, RefusesInOneLine) {
       {{"emit-test", "--for", "bullet", in_corpus("seeds/point_in_triangle/hit-clockwise.json").string()},
        "does not offer"},
       {{"emit-test", "--for", "ode", "/no/such/file"}, "/no/such/file"},
+      {{"emit-test", "--for", "jolt", stored}, "jolt is not installed; './nearmiss engines jolt' installs it"},
       {{"upstream-report", "--for", "collide", in_corpus("seeds/moving_sphere_box/hit-corner.json").string()},
        "nothing is to be reported"},
       {{"emit-test", "--command", "python3 docs/example-program/balls.py", "--for", "balls-py",
@@ -214,7 +216,7 @@ TEST(EmitTest, RefusesInOneLine) {
        ""},
   };
   for (const auto& [arguments, said] : wrong) {
-    const Ran ran = nearmiss(arguments);
+    const Ran ran = nearmiss(arguments, {std::string(engines_variable) + "=/no/engines"});
     EXPECT_EQ(ran.exit_code, 2) << arguments.back() << ran.out;
     EXPECT_NE(ran.err.find(said), std::string::npos) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;

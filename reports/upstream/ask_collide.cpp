@@ -107,19 +107,6 @@ Arguments arguments_of(const Case& question, const std::string& tier) {
   return a;
 }
 
-/// "corners.2.point.x" as an expression: "corners[2].point.x".
-std::string expression_of(const std::string& field) {
-  std::string text;
-  for (std::size_t at = 0; at < field.size();) {
-    const std::size_t end = std::min(field.find('.', at), field.size());
-    const std::string part = field.substr(at, end - at);
-    const bool number = part.find_first_not_of("0123456789") == std::string::npos;
-    text += number ? "[" + part + "]" : (text.empty() ? "" : ".") + part;
-    at = end + 1;
-  }
-  return text;
-}
-
 /// The header of a tier that needs the library collide::certified; empty for another tier.
 std::string header_of(const std::string& tier) {
   if (tier == "collide::Decisive") return "decisive.hpp";

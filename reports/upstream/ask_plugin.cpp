@@ -31,16 +31,12 @@ static int answer_by(nearmiss_answer_function function, const double* inputs, si
 Asking ask_plugin(const Case& question, const Subject& subject) {
   using namespace plugin_text;
   const Query& query = *question.query;
-  std::string inputs;
-  for (std::size_t i = 0; i < question.values.size(); ++i) {
-    inputs += fmt::format("    {}, /* {} */\n", literal(question.values[i]), question.name(i));
-  }
   Asking asking;
   asking.style = Asking::Style::c;
   asking.includes = "#include <string.h>\n\n#include \"nearmiss_plugin.h\"\n";
   asking.helpers = helper;
   asking.statements =
-      fmt::format("const double inputs[] = {{\n{}}};\n", inputs) +
+      fmt::format("const double inputs[] = {{\n{}}};\n", listed_inputs(question)) +
       fmt::format("const nearmiss_answer_function ask = function_for(\"{}\");\n", query.name) +
       "nearmiss_answer answer;\n"
       "memset(&answer, 0, sizeof answer);\n"
@@ -49,16 +45,8 @@ Asking ask_plugin(const Case& question, const Subject& subject) {
       "  printf(\"FAILED: no answer: %.200s\\n\", answer.why);\n"
       "  return 1;\n"
       "}\n";
-  if (decides(query.kind)) asking.statements += "got_yes = answer.yes;\n";
-  for (const Layout::Part& part : query.layout.parts) {
-    asking.members.push_back(part.name);
-    asking.statements += fmt::format("{} = (int)(answer.given >> {} & 1);\n", flag_of(part.name), part.begin);
-    for (std::size_t i = part.begin; i < part.end; ++i) {
-      const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
-      asking.statements +=
-          fmt::format("if (answer.given >> {} & 1) {}{} = answer.values[{}];\n", i, variable_of(part.name), index, i);
-    }
-  }
+  asking.statements += take_answer(query, true);
+  asking.members = member_names(query);
   asking.build = fmt::format("cc test.c{} {} -lm", include_option("impl/plugin"), shell_quoted(subject.plugin));
   return asking;
 }

@@ -154,6 +154,45 @@ std::string identifier(std::string_view prefix, std::string_view member) {
 
 }  // namespace
 
+std::string expression_of(const std::string& field) {
+  std::string text;
+  for (std::size_t at = 0; at < field.size();) {
+    const std::size_t end = std::min(field.find('.', at), field.size());
+    const std::string part = field.substr(at, end - at);
+    const bool number = part.find_first_not_of("0123456789") == std::string::npos;
+    text += number ? "[" + part + "]" : (text.empty() ? "" : ".") + part;
+    at = end + 1;
+  }
+  return text;
+}
+
+std::string listed_inputs(const Case& question) {
+  std::string text;
+  for (std::size_t i = 0; i < question.values.size(); ++i)
+    text += fmt::format("    {}, /* {} */\n", literal(question.values[i]), question.name(i));
+  return text;
+}
+
+std::vector<std::string> member_names(const Query& query) {
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < query.layout.parts.size(); ++m) names.push_back(query.layout.parts[m].name);
+  return names;
+}
+
+std::string take_answer(const Query& query, bool in_c) {
+  std::string text = decides(query.kind) ? "got_yes = answer.yes;\n" : "";
+  for (std::size_t m = 0; m < query.layout.parts.size(); ++m) {
+    const Layout::Part& part = query.layout.parts[m];
+    const std::string name = query.layout.parts[m].name;
+    if (in_c) text += fmt::format("{} = (int)(answer.given >> {} & 1);\n", flag_of(name), part.begin);
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      const std::string index = part.end - part.begin == 1 ? "" : fmt::format("[{}]", i - part.begin);
+      text += fmt::format("if (answer.given >> {} & 1) {}{} = answer.values[{}];\n", i, variable_of(name), index, i);
+    }
+  }
+  return text;
+}
+
 std::string variable_of(std::string_view member) { return identifier("got_", member); }
 std::string flag_of(std::string_view member) { return identifier("gave_", member); }
 

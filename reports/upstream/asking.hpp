@@ -7,15 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include "impl/host/engines.hpp"
 #include "impl/subject/subject.hpp"
 #include "reports/upstream/case_shapes.hpp"
 
 namespace nearmiss {
 
 /// Source text. The statements set `got_yes` and, where the library tells them, the variables of the members, such as
-/// `got_depth` and `got_normal[3]`, which are declared before them. In C they also set the flags of the members.
+/// `got_depth` and `got_normal[3]`, which are declared before them. In C they also set the flags of the members. In
+/// JavaScript they declare `got`, an object with these members and `yes`.
 struct Asking {
-  enum class Style { googletest, googletest_with_main, main, c };
+  enum class Style { googletest, googletest_with_main, main, c, javascript };
 
   Style style = Style::main;
   std::string suite{};                 ///< of a GoogleTest
@@ -34,6 +36,9 @@ Asking ask_ode(const Case& question, const Subject& subject);
 Asking ask_collide(const Case& question, const Subject& subject);
 /// A plugin by its entry, in C.
 Asking ask_plugin(const Case& question, const Subject& subject);
+/// An engine of this source tree, by what its subject in impl/engines asks: for a package of npm in JavaScript, for a
+/// library of Debian in C++.
+Asking ask_engine(const Case& question, const Engine& engine);
 
 /// Values by name.
 using Words = std::vector<std::pair<std::string_view, std::string>>;
@@ -65,6 +70,14 @@ std::string literal(double x);
 std::string literals(const collide::Vec3<double>& v);
 /// Every line that is not empty, moved right by two spaces.
 std::string indented(std::string_view text);
+/// "corners.2.point.x" as an expression: "corners[2].point.x".
+std::string expression_of(const std::string& field);
+/// The inputs of a case as the initializers of an array: one line for each number, with its name in a comment.
+std::string listed_inputs(const Case& question);
+/// The names of all members of an answer.
+std::vector<std::string> member_names(const Query& query);
+/// The statements that take what `answer`, a nearmiss_answer, gives; in C with the flags of the members.
+std::string take_answer(const Query& query, bool in_c);
 /// The name of the variable of an answer's member: "got_corners_2_point".
 std::string variable_of(std::string_view member);
 /// The variable that tells whether a plugin gave the member: "gave_corners_2_point".

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "corpus/files/errors.hpp"
 #include "reports/findings/encoded.hpp"
@@ -20,25 +21,88 @@ namespace {
 Asking asking_for(const Report& r, const Subject& subject) {
   const std::string& name = subject.name;
   if (!subject.plugin.empty()) return ask_plugin(r.question, subject);
+  for (const Engine& e : engines()) {
+    if (e.name == name && subject.command.empty()) return ask_engine(r.question, e);
+  }
   if (subject.own) return ask_collide(r.question, subject);
   if (name.starts_with("fcl")) return ask_fcl(r.question, subject);
   if (name.starts_with("libccd")) return ask_libccd(r.question, subject);
   if (name.starts_with("bullet")) return ask_bullet(r.question, subject);
   if (name == "ode") return ask_ode(r.question, subject);
-  throw BadInput(fmt::format(
-      "no test can be written for {}: it is neither a plugin nor a tier of collide, FCL, libccd, Bullet or ODE", name));
+  throw BadInput(
+      fmt::format("no test can be written for {}: it is neither a plugin, an engine nor a tier of collide, FCL, "
+                  "libccd, Bullet or ODE",
+                  name));
 }
+
+/// How the conditions are written.
+struct Dialect {
+  std::string_view flag, no, yes;  ///< a declaration of a flag, and its values
+  std::string_view got, right;     ///< "got_yes" without "yes"; the flag of a right answer
+  std::string_view absolute;
+  std::string_view is_near, along, length_of;  ///< helpers
+  std::string_view list_begin, list_end;       ///< around three numbers that a helper takes
+};
+constexpr Dialect in_c{"int", "0", "1", "got_", "got_right", "fabs", "is_near", "along", "length_of", "", ""};
+constexpr Dialect in_cpp{"bool",    "false", "true",      "got_", "got_right", "std::abs",
+                         "is_near", "along", "length_of", "",     ""};
+constexpr Dialect in_javascript{"let",    "false", "true",     "got.", "isRight", "Math.abs",
+                                "isNear", "along", "lengthOf", "[",    "]"};
+
+const Dialect& dialect_of(Asking::Style style) {
+  return style == Asking::Style::c ? in_c : style == Asking::Style::javascript ? in_javascript : in_cpp;
+}
+
+/// The helpers by the beginning of their calls.
+struct Helper {
+  std::string_view call, text;
+};
+constexpr Helper helpers_in_c[] = {
+    {"is_near(", R"($start$bool is_near(const double* got, double x, double y, double z, double tolerance) {
+  return $abs(got[0] - x) <= tolerance && $abs(got[1] - y) <= tolerance &&
+         $abs(got[2] - z) <= tolerance;
+}
+
+)"},
+    {"along(", R"($startdouble along(const double* got, double x, double y, double z) {
+  return got[0] * x + got[1] * y + got[2] * z;
+}
+
+)"},
+    {"length_of(", R"($startdouble length_of(const double* got) {
+  return sqrt(got[0] * got[0] + got[1] * got[1] + got[2] * got[2]);
+}
+
+)"},
+};
+/// A vector that the answer lacks is near to none.
+constexpr Helper helpers_in_javascript[] = {
+    {"isNear(", R"(/** Whether each coordinate is within the tolerance of the right one. */
+const isNear = (got, right, tolerance) => !!got && right.every((x, i) => Math.abs(got[i] - x) <= tolerance);
+)"},
+    {"along(", R"(const along = (got, direction) => (got ? direction.reduce((sum, x, i) => sum + x * got[i], 0) : NaN);
+)"},
+    {"lengthOf(", R"(const lengthOf = (got) => Math.hypot(...(got ?? [NaN]));
+)"},
+};
 
 /// Writes the conditions of the right answers, and the variables that they use.
 class Conditions {
  public:
   /// `compared` are those of the declared members that the right answers may have.
   Conditions(const Report& r, const RightAnswers& right, const std::vector<std::size_t>& declared,
-             const std::vector<std::size_t>& compared, bool in_c)
-      : query_(*r.question.query), right_(right), members_(declared), compared_(compared), in_c_(in_c) {}
+             const std::vector<std::size_t>& compared, Asking::Style style)
+      : query_(*r.question.query),
+        right_(right),
+        members_(declared),
+        compared_(compared),
+        in_c_(style == Asking::Style::c),
+        in_javascript_(style == Asking::Style::javascript),
+        write_(dialect_of(style)) {}
 
+  /// In JavaScript the answer is one object.
   std::string declarations() const {
-    std::string text;
+    std::string text = decides(query_.kind) ? fmt::format("{} got_yes = {};\n", write_.flag, write_.no) : "";
     for (const std::size_t m : members_) {
       const std::size_t n = count(m);
       std::string nans = "NAN";
@@ -47,43 +111,31 @@ class Conditions {
           n == 1 ? fmt::format("double {} = NAN;\n", name(m)) : fmt::format("double {}[] = {{{}}};\n", name(m), nans);
       if (in_c_) text += fmt::format("int {} = 0;\n", flag_of(query_.layout.parts[m].name));
     }
-    return text;
+    return in_javascript_ ? "" : text;
   }
-  /// `got_right` is true where the answer matches one of the right ones.
+  /// The flag of a right answer is true where the answer matches one of them.
   std::string test() const {
-    std::string text = in_c_ ? "int got_right = 0;\n" : "bool got_right = false;\n";
+    std::string text = fmt::format("{} {} = {};\n", write_.flag, write_.right, write_.no);
     for (const RightAnswer& r : right_.any)
-      text += fmt::format("if ({}) got_right = {};\n", matches(r), in_c_ ? "1" : "true");
+      text += fmt::format("if ({}) {} = {};\n", matches(r), write_.right, write_.yes);
     return text + unit_test();
   }
   /// The functions that the text uses.
-  static std::string helpers_of(const std::string& text, bool in_c) {
-    const std::string start = in_c ? "static " : "", yes_or_no = in_c ? "int" : "bool",
-                      abs = in_c ? "fabs" : "std::abs";
+  std::string helpers_of(const std::string& text) const {
+    const std::span<const Helper> all = in_javascript_ ? std::span<const Helper>(helpers_in_javascript) : helpers_in_c;
+    const Words words{{"start", in_c_ ? "static " : ""},
+                      {"bool", std::string(write_.flag)},
+                      {"startdouble", in_c_ ? "static double" : "double"},
+                      {"abs", std::string(write_.absolute)}};
     std::string helpers;
-    if (text.find("is_near(") != std::string::npos) {
-      helpers += start + yes_or_no +
-                 " is_near(const double* got, double x, double y, double z, double tolerance) {\n"
-                 "  return " +
-                 abs + "(got[0] - x) <= tolerance && " + abs +
-                 "(got[1] - y) <= tolerance &&\n"
-                 "         " +
-                 abs + "(got[2] - z) <= tolerance;\n}\n\n";
-    }
-    if (text.find("along(") != std::string::npos) {
-      helpers += start +
-                 "double along(const double* got, double x, double y, double z) {\n"
-                 "  return got[0] * x + got[1] * y + got[2] * z;\n}\n\n";
-    }
-    if (text.find("length_of(") != std::string::npos) {
-      helpers += start +
-                 "double length_of(const double* got) {\n"
-                 "  return sqrt(got[0] * got[0] + got[1] * got[1] + got[2] * got[2]);\n}\n\n";
+    for (const Helper& h : all) {
+      if (text.find(h.call) != std::string::npos) helpers += filled_in(h.text, words);
     }
     return helpers;
   }
-  /// printf of the answer.
+  /// Prints the answer.
   std::string print() const {
+    if (in_javascript_) return "console.log(\"got:\", got);\n";
     std::string format = decides(query_.kind) ? "yes = %d" : "";
     std::string arguments = decides(query_.kind) ? ", (int)got_yes" : "";
     for (const std::size_t m : members_) {
@@ -94,23 +146,31 @@ class Conditions {
                             n == 1 ? numbers : "(" + numbers + ")");
       for (std::size_t i = 0; i < n; ++i) arguments += ", " + element(m, i);
     }
-    return fmt::format("\"got: {}\\n\"{}{}", format, arguments.empty() ? "" : ",\n    ",
-                       arguments.empty() ? "" : arguments.substr(2));
+    return fmt::format("{}(\"got: {}\\n\"{}{});\n", in_c_ ? "printf" : "std::printf", format,
+                       arguments.empty() ? "" : ",\n    ", arguments.empty() ? "" : arguments.substr(2));
   }
+  std::string_view right() const { return write_.right; }
 
  private:
   std::size_t count(std::size_t member) const {
     const Layout::Part& part = query_.layout.parts[member];
     return part.end - part.begin;
   }
-  const char* absolute() const { return in_c_ ? "fabs" : "std::abs"; }
-  std::string name(std::size_t member) const { return variable_of(query_.layout.parts[member].name); }
+  std::string yes() const { return fmt::format("{}yes", write_.got); }
+  std::string name(std::size_t member) const {
+    const std::string& own = query_.layout.parts[member].name;
+    return in_javascript_ ? fmt::format("got.{}", expression_of(own)) : variable_of(own);
+  }
   std::string element(std::size_t member, std::size_t i) const {
-    return count(member) == 1 ? name(member) : fmt::format("{}[{}]", name(member), i);
+    return count(member) == 1 ? name(member) : fmt::format("{}{}[{}]", name(member), in_javascript_ ? "?." : "", i);
+  }
+  std::string three(const double* values) const {
+    return fmt::format("{}{}, {}, {}{}", write_.list_begin, literal(values[0]), literal(values[1]), literal(values[2]),
+                       write_.list_end);
   }
   std::string matches(const RightAnswer& r) const {
     std::vector<std::string> all;
-    if (decides(query_.kind)) all.push_back(r.yes ? "got_yes" : "!got_yes");
+    if (decides(query_.kind)) all.push_back((r.yes ? "" : "!") + yes());
     for (const MemberCondition& c : r.members) {
       std::vector<std::string> own = conditions(c);
       if (in_c_ && !own.empty()) {  // a plugin may leave the member out
@@ -126,22 +186,25 @@ class Conditions {
     if (c.any_unit_vector) return normal_conditions(c);
     std::vector<std::string> all;
     if (c.values.size() == 3 && c.tolerance > 0) {
-      return {fmt::format("is_near({}, {}, {}, {}, {})", name(c.member), literal(c.values[0]), literal(c.values[1]),
-                          literal(c.values[2]), literal(c.tolerance))};
+      return {
+          fmt::format("{}({}, {}, {})", write_.is_near, name(c.member), three(c.values.data()), literal(c.tolerance))};
     }
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       const std::string got = element(c.member, i), right = literal(c.values[i]);
-      all.push_back(c.tolerance == 0 ? fmt::format("{} == {}", got, right)
-                                     : fmt::format("{}({} - {}) <= {}", absolute(), got, right, literal(c.tolerance)));
+      all.push_back(c.tolerance == 0
+                        ? fmt::format("{} {} {}", got, in_javascript_ ? "===" : "==", right)
+                        : fmt::format("{}({} - {}) <= {}", write_.absolute, got, right, literal(c.tolerance)));
     }
     return all;
   }
+  /// "fabs(length_of(got_normal) - 1) <= 1e-6".
+  std::string is_unit(std::size_t member, double tolerance) const {
+    return fmt::format("{}({}({}) - 1) <= {}", write_.absolute, write_.length_of, name(member), literal(tolerance));
+  }
   std::vector<std::string> normal_conditions(const MemberCondition& c) const {
-    std::vector<std::string> all{
-        fmt::format("{}(length_of({}) - 1) <= {}", absolute(), name(c.member), literal(c.tolerance))};
+    std::vector<std::string> all{is_unit(c.member, c.tolerance)};
     for (const MemberCondition::Face& f : c.faces) {
-      const std::string along = fmt::format("along({}, {}, {}, {})", name(c.member), literal(f.direction[0]),
-                                            literal(f.direction[1]), literal(f.direction[2]));
+      const std::string along = fmt::format("{}({}, {})", write_.along, name(c.member), three(f.direction.data()));
       if (std::isfinite(f.low)) all.push_back(fmt::format("{} >= {}", along, literal(f.low - c.tolerance)));
       if (std::isfinite(f.high)) all.push_back(fmt::format("{} <= {}", along, literal(f.high + c.tolerance)));
     }
@@ -152,9 +215,8 @@ class Conditions {
     for (const std::size_t m : compared_) {
       if (query_.layout.parts[m].role != Role::normal || right_.unit_error == 0) continue;
       const std::string given = in_c_ ? flag_of(query_.layout.parts[m].name) + " && " : "";
-      text += fmt::format("if ({}{}!({}(length_of({}) - 1) <= {})) got_right = {};\n",
-                          decides(query_.kind) ? "got_yes && " : "", given, absolute(), name(m),
-                          literal(right_.unit_error), in_c_ ? "0" : "false");
+      text += fmt::format("if ({}{}!({})) {} = {};\n", decides(query_.kind) ? yes() + " && " : "", given,
+                          is_unit(m, right_.unit_error), write_.right, write_.no);
     }
     return text;
   }
@@ -162,7 +224,8 @@ class Conditions {
   const Query& query_;
   const RightAnswers& right_;
   const std::vector<std::size_t>&members_, &compared_;
-  bool in_c_;
+  bool in_c_, in_javascript_;
+  const Dialect& write_;
 };
 
 /// The members of the answer, as indices in the layout, that the statements may set.
@@ -192,16 +255,15 @@ class Emitter {
       : r_(r),
         asking_(asking),
         right_(right),
-        in_c_(asking.style == Asking::Style::c),
-        conditions_(r, right, declared, compared, in_c_) {}
+        in_c_(is(Asking::Style::c)),
+        in_javascript_(is(Asking::Style::javascript)),
+        conditions_(r, right, declared, compared, asking.style) {}
 
   std::string text() const {
     const std::string test = indented(body());
-    const std::string helpers = conditions_.helpers_of(test, in_c_) + asking_.helpers;
-    std::string text = heading() + includes() + "\n";
-    if (!helpers.empty()) text += in_c_ ? helpers + "\n" : "namespace {\n\n" + helpers + "\n}  // namespace\n\n";
-    text += start() + test + "}\n";
-    if (asking_.style == Asking::Style::googletest_with_main) text += std::string(main_of_tests);
+    std::string text = heading() + includes() + "\n" + helpers(test) + start() + test;
+    text += in_javascript_ ? "});\n" : "}\n";
+    if (is(Asking::Style::googletest_with_main)) text += std::string(main_of_tests);
     return text;
   }
 
@@ -215,29 +277,46 @@ int main(int argc, char** argv) {
   /// A call that never returns is ended after so many seconds.
   static constexpr int patience = 10;
 
-  bool googletest() const {
-    return asking_.style == Asking::Style::googletest || asking_.style == Asking::Style::googletest_with_main;
-  }
+  bool is(Asking::Style style) const { return asking_.style == style; }
+  bool googletest() const { return is(Asking::Style::googletest) || is(Asking::Style::googletest_with_main); }
   bool late() const { return r_.finding.verdict == Verdict::broke && r_.answer.late(); }
+  std::string fault() const { return is_bad(r_.finding) ? fault_of(r_.finding) : "not-right"; }
   std::string paragraph(const std::string& text) const {
     return wrapped_text(in_c_comment(text), in_c_ ? " * " : "// ", 100);
+  }
+  std::string command() const {
+    return (late() && in_javascript_ ? fmt::format("timeout {} ", patience) : "") + asking_.build;
   }
   std::string heading() const {
     const std::string empty = in_c_ ? " *\n" : "//\n";
     return (in_c_ ? "/*\n" : "") + paragraph(headline(r_) + ".") + empty + paragraph(explanation(r_)) +
            paragraph(allowance_text(r_, right_) + ".") + empty +
-           paragraph(fmt::format("Seen with {} ({}). Build:", r_.version, r_.subject)) + (in_c_ ? " *   " : "//   ") +
-           in_c_comment(asking_.build) + "\n" + paragraph(fmt::format("Written by Nearmiss {}.", version())) +
-           (in_c_ ? " */\n" : "");
+           paragraph(fmt::format("Seen with {} ({}). {}:", r_.version, r_.subject, in_javascript_ ? "Run" : "Build")) +
+           (in_c_ ? " *   " : "//   ") + in_c_comment(command()) + "\n" +
+           paragraph(fmt::format("Written by Nearmiss {}.", version())) + (in_c_ ? " */\n" : "");
   }
   std::string includes() const {
+    if (in_javascript_)
+      return "import assert from \"node:assert/strict\";\nimport test from \"node:test\";\n" + asking_.includes;
     std::string text = asking_.includes + "\n";
     if (googletest()) text += "#include <gtest/gtest.h>\n\n";
-    text += in_c_ ? "#include <math.h>\n#include <stdio.h>\n" : "#include <cmath>\n#include <cstdio>\n";
-    if (late()) text += "#include <unistd.h>\n";
+    std::vector<std::string_view> headers{"<cmath>", "<cstdio>"};
+    if (in_c_) headers = {"<math.h>", "<stdio.h>"};
+    if (late()) headers.push_back("<unistd.h>");
+    for (const std::string_view header : headers) {
+      if (text.find(header) == std::string::npos) text += fmt::format("#include {}\n", header);
+    }
     return text;
   }
+  std::string helpers(const std::string& test) const {
+    const std::string conditions = conditions_.helpers_of(test);
+    if (in_javascript_) return asking_.helpers + conditions + "\n";
+    const std::string all = conditions + asking_.helpers;
+    if (all.empty()) return "";
+    return in_c_ ? all + "\n" : "namespace {\n\n" + all + "\n}  // namespace\n\n";
+  }
   std::string start() const {
+    if (in_javascript_) return fmt::format("test(\"{}: {}\", () => {{\n", r_.question.query->name, fault());
     if (in_c_) return "int main(void) {\n";
     if (!googletest()) return "int main() {\n";
     std::string name = fmt::format("{}_{}_{}", r_.question.query->name, fault_of(r_.finding), id_of(r_));
@@ -246,30 +325,35 @@ int main(int argc, char** argv) {
   }
   std::string body() const {
     std::string text;
-    if (late()) text += fmt::format("alarm({});{}\n", patience, in_c_ ? "" : "  // the library does not return");
-    if (decides(r_.question.query->kind)) text += in_c_ ? "int got_yes = 0;\n" : "bool got_yes = false;\n";
-    text += conditions_.declarations() + asking_.statements + "\n";
+    if (late() && !in_javascript_)
+      text += fmt::format("alarm({});{}\n", patience, in_c_ ? "" : "  // the library does not return");
+    text += conditions_.declarations() + asking_.statements;
     const std::string truth = in_c_comment("Exactly, " + truth_text(*r_.question.query, r_.truth) + ".");
-    return text + (in_c_ ? "/* " + truth + " */\n" : "// " + truth + "\n") + conditions_.test() + verdict();
+    return text + (in_c_ ? "\n/* " + truth + " */\n" : "\n// " + truth + "\n") + conditions_.test() + verdict();
   }
   std::string verdict() const {
-    const std::string print = in_c_ ? "printf" : "std::printf";
-    const std::string fault = is_bad(r_.finding) ? fault_of(r_.finding) : "not-right";
-    const std::string shown = fmt::format("{}({});\n", print, conditions_.print());
-    if (googletest()) return fmt::format("if (!got_right) {}EXPECT_TRUE(got_right) << \"{}\";\n", shown, fault);
-    return shown + fmt::format("if (!got_right) {}(\"FAILED: {}\\n\");\nreturn got_right ? 0 : 1;\n", print, fault);
+    const std::string_view right = conditions_.right();
+    if (in_javascript_) return conditions_.print() + fmt::format("assert.ok({}, \"FAILED: {}\");\n", right, fault());
+    if (googletest())
+      return fmt::format("if (!got_right) {}EXPECT_TRUE(got_right) << \"{}\";\n", conditions_.print(), fault());
+    return conditions_.print() + fmt::format("if (!got_right) {}(\"FAILED: {}\\n\");\nreturn got_right ? 0 : 1;\n",
+                                             in_c_ ? "printf" : "std::printf", fault());
   }
 
   const Report& r_;
   const Asking& asking_;
   const RightAnswers& right_;
-  bool in_c_;
+  bool in_c_, in_javascript_;
   Conditions conditions_;
 };
 
 }  // namespace
 
 namespace {
+
+const char* extension_of(Asking::Style style) {
+  return style == Asking::Style::c ? "c" : style == Asking::Style::javascript ? "mjs" : "cpp";
+}
 
 std::string source_of_bound(const Report& r) {
   if (r.scene) return fmt::format("what the scene {} tolerates, as a share of the largest length", r.scene->scene);
@@ -291,7 +375,8 @@ EmittedTest emit_test(const Report& r, const Subject& subject, const std::string
   if (r.finding.verdict == Verdict::cannot_answer || r.finding.verdict == Verdict::not_asked)
     throw BadInput(fmt::format("{} has no answer to this case: {}", subject.name, r.finding.clause));
   Asking asking = asking_for(r, subject);
-  const std::string extension = asking.style == Asking::Style::c ? "c" : "cpp", usual = "test." + extension;
+  const std::string extension = extension_of(asking.style),
+                    usual = (extension == "mjs" ? "finding.test." : "test.") + extension;
   if (!file.empty()) asking.build.replace(asking.build.find(usual), usual.size(), shell_quoted(file));
   const std::vector<std::size_t> declared = declared_members(r, asking), compared = compared_members(r, asking);
   const RightAnswers right = right_answers(r.question, r.answer, r.finding, r.standard, r.truth, compared);

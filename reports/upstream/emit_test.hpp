@@ -10,7 +10,7 @@ namespace nearmiss {
 
 struct EmittedTest {
   std::string text;
-  std::string extension;  ///< "cpp" or "c"
+  std::string extension;  ///< "cpp", "c" or "mjs"
   std::string build;      ///< the compiler's command line
 };
 
@@ -18,7 +18,8 @@ struct EmittedTest {
 /// answer, and passes with a right answer. Throws BadInput where the subject cannot be asked outside of Nearmiss, or
 /// where its answer is no finding and no right answer either.
 ///
-/// `file` is the name of the test in the compiler's command line; empty: "test.cpp" or "test.c".
+/// `file` is the name of the test in the compiler's command line; empty: "test.cpp", "test.c" or
+/// "finding.test.mjs".
 EmittedTest emit_test(const Report& r, const Subject& subject, const std::string& file = "");
 
 /// "within 1e-4 of the largest number in its group (…)": what the test of the report allows, in words.

@@ -126,7 +126,7 @@ std::string upstream_report(const Report& r, const Subject& subject) {
   text += "## The answer\n\n" + answer(r) + "\n";
   text += "## What is right\n\n" + truth(r) + amount(r) + "\n";
   text += fmt::format("## A program that shows it\n\n{}\n{}\n", markdown_block(without_folders(test.build), "sh"),
-                      markdown_block(without_folders(test.text), test.extension));
+                      markdown_block(without_folders(test.text), test.extension == "mjs" ? "js" : test.extension));
   return text + referees(r);
 }
 

@@ -1,11 +1,10 @@
 // Havok: ray casts, shape casts, and the proximity of shapes and points, against one body in a world.
 import fs from "node:fs";
-import path from "node:path";
 import { Cannot } from "../../program/nearmiss.mjs";
 import { answerBy, around, length, load, minus, packaged, plus, scaled, timeToPass, turned } from "../engine.mjs";
 
 const { version, library } = await load("@babylonjs/havok");
-const H = await library.default({ wasmBinary: fs.readFileSync(packaged("@babylonjs/havok", path.join("lib", "umd", "HavokPhysics.wasm")).file) });
+const H = await library.default({ wasmBinary: fs.readFileSync(packaged("@babylonjs/havok/lib/esm/HavokPhysics.wasm").file) });
 const [, world] = H.HP_World_Create(), [, body] = H.HP_Body_Create(), [, hits] = H.HP_QueryCollector_Create(1);
 H.HP_Body_SetMotionType(body, H.MotionType.STATIC);
 

@@ -3,7 +3,7 @@
 import { Cannot } from "../../program/nearmiss.mjs";
 import { answerBy, around, declared, exactWay, length, load, minus, plus, scaled, setting, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
 
-const { version, library } = await load("jolt-physics", "dist/jolt-physics.wasm-compat.js");
+const { version, library } = await load("jolt-physics");
 const J = await library.default();
 const settings = new J.JoltSettings(), pairs = new J.ObjectLayerPairFilterTable(1), layers = new J.BroadPhaseLayerInterfaceTable(1, 1);
 layers.MapObjectToBroadPhaseLayer(0, new J.BroadPhaseLayer(0));

@@ -5,11 +5,11 @@ import { pathToFileURL } from "node:url";
 import { Cannot } from "../../program/nearmiss.mjs";
 import { answerBy, around, declared, declares, length, minus, packaged, plus, scaled, setting, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
 
-const { version, file } = packaged("physx-js-webidl", "physx-js-webidl.mjs");
+const { version, file } = packaged("physx-js-webidl");
 const { process } = globalThis;
 Object.assign(globalThis, { window: globalThis, process: undefined });  // it asks for them while it is loaded
 const { default: start } = await import(pathToFileURL(file));
-const P = await start({ wasmBinary: fs.readFileSync(file.replace(/mjs$/, "wasm")) });
+const P = await start({ wasmBinary: fs.readFileSync(file.replace(".mjs", ".wasm")) });
 Object.assign(globalThis, { window: undefined, process });
 
 // Objects that every case sets anew, so that none is lost.
@@ -116,7 +116,8 @@ function depth(a, b) {
 const inside = [declared("start in contact is a hit", "Geometry Queries, Raycasts against Spheres, Capsules, Boxes and Convex Meshes: 'If the ray origin is inside a solid object: the reported hit distance is set to zero', 'the hit normal is set to be the opposite of the ray's direction'")];
 const overlapping = [declared("start in contact is a hit", "PxScene::sweep: 'If a shape from the scene is already overlapping with the query shape in its starting position, the hit is returned unless eASSUME_NO_INITIAL_OVERLAP was specified.'")];
 const gives = ["depth", "normal"];
-const holds = (shape) => ({ answer: (q) => contains(first[shape](q[shape]), q.point), how: "PxGeometryQuery::pointDistance is 0", by_equivalence: true });
+const holds = (shape) => (q) => contains(first[shape](q[shape]), q.point);
+const byDistance = { how: "PxGeometryQuery::pointDistance is 0", by_equivalence: true };
 answerBy({
   name: "physx", version: `PhysX 5.6.1, physx-js-webidl ${version}`, scalar: "float",
   queries: {
@@ -131,9 +132,9 @@ answerBy({
     sphere_sphere_overlap: (q) => meet(first.sphere(q.sphere1), second.sphere(q.sphere2)),
     sphere_box_overlap: (q) => meet(first.sphere(q.sphere), second.box(q.box)),
     sphere_triangle_overlap: (q) => meetTriangle(first.sphere(q.sphere), q.triangle),
-    point_sphere_overlap: holds("sphere"),
-    point_capsule_overlap: holds("capsule"),
-    point_box_overlap: holds("box"),
+    point_sphere_overlap: { answer: holds("sphere"), ...byDistance },
+    point_capsule_overlap: { answer: holds("capsule"), ...byDistance },
+    point_box_overlap: { answer: holds("box"), ...byDistance },
     sphere_capsule_overlap: (q) => meet(first.sphere(q.sphere), second.capsule(q.capsule)),
     capsule_capsule_overlap: (q) => meet(first.capsule(q.capsule1), second.capsule(q.capsule2)),
     capsule_triangle_overlap: (q) => meetTriangle(first.capsule(q.capsule), q.triangle),

@@ -2,8 +2,7 @@
 import { Cannot } from "../../program/nearmiss.mjs";
 import { answerBy, declared, declares, length, load, minus, plus, scaled, turned, turnOf, unit } from "../engine.mjs";
 
-const { version, library } = await load("@dimforge/rapier3d-compat");
-const R = library.default && library.default.init ? library.default : library;
+const { version, library: R } = await load("@dimforge/rapier3d-compat");
 await R.init();
 const vec = ([x, y, z]) => ({ x, y, z });
 const list = ({ x, y, z }) => [x, y, z];

@@ -1,12 +1,11 @@
 // three: Ray, Box3, OBB, Line3 and Triangle of its math, and Octree and Capsule of its examples.
 import { Cannot } from "../../program/nearmiss.mjs";
-import { answerBy, declared, length, load, otherPackage, plus, turned, unit } from "../engine.mjs";
+import { answerBy, declared, length, load, named, plus, turned, unit } from "../engine.mjs";
 
-const name = otherPackage ?? "three";
-const { version, library: T } = await load(name, "build/three.module.js");
-const { library: { OBB } } = await load(name, "examples/jsm/math/OBB.js");
-const { library: { Octree } } = await load(name, "examples/jsm/math/Octree.js");
-const { library: { Capsule } } = await load(name, "examples/jsm/math/Capsule.js");
+const { version, library: T } = await load("three");
+const { library: { OBB } } = await load("three/examples/jsm/math/OBB.js");
+const { library: { Octree } } = await load("three/examples/jsm/math/Octree.js");
+const { library: { Capsule } } = await load("three/examples/jsm/math/Capsule.js");
 const vec = (v) => new T.Vector3(...v);
 const list = (v) => [v.x, v.y, v.z];
 
@@ -34,15 +33,15 @@ function wayMeetsBox({ sphere: { center, radius }, velocity, box, limit, forever
 }
 
 /** Whether a point, or two lines, are no further apart than `reach`. */
-const near = (of, reach) => ({ answer: (q) => of(q) <= reach(q), by_equivalence: true, how: "a distance of Line3, and the radii" });
+const near = (of, reach) => (q) => of(q) <= reach(q);
 const toPoint = (segment, point) => segment.closestPointToPoint(point, true, new T.Vector3()).distanceTo(point);
 const toLine = (a, b) => Math.sqrt(a.distanceSqToLine3(b));
 
 const exit = "Ray.js: 'the ray is inside the sphere, so return the second exit point scaled by t1, in order to always return an intersect point that is in front of the ray'; of boxes: 'return point closest to the ray (positive side)'";
 const leaves = [declared("contact where it leaves", exit)];
-const gives = ["time", "location"];
+const gives = ["time", "location"], byDistance = { by_equivalence: true, how: "a distance of Line3, and the radii" };
 answerBy({
-  name, version: `three ${version}`, scalar: "double",
+  name: named("three"), version: `three ${version}`, scalar: "double",
   queries: {
     moving_point_sphere: { answer: (q) => ray(q, (r, p) => r.intersectSphere(sphere(q.sphere), p)), gives, declares: leaves },
     moving_point_plane: {
@@ -64,11 +63,11 @@ answerBy({
     sphere_box_overlap: (q) => obb(q.box).intersectsSphere(sphere(q.sphere)),
     box_box_overlap: { answer: (q) => obb(q.box1).intersectsOBB(obb(q.box2)), gives: [] },
     sphere_triangle_overlap: (q) => !!new Octree().triangleSphereIntersect(sphere(q.sphere), triangle(q.triangle)),
-    point_capsule_overlap: near((q) => toPoint(axis(q.capsule), vec(q.point)), (q) => q.capsule.radius),
-    sphere_segment_overlap: near((q) => toPoint(line(q.segment), vec(q.sphere.center)), (q) => q.sphere.radius),
-    sphere_capsule_overlap: near((q) => toPoint(axis(q.capsule), vec(q.sphere.center)), (q) => q.sphere.radius + q.capsule.radius),
-    segment_capsule_overlap: near((q) => toLine(line(q.segment), axis(q.capsule)), (q) => q.capsule.radius),
-    capsule_capsule_overlap: near((q) => toLine(axis(q.capsule1), axis(q.capsule2)), (q) => q.capsule1.radius + q.capsule2.radius),
+    point_capsule_overlap: { answer: near((q) => toPoint(axis(q.capsule), vec(q.point)), (q) => q.capsule.radius), ...byDistance },
+    sphere_segment_overlap: { answer: near((q) => toPoint(line(q.segment), vec(q.sphere.center)), (q) => q.sphere.radius), ...byDistance },
+    sphere_capsule_overlap: { answer: near((q) => toPoint(axis(q.capsule), vec(q.sphere.center)), (q) => q.sphere.radius + q.capsule.radius), ...byDistance },
+    segment_capsule_overlap: { answer: near((q) => toLine(line(q.segment), axis(q.capsule)), (q) => q.capsule.radius), ...byDistance },
+    capsule_capsule_overlap: { answer: near((q) => toLine(axis(q.capsule1), axis(q.capsule2)), (q) => q.capsule1.radius + q.capsule2.radius), ...byDistance },
     capsule_triangle_overlap: ({ capsule: { p0, p1, radius }, triangle: t }) => !!new Octree().triangleCapsuleIntersect(new Capsule(vec(p0), vec(p1), radius), triangle(t)),
     aabox_triangle_overlap: (q) => box3(q.box).intersectsTriangle(triangle(q.triangle)),
     moving_sphere_passes_box: wayMeetsBox,
