@@ -245,5 +245,13 @@ TEST(EmitTest, AnEnginesFileIsAsStored) {
                 emitted_for({"gts/ball-over-an-obtuse-triangle.json", "GTS 0.7.6", gives(false, 0, {})}).text);
 }
 
+/// A call of JavaScript that does not return is ended from outside.
+TEST(EmitTest, AnEnginesTestEndsThatWouldNotEnd) {
+  const EmittedTest emitted = emitted_for({"cannon-es/ball-on-an-edge.json", "cannon-es 0.20.0",
+                                           Answer::without(Answer::Status::broke, "too late", BreakCause::time_limit)});
+  EXPECT_EQ(emitted.build, "npm install cannon-es@0.20.0 && timeout 10 node finding.test.mjs");
+  EXPECT_NE(emitted.text.find(emitted.build), std::string::npos) << emitted.text;
+}
+
 }  // namespace
 }  // namespace nearmiss

@@ -29,8 +29,7 @@ std::string joined(const std::vector<SourceUnit>& units, const std::vector<bool>
 }
 
 [[noreturn]] void refuse(const Case& question, const Engine& engine) {
-  throw BadInput(
-      fmt::format("no test can be written: {} has no function for {}", engine.sources, question.query->name));
+  throw BadInput(fmt::format("no test can be written: {} has no function for {}", engine.name, question.query->name));
 }
 
 // --- packages of npm, in JavaScript ---
@@ -70,7 +69,8 @@ std::string function_for(const Case& question, const Engine& engine, const std::
     if (at == std::string::npos) continue;
     const std::string offer = items_of_list(std::string_view(u.text).substr(at), js).at(0);
     if (!offer.starts_with("{")) return offer;
-    return items_of_list(std::string_view(offer).substr(behind_name(offer, js, "answer", ':')), js).at(0);
+    const std::size_t answer = behind_name(offer, js, "answer", ':');
+    if (answer != std::string::npos) return items_of_list(std::string_view(offer).substr(answer), js).at(0);
   }
   refuse(question, engine);
 }

@@ -247,6 +247,10 @@ std::vector<std::size_t> compared_members(const Report& r, const Asking& asking)
   return members;
 }
 
+/// A call that never returns is ended after so many seconds.
+constexpr int patience = 10;
+bool is_late(const Report& r) { return r.finding.verdict == Verdict::broke && r.answer.late(); }
+
 /// Writes the parts of the file.
 class Emitter {
  public:
@@ -274,25 +278,19 @@ int main(int argc, char** argv) {
   return RUN_ALL_TESTS();
 }
 )";
-  /// A call that never returns is ended after so many seconds.
-  static constexpr int patience = 10;
-
   bool is(Asking::Style style) const { return asking_.style == style; }
   bool googletest() const { return is(Asking::Style::googletest) || is(Asking::Style::googletest_with_main); }
-  bool late() const { return r_.finding.verdict == Verdict::broke && r_.answer.late(); }
+  bool late() const { return is_late(r_); }
   std::string fault() const { return is_bad(r_.finding) ? fault_of(r_.finding) : "not-right"; }
   std::string paragraph(const std::string& text) const {
     return wrapped_text(in_c_comment(text), in_c_ ? " * " : "// ", 100);
-  }
-  std::string command() const {
-    return (late() && in_javascript_ ? fmt::format("timeout {} ", patience) : "") + asking_.build;
   }
   std::string heading() const {
     const std::string empty = in_c_ ? " *\n" : "//\n";
     return (in_c_ ? "/*\n" : "") + paragraph(headline(r_) + ".") + empty + paragraph(explanation(r_)) +
            paragraph(allowance_text(r_, right_) + ".") + empty +
            paragraph(fmt::format("Seen with {} ({}). {}:", r_.version, r_.subject, in_javascript_ ? "Run" : "Build")) +
-           (in_c_ ? " *   " : "//   ") + in_c_comment(command()) + "\n" +
+           (in_c_ ? " *   " : "//   ") + in_c_comment(asking_.build) + "\n" +
            paragraph(fmt::format("Written by Nearmiss {}.", version())) + (in_c_ ? " */\n" : "");
   }
   std::string includes() const {
@@ -377,6 +375,9 @@ EmittedTest emit_test(const Report& r, const Subject& subject, const std::string
   Asking asking = asking_for(r, subject);
   const std::string extension = extension_of(asking.style),
                     usual = (extension == "mjs" ? "finding.test." : "test.") + extension;
+  constexpr std::string_view runner = "node --test";  // of which another process runs the test
+  if (const std::size_t at = asking.build.find(runner); is_late(r) && at != std::string::npos)
+    asking.build.replace(at, runner.size(), fmt::format("timeout {} node", patience));
   if (!file.empty()) asking.build.replace(asking.build.find(usual), usual.size(), shell_quoted(file));
   const std::vector<std::size_t> declared = declared_members(r, asking), compared = compared_members(r, asking);
   const RightAnswers right = right_answers(r.question, r.answer, r.finding, r.standard, r.truth, compared);

@@ -67,7 +67,9 @@ class Scanner {
   }
   Token::Kind past_word() {
     const bool is_number = std::isdigit(static_cast<unsigned char>(source_[at_])) != 0;
-    while (at_ < source_.size() && (is_of_word(source_[at_]) || (is_number && source_[at_] == '.'))) ++at_;
+    while (at_ < source_.size() &&
+           (is_of_word(source_[at_]) || (is_number && (source_[at_] == '.' || source_[at_] == '\''))))
+      ++at_;
     return is_number ? Token::Kind::number : Token::Kind::word;
   }
 
@@ -196,7 +198,7 @@ class JavascriptNames {
           if (change_of_depth(at(i)) > 0) i = closing(i);
         }
         --i;
-      } else if (tokens_[i].kind == Token::Kind::word && at(i) != "as" && at(i + 1) != ":") {
+      } else if (tokens_[i].kind == Token::Kind::word && at(i) != "as" && at(i + 1) != "as" && at(i + 1) != ":") {
         names_.emplace_back(at(i));
       }
     }
