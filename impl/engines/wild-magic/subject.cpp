@@ -1,27 +1,6 @@
 /// Wild Magic 5 as a plugin, in double: rays, moving spheres and lines by the Find() of its classes of intersection and
 /// distance, overlaps by their Test() and by its functions of containment.
-#include <Wm5ContBox3.h>
-#include <Wm5ContCapsule3.h>
-#include <Wm5ContSphere3.h>
-#include <Wm5DistLine3Line3.h>
-#include <Wm5DistPoint3Segment3.h>
-#include <Wm5DistSegment3Box3.h>
-#include <Wm5DistSegment3Triangle3.h>
-#include <Wm5IntrBox3Box3.h>
-#include <Wm5IntrBox3Sphere3.h>
-#include <Wm5IntrCapsule3Capsule3.h>
-#include <Wm5IntrRay3Box3.h>
-#include <Wm5IntrRay3Capsule3.h>
-#include <Wm5IntrRay3Sphere3.h>
-#include <Wm5IntrRay3Triangle3.h>
-#include <Wm5IntrSegment3Box3.h>
-#include <Wm5IntrSegment3Capsule3.h>
-#include <Wm5IntrSegment3Sphere3.h>
-#include <Wm5IntrSegment3Triangle3.h>
-#include <Wm5IntrSphere3Sphere3.h>
-#include <Wm5IntrTriangle3Box3.h>
-#include <Wm5IntrTriangle3Sphere3.h>
-#include <Wm5IntrTriangle3Triangle3.h>
+#include <Wm5Mathematics.h>
 
 #include <cmath>
 #include <cstring>
