@@ -121,7 +121,9 @@ class EmitTestForEngine : public testing::TestWithParam<Engine> {};
 TEST_P(EmitTestForEngine, FailsAsSaidAndPassesWithARightAnswer) {
   const Engine& engine = GetParam();
   if (!engine.is_installed) GTEST_SKIP() << engine.name << ": engine not installed";
-  for (const auto& [stored, expected] : ledger_of(engine)) {
+  const std::vector<Wanted> ledger = ledger_of(engine);
+  if (ledger.empty()) GTEST_SKIP() << engine.name << ": the ledger has no case of it";
+  for (const auto& [stored, expected] : ledger) {
     SCOPED_TRACE(stored.file);
     const Ran emitted = nearmiss({"emit-test", "--for", engine.name, stored.file.string()});
     ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
