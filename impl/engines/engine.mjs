@@ -29,7 +29,7 @@ export function packaged(specifier) {
   const folder = path.resolve(process.argv[2] ?? path.join(own, "../../../build/engines", path.basename(own)));
   const top = path.join(folder, "node_modules", named(name));
   const { version, main, exports } = JSON.parse(fs.readFileSync(path.join(top, "package.json"), "utf8"));
-  const entry = exports?.["."].import ?? exports?.["."] ?? main;
+  const entry = exports?.["."]?.import ?? exports?.["."] ?? main;
   return { version, file: path.join(top, file || (entry.default ?? entry)) };
 }
 
