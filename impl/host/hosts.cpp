@@ -329,8 +329,16 @@ std::string advice_for(const std::vector<std::string>& words) {
   return "; " + advice_about_unreachable(at <= words.size() ? words[at - 1] : "the current folder");
 }
 
-/// Adds the subject that the program's hello describes.
-void add_hosted(const std::string& where, HostProgram program, const std::string& plugin, const std::string& command) {
+/// NAME, or NAME-2, NAME-3 … where there is such a subject.
+std::string free_name(const std::string& name) {
+  std::string found = name;
+  for (int number = 2; is_subject(found); ++number) found = fmt::format("{}-{}", name, number);
+  return found;
+}
+
+/// Adds the subject that the program's hello describes, and returns its name.
+std::string add_hosted(const std::string& where, HostProgram program, SameName rule, const std::string& plugin,
+                       const std::string& command) {
   std::string hello;
   try {
     hello = Worker(worker_limits(), std::make_shared<const HostProgram>(program)).hello();
@@ -338,10 +346,13 @@ void add_hosted(const std::string& where, HostProgram program, const std::string
     throw BadSubject(fmt::format("{}: {}{}", where, e.what(), plugin.empty() ? advice_for(program.arguments) : ""));
   }
   Subject s = subject_from_hello(where, hello, std::move(program));
-  if (is_subject(s.name)) throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
+  const std::string name = rule == SameName::numbered ? free_name(s.name) : s.name;
+  if (is_subject(name)) throw BadSubject(fmt::format("{}: there is a subject '{}' already", where, s.name));
+  s.name = name;
   s.plugin = plugin;
   s.command = command;
   add_subject(std::move(s));
+  return name;
 }
 
 std::vector<std::string> parts_of(const char* text, char separator) {
@@ -462,20 +473,20 @@ Subject subject_from_hello(const std::string& where, std::string_view hello, Hos
   }
 }
 
-void load_plugin(const std::string& file) {
+std::string load_plugin(const std::string& file, SameName rule) {
   const auto refuse_file = [&](const char* why) { throw BadSubject(fmt::format("{}: {}", file, why)); };
   std::error_code error;
   if (file.empty()) throw BadSubject("--plugin: the name of its file is empty");
   if (!std::filesystem::exists(file, error)) refuse_file("there is no such file");
   if (!std::filesystem::is_regular_file(file, error)) refuse_file("it is not a file");
   const std::string path = std::filesystem::absolute(file).lexically_normal();  // replays from any folder
-  add_hosted(file, {{host_of_plugins(), path}}, path, "");
+  return add_hosted(file, {{host_of_plugins(), path}}, rule, path, "");
 }
 
-void load_command(const std::string& command) {
+std::string load_command(const std::string& command, SameName rule) {
   if (command.find_first_not_of(" \t\n") == std::string::npos) throw BadSubject("--command: the command is empty");
   const std::vector<std::string> words = words_of(command);
-  add_hosted(command, {words, HostProgram::Batches::json}, "", from_any_folder(command, words));
+  return add_hosted(command, {words, HostProgram::Batches::json}, rule, "", from_any_folder(command, words));
 }
 
 void load_subjects_of_environment() {

@@ -15,13 +15,20 @@ struct BadSubject : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What happens to a subject whose name another one has.
+enum class SameName {
+  refused,
+  numbered,  ///< it becomes NAME-2, NAME-3 …
+};
+
 /// Adds the subject of the shared library `file` to subjects() for the rest of the process. Invalidates pointers into
 /// subjects(). This process never loads the library. Throws BadSubject.
-void load_plugin(const std::string& file);
+/// Returns its name.
+std::string load_plugin(const std::string& file, SameName rule = SameName::refused);
 
 /// Adds the subject that a command line starts: a program with arguments in shell syntax, or any other command that
 /// /bin/sh runs. Otherwise like load_plugin.
-void load_command(const std::string& command);
+std::string load_command(const std::string& command, SameName rule = SameName::refused);
 
 /// The environment variable that passes files of plugins, separated by colons, to programs without an option for them:
 /// fuzz targets and property tests.

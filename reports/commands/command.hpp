@@ -46,6 +46,7 @@ std::unique_ptr<Command> explain_command();
 std::unique_ptr<Command> triage_command();
 std::unique_ptr<Command> truth_command();
 std::unique_ptr<Command> trade_command();
+std::unique_ptr<Command> builds_command();
 std::unique_ptr<Command> promote_command();
 std::unique_ptr<Command> bisect_command();
 std::unique_ptr<Command> emit_test_command();

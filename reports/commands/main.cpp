@@ -57,14 +57,12 @@ class CommandLine {
       : root_("find out where a collision-detection library is wrong, by how much, and prove it", "nearmiss") {
     root_.set_help_flag("-h,--help", "Print a manual and exit");
     root_.set_version_flag("--version", version_text(), "Print the version and exit");
-    for (auto make : {list_command,          run_command,       nightly_command,
-                      relations_command,     extremes_command,  sweep_command,
-                      replay_command,        show_command,      truth_command,
-                      minimise_command,      explain_command,   triage_command,
-                      diff_command,          render_command,    trade_command,
-                      bisect_command,        emit_test_command, upstream_report_command,
-                      promote_command,       import_command,    scene_command,
-                      check_subject_command, oss_fuzz_command,  completion_command}) {
+    for (auto make :
+         {list_command,    run_command,    nightly_command,       relations_command,       extremes_command,
+          sweep_command,   replay_command, show_command,          truth_command,           minimise_command,
+          explain_command, triage_command, diff_command,          render_command,          trade_command,
+          builds_command,  bisect_command, emit_test_command,     upstream_report_command, promote_command,
+          import_command,  scene_command,  check_subject_command, oss_fuzz_command,        completion_command}) {
       add(make());
     }
     CLI::App* help = root_.add_subcommand("help", "print the manual of a command");

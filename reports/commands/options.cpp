@@ -85,7 +85,7 @@ void Selection::declare_queries(CLI::App& app) {
 namespace {
 
 /// An option whose values are loaded while the arguments are parsed.
-void add_loading(CLI::App& app, const std::string& name, void (*load)(const std::string&),
+void add_loading(CLI::App& app, const std::string& name, const std::function<void(const std::string&)>& load,
                  const std::string& description, const std::string& type) {
   app.add_option_function<std::vector<std::string>>(
          name,
@@ -147,7 +147,7 @@ void declare_by_text(const std::string& text) {
 
 }  // namespace
 
-void declare_foreign_subjects(CLI::App& app) {
+void declare_foreign_subjects(CLI::App& app, std::vector<std::string>* loaded) {
   constexpr double least = 0.001, most = 3600;
   const WorkerLimits usual;
   app.add_option_function<std::string>(
@@ -163,10 +163,16 @@ void declare_foreign_subjects(CLI::App& app) {
              usual.wall() / usual.case_timeout, usual.case_timeout))
       ->type_name("S")
       ->check(number_from(least, most));
-  add_loading(app, "--plugin", load_plugin,
+  const auto loading = [loaded](std::string (*load)(const std::string&, SameName)) {
+    return [loaded, load](const std::string& one) {
+      const std::string name = load(one, loaded == nullptr ? SameName::refused : SameName::numbered);
+      if (loaded != nullptr) loaded->push_back(name);
+    };
+  };
+  add_loading(app, "--plugin", loading(load_plugin),
               "Add the subject of this shared library (see docs/bring-your-own.md); may be given several times",
               "FILE");
-  add_loading(app, "--command", load_command,
+  add_loading(app, "--command", loading(load_command),
               "Add the subject that this program is (see docs/reference/protocol.md); may be given several times",
               "COMMAND");
   add_loading(app, "--declare", declare_by_text,

@@ -19,8 +19,9 @@ namespace nearmiss {
 std::vector<std::string> query_names();
 
 /// --patience, --plugin, --command and --declare; the last three are repeatable. Plugins and commands are loaded while
-/// the arguments are parsed, before later options are checked; then conventions are declared.
-void declare_foreign_subjects(CLI::App& app);
+/// the arguments are parsed, before later options are checked; then conventions are declared. `loaded` receives the
+/// names of the loaded subjects, plugins first; with it, a subject whose name another one has gets a number.
+void declare_foreign_subjects(CLI::App& app, std::vector<std::string>* loaded = nullptr);
 
 /// Accepts the name of a query.
 CLI::Validator known_query();

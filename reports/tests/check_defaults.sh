@@ -56,6 +56,7 @@ run relations -s collide-fast-float -q "$query" --cases 3
 run extremes -s collide-fast-float -q "$query" --cases 1
 run sweep -q "$query" --number sphere1.radius --from 1 --to 1.00001
 run trade -s collide-fast-float -q "$query" --cases 10
+run builds --plugin "$plugin" --plugin "$plugin" -q "$query" --cases 10
 run scene advise driving --cases 20
 run scene verify "$(find reports/runs -name profile.json)" --cases 10
 run nightly --minutes 0.01

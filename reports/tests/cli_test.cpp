@@ -868,8 +868,8 @@ TEST(Help, IsAManualForEveryCommand) {
   const Ran overview = nearmiss({"help"});
   EXPECT_EQ(overview.exit_code, 0);
   EXPECT_EQ(nearmiss({"--help"}).out, overview.out);
-  for (const char* command : {"list", "run", "nightly", "relations", "extremes", "sweep", "trade", "replay", "truth",
-                              "minimise", "explain", "promote", "import", "scene", "oss-fuzz", "completion"}) {
+  for (const char* command : {"list", "run", "nightly", "relations", "extremes", "sweep", "trade", "builds", "replay",
+                              "truth", "minimise", "explain", "promote", "import", "scene", "oss-fuzz", "completion"}) {
     EXPECT_NE(overview.out.find(std::string("\n    ") + command + " "), std::string::npos);
     const Ran page = nearmiss({"help", command});
     EXPECT_EQ(page.exit_code, 0);
