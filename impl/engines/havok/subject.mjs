@@ -52,6 +52,7 @@ function against({ shape, at, turn }, ask, read) {
   ask();
   const [, count] = H.HP_QueryCollector_GetNumHits(hits), hit = count > 0 ? read(hits, 0)[1] : null;
   H.HP_World_RemoveBody(world, body);
+  H.HP_World_Step(world, 1 / 60);  // until then the world remembers the body, which changes later answers and takes memory
   return hit;
 }
 function ray({ point, velocity }, target, [at, radius]) {
