@@ -43,7 +43,8 @@ class BuildsCommand : public Command {
          "one library by other compilers, with other flags or for other processors, or two versions. Subjects that "
          "--plugin and --command add are compared without being named; where two of them have the same name, the "
          "second one is NAME-2.",
-         "Answers are compared bit for bit: the answered, the decision, which numbers are given, and each number "
+         "Answers are compared bit for bit: whether there is an answer, the decision, which numbers are given, and "
+         "each number "
          "that has a meaning. All NaN are the same, and 0 and -0 differ. Why a subject cannot answer is not "
          "compared.",
          "Of the first case with a difference the command looks for the simplest one with a difference of the same "
@@ -69,8 +70,8 @@ class BuildsCommand : public Command {
          {"nearmiss builds --collide fast --collide accurate -q moving_sphere_box", "Builds of collide."}}};
   }
   void declare(CLI::App& app) override {
-    app.add_option("SUBJECT", named_, "The builds, the base first")->type_name("")->check(known_subject());
     declare_foreign_subjects(app, &loaded_);
+    app.add_option("SUBJECT", named_, "The builds, the base first")->type_name("")->check(known_subject());
     selection_.declare_queries(app);
     app.add_option(
            "--collide", tiers_,

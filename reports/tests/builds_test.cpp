@@ -126,6 +126,12 @@ TEST_F(BuildsOfBalls, AreTheSame) {
       << ran.out;
 }
 
+TEST_F(BuildsOfBalls, AreComparedWithTheFirstOneThatIsNamed) {
+  const Ran ran = compared_with("def ", "def ", {"--json", "balls-py-2", "balls-py"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  for (const json& c : printed(ran).at("comparisons")) EXPECT_EQ(c.at("base"), "balls-py-2");
+}
+
 TEST_F(BuildsOfBalls, DifferInADecisionThatOneHasWrong) {
   const Ran ran = compared_with("<= q.sphere1.radius", "< q.sphere1.radius", {"--json"});
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
