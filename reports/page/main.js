@@ -39,7 +39,8 @@
   const switchTheme = nearmiss.theme.begin(() => picture.redraw());
 
   // --- views ---
-  const views = nearmiss.views(data.raw.trades, () => (table.selected() < 0 ? "" : data.value(table.selected(), "id")));
+  const views = nearmiss.views(data.raw.answers, data.raw.trades, () => (table.selected() < 0 ? "" : data.value(table.selected(), "id")),
+    words => table.filterBy(words));
   const steps = () => views.shown() || table;
 
   // --- keys ---

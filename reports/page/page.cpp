@@ -27,10 +27,10 @@ constexpr const char* three_folder = nullptr;
 #endif
 
 /// Later files use earlier ones.
-constexpr const char* page_scripts[] = {"numbers.js",      "theme.js",      "data.js",         "shapes.js",
-                                        "picture.js",      "plot.js",       "trend.js",        "table.js",
-                                        "finding.js",      "trade_data.js", "trade_panels.js", "trade_profile.js",
-                                        "trade_stages.js", "trade_view.js", "views.js",        "main.js"};
+constexpr const char* page_scripts[] = {
+    "numbers.js",      "theme.js",      "data.js",     "shapes.js",     "picture.js",      "plot.js",
+    "trend.js",        "table.js",      "finding.js",  "trade_data.js", "trade_panels.js", "trade_profile.js",
+    "trade_stages.js", "trade_view.js", "subjects.js", "views.js",      "main.js"};
 
 std::string page_file(const std::string& name) { return read_file(source_folder() + "/reports/page/" + name); }
 

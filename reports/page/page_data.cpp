@@ -197,6 +197,26 @@ Json night_of(const fs::path& run, const Json& index) {
           {"subjects", wrong}};
 }
 
+// --- the answers of all subjects -------------------------------------------------------------------------------------
+
+/// A list for each tally, in the order that page.schema.json states.
+Json answers_in(const Json& index) {
+  Json answers = Json::array();
+  for (const Json& t : member_of(index, "tallies")) {
+    const auto violations = [&](const char* fault) {
+      return number_of_member(member_of(member_of(t, "disagreements"), fault), "violations");
+    };
+    const Json& verdicts = member_of(t, "verdicts");
+    const double hits = violations("false hit"), misses = violations("false miss");
+    const double wrong = number_of_member(verdicts, "violates contract") +
+                         number_of_member(verdicts, "differs by more than the measure");
+    answers.push_back({member_of(t, "query"), member_of(t, "subject"), member_of(t, "cases"), hits, misses,
+                       wrong - hits - misses, member_of(verdicts, "broke"), member_of(verdicts, "cannot answer"),
+                       member_of(t, "worst_backward_above_epsilon")});
+  }
+  return answers;
+}
+
 // --- compact rows ----------------------------------------------------------------------------------------------------
 
 /// Numbers for words, so that a word of many rows is written once.
@@ -447,6 +467,7 @@ nlohmann::ordered_json PageData::to_json() const {
           {"trend", trend_},
           {"skipped", skipped_},
           {"extremes", extremes()},
+          {"answers", answers_in(member_of(summary_, "run"))},
           {"trades", trades_},
           {"words", words.words()},
           {"columns", columns_of_rows()},

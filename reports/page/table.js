@@ -19,9 +19,10 @@ nearmiss.table = (() => {
   function matches(row, words) {
     if (change !== null && (data.value(row, "change") || "") !== change) return false;
     return words.every(w => {
-      const colon = w.indexOf(":"), name = w.slice(0, colon);
-      if (colon > 0 && data.raw.columns.includes(name)) return String(data.value(row, name)).toLowerCase().includes(w.slice(colon + 1));
-      return data.text(row).includes(w);
+      const [, name, mark, wanted] = w.match(/^([a-z_]+)([:=])(.*)$/) || [];
+      if (!data.raw.columns.includes(name)) return data.text(row).includes(w);
+      const own = String(data.value(row, name)).toLowerCase();
+      return mark === "=" ? own === wanted : own.includes(wanted);
     });
   }
   function update() {
@@ -103,6 +104,12 @@ nearmiss.table = (() => {
     paint();
     onSelect(selected);
   }
+  /// As if the words had been typed.
+  function filterBy(words) {
+    filter.value = words;
+    update();
+    select(0);
+  }
   function step(by) {
     const at = rows.indexOf(selected);
     select(at < 0 ? 0 : at + by);
@@ -130,5 +137,5 @@ nearmiss.table = (() => {
     changes();
     update();
   }
-  return {begin, select, step, sortBy, rows: () => rows, selected: () => selected, place: row => rows.indexOf(row), focus: () => grid.focus()};
+  return {begin, select, step, filterBy, sortBy, rows: () => rows, selected: () => selected, place: row => rows.indexOf(row), focus: () => grid.focus()};
 })();

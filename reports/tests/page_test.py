@@ -272,6 +272,27 @@ class Page(unittest.TestCase):
             filtered = time.monotonic() - begin
         print(f"\n100,000 signatures: {size / 1e6:.1f} MB, written in {wrote:.1f} s, opened in {opened:.1f} s, filtered in {filtered:.1f} s")
 
+    def test_shows_the_answers_of_all_subjects(self):
+        with tempfile.TemporaryDirectory() as name:
+            nearmiss("run", "-q", "moving_sphere_box", "-q", "moving_point_sphere", "-s", "collide-fast-float", "-s", "collide-fast-double",
+                     "--measure", "1e-9", "--cases", 500, "--seed", 1, "--out", f"{name}/run", codes=(0, 1))
+            nearmiss("render", f"{name}/run", "--seconds", 0)
+            self.browser.open(f"{name}/run/index.html", "subjects")
+            self.assertTrue(self.browser.find("#subjects").is_displayed())
+            shown = {cell.get_attribute("title").split(":")[0]: cell.text for cell in self.browser.all("#subjects td[title]")}
+            tallies, total = json.loads(pathlib.Path(name, "run", "index.json").read_text())["tallies"], 0
+            self.assertEqual(len(tallies), 4)
+            for t in tallies:
+                wrong = sum(t["verdicts"][v] for v in ("violates contract", "differs by more than the measure", "broke"))
+                self.assertEqual(shown[f"{t['subject']}, {t['query']}"], f"{wrong:,}")
+                total += wrong
+            self.assertGreater(total, 0)
+            self.browser.find("#subjects td button").click()
+            self.assertTrue(self.browser.find("#findings").is_displayed())
+            self.assertRegex(self.browser.find("#filter").get_attribute("value"), "^subject=[-a-z]+ query=moving_[a-z_]+$")
+            self.assertGreater(self.rows(), 0)
+            self.assertLess(self.rows(), self.browser.run("return nearmiss.data.count"))
+
     def test_shows_a_run_and_the_trend_of_several(self):
         with tempfile.TemporaryDirectory() as name:
             for seed in (1, 2):
