@@ -117,7 +117,8 @@ void draw_scene(CaseBuilder& builder);
 struct Mutator {
   std::string_view name, what;
   bool (*apply)(CaseBuilder& builder);
-  bool extreme = false;  ///< leaves moderate magnitudes; extreme mutators end the table
+  bool extreme = false;      ///< leaves moderate magnitudes; extreme mutators end the table
+  bool of_features = false;  ///< brings features of two shapes together
 };
 std::span<const Mutator> mutators();
 

@@ -242,11 +242,17 @@ std::span<const MutatorName> mutator_names() {
   return names;
 }
 
-bool has_extreme_mutator(const Case& c) {
-  return std::any_of(mutators().begin(), mutators().end(), [&](const Mutator& m) {
-    return m.extreme && std::find(c.moves.begin(), c.moves.end(), m.name) != c.moves.end();
-  });
+namespace {
+
+bool has_mutator(const Case& c, bool Mutator::*kind) {
+  return std::ranges::any_of(
+      mutators(), [&](const Mutator& m) { return m.*kind && std::ranges::find(c.moves, m.name) != c.moves.end(); });
 }
+
+}  // namespace
+
+bool has_extreme_mutator(const Case& c) { return has_mutator(c, &Mutator::extreme); }
+bool has_feature_mutator(const Case& c) { return has_mutator(c, &Mutator::of_features); }
 
 std::string_view known_mutator(std::string_view name) {
   for (const Mutator& m : mutators()) {

@@ -32,6 +32,8 @@ std::string_view known_mutator(std::string_view name);
 
 /// Whether one of the case's mutators is an extreme one.
 bool has_extreme_mutator(const Case& c);
+/// Whether a mutator brought features of two shapes together: edges are parallel, shapes touch.
+bool has_feature_mutator(const Case& c);
 
 /// Applies 1 to 3 mutators, drawn by `seed`: for fuzzers. The case stays valid and exact in its scalar; the mutators'
 /// names are appended to Case::moves.

@@ -184,7 +184,8 @@ Answer center_for_contact(Numbers q) {
 Answer divided_by_the_radii(Numbers q) {
   Answer a = exact_answer("sphere_sphere_penetration", q);
   const double distance = std::hypot(q[0] - q[4], q[1] - q[5], q[2] - q[6]);
-  for (std::size_t k = 1; a.yes && k < 4; ++k) a.values[k] *= distance / (q[3] + q[7]);
+  const bool has_direction = a.yes && distance > 0;
+  for (std::size_t k = 1; has_direction && k < 4; ++k) a.values[k] *= distance / (q[3] + q[7]);
   return a;
 }
 /// moving_sphere_triangle: center, radius, velocity, corners; the answer is a time, a place, a normal.

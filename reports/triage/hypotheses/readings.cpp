@@ -49,12 +49,8 @@ Fits normalised(const Case& c, const Answer& a, const Layout::Part* p, const IsR
   return with_output(c, a, p->role, is_right, [&](double x) { return x / norm; });
 }
 
-/// A normal of length 0 where any normal is right is the same division, of a vector without a direction.
 Fits normalised_normal(const Case& c, const Answer& a, const IsRight& is_right) {
-  const Layout::Part* p = given_part(c, a, Role::normal);
-  const bool is_zero = p != nullptr && length({&a.values[p->begin], 3}) == 0;
-  if (is_zero && std::ranges::any_of(truth_of(c).alternatives, &Alternative::many_normals)) return true;
-  return normalised(c, a, p, is_right);
+  return normalised(c, a, given_part(c, a, Role::normal), is_right);
 }
 
 Fits normalised_direction(const Case& c, const Answer& a, const IsRight& is_right) {

@@ -39,7 +39,7 @@ class Unsupported : public TestOfCause {
     Case c;
     for (std::uint64_t i = 0; i < most_tries && cases.size() < of_each_side; ++i) {
       generate_inside(c, trials().query(), trials().subject().scalar, asked_.seed() + 1, i, required);
-      if (has_extreme_mutator(c) || region.has(c) != inside) continue;
+      if (has_extreme_mutator(c) || has_feature_mutator(c) || region.has(c) != inside) continue;
       if (!of_one_decision || exact_decision(c) == trials().base().finding.truth_yes) cases.push_back(c);
     }
     return trials().ask(cases);
