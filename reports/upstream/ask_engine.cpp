@@ -193,6 +193,7 @@ Asking in_javascript(const Case& question, const Engine& engine) {
       joined(units, declared) + filled_in(answer_of, {{"no_answer", may_refuse ? std::string(no_answer) : ""}});
   asking.statements = fmt::format("const q = {};\n", inputs_object(question)) + call_of(function);
   asking.members = member_names(*question.query);
+  asking.may_leave_out = true;
   asking.build = npm_install(engine) + " && node --test finding.test.mjs";
   return asking;
 }
@@ -245,6 +246,7 @@ Asking in_cpp(const Case& question, const Engine& engine) {
       fmt::format("Result answer;\nif ({}(in, sizeof in / sizeof *in, &answer) != answered) {{\n", function) +
       "  std::printf(\"FAILED: no answer: %s\\n\", answer.why);\n  return 1;\n}\n" + take_answer(query, false);
   asking.members = member_names(query);
+  asking.may_leave_out = true;
   std::string flags = read_file(sources / "flags.txt");
   flags.erase(flags.find_last_not_of('\n') + 1);
   asking.build = fmt::format("g++ -std=c++20 test.cpp {}", flags);

@@ -26,6 +26,7 @@ struct Asking {
   std::string statements{};            ///< lines without indentation
   std::vector<std::string> members{};  ///< the members of an answer that they may set: "depth"
   std::string build{};                 ///< the compiler's command line for the file "test.cpp" or "test.c"
+  bool may_leave_out = false;          ///< whether a right answer may lack some of these members
 };
 
 /// Each throws BadInput where the library cannot be asked the case.

@@ -86,19 +86,25 @@ const isNear = (got, right, tolerance) => !!got && right.every((x, i) => Math.ab
 )"},
 };
 
+/// Then the answer tells which members the library gives.
+bool is_decided_rightly(const Report& r) {
+  return r.answer.status == Answer::Status::answered && r.answer.yes == r.truth.yes;
+}
+
 /// Writes the conditions of the right answers, and the variables that they use.
 class Conditions {
  public:
   /// `compared` are those of the declared members that the right answers may have.
-  Conditions(const Report& r, const RightAnswers& right, const std::vector<std::size_t>& declared,
-             const std::vector<std::size_t>& compared, Asking::Style style)
+  Conditions(const Report& r, const Asking& asking, const RightAnswers& right, const std::vector<std::size_t>& declared,
+             const std::vector<std::size_t>& compared)
       : query_(*r.question.query),
         right_(right),
         members_(declared),
         compared_(compared),
-        in_c_(style == Asking::Style::c),
-        in_javascript_(style == Asking::Style::javascript),
-        write_(dialect_of(style)) {}
+        in_c_(asking.style == Asking::Style::c),
+        in_javascript_(asking.style == Asking::Style::javascript),
+        may_leave_out_(in_c_ || (asking.may_leave_out && !is_decided_rightly(r))),
+        write_(dialect_of(asking.style)) {}
 
   /// In JavaScript the answer is one object.
   std::string declarations() const {
@@ -168,14 +174,21 @@ class Conditions {
     return fmt::format("{}{}, {}, {}{}", write_.list_begin, literal(values[0]), literal(values[1]), literal(values[2]),
                        write_.list_end);
   }
+  /// "gave_depth", in a C++ test "!std::isnan(got_depth)".
+  std::string gives(std::size_t member) const {
+    if (in_javascript_) return name(member) + " !== undefined";
+    return in_c_ ? flag_of(query_.layout.parts[member].name) : fmt::format("!std::isnan({})", element(member, 0));
+  }
+  std::string lacks(std::size_t member) const {
+    return in_javascript_ ? name(member) + " === undefined" : in_c_ ? "!" + gives(member) : gives(member).substr(1);
+  }
   std::string matches(const RightAnswer& r) const {
     std::vector<std::string> all;
     if (decides(query_.kind)) all.push_back((r.yes ? "" : "!") + yes());
     for (const MemberCondition& c : r.members) {
       std::vector<std::string> own = conditions(c);
-      if (in_c_ && !own.empty()) {  // a plugin may leave the member out
-        all.push_back(
-            fmt::format("(!{} || ({}))", flag_of(query_.layout.parts[c.member].name), fmt::join(own, " && ")));
+      if (may_leave_out_ && !own.empty()) {
+        all.push_back(fmt::format("({} || ({}))", lacks(c.member), fmt::join(own, " && ")));
       } else {
         std::move(own.begin(), own.end(), std::back_inserter(all));
       }
@@ -214,7 +227,7 @@ class Conditions {
     std::string text;
     for (const std::size_t m : compared_) {
       if (query_.layout.parts[m].role != Role::normal || right_.unit_error == 0) continue;
-      const std::string given = in_c_ ? flag_of(query_.layout.parts[m].name) + " && " : "";
+      const std::string given = may_leave_out_ ? gives(m) + " && " : "";
       text += fmt::format("if ({}{}!({})) {} = {};\n", decides(query_.kind) ? yes() + " && " : "", given,
                           is_unit(m, right_.unit_error), write_.right, write_.no);
     }
@@ -224,7 +237,7 @@ class Conditions {
   const Query& query_;
   const RightAnswers& right_;
   const std::vector<std::size_t>&members_, &compared_;
-  bool in_c_, in_javascript_;
+  bool in_c_, in_javascript_, may_leave_out_;
   const Dialect& write_;
 };
 
@@ -242,7 +255,7 @@ std::vector<std::size_t> declared_members(const Report& r, const Asking& asking)
 /// Those that are compared: a hit at the start may come without a normal.
 std::vector<std::size_t> compared_members(const Report& r, const Asking& asking) {
   std::vector<std::size_t> members = declared_members(r, asking);
-  if (r.answer.status != Answer::Status::answered || r.answer.yes != r.truth.yes) return members;
+  if (!is_decided_rightly(r)) return members;
   std::erase_if(members, [&](std::size_t m) { return !r.answer.gives(r.question.query->layout.parts[m].begin); });
   return members;
 }
@@ -261,7 +274,7 @@ class Emitter {
         right_(right),
         in_c_(is(Asking::Style::c)),
         in_javascript_(is(Asking::Style::javascript)),
-        conditions_(r, right, declared, compared, asking.style) {}
+        conditions_(r, asking, right, declared, compared) {}
 
   std::string text() const {
     const std::string test = indented(body());
