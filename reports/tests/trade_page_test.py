@@ -151,7 +151,7 @@ class ViewOfATrade(unittest.TestCase):
         return self.browser.named("#views button", name)
 
     def test_is_beside_the_findings(self):
-        self.assertEqual([b.text for b in self.browser.all("#views button")], ["Findings", "Price: recorded"])
+        self.assertEqual([b.text for b in self.browser.all("#views button")], ["Findings", "Subjects", "Price: recorded"])
         self.assertTrue(self.browser.find("#findings").is_displayed())
         self.assertFalse(self.browser.find("#price").is_displayed())
         self.view("Price: recorded").click()
