@@ -194,7 +194,9 @@ bool touching_features(CaseBuilder& d) {
   Pair pair;
   if (!draw_pair(d, pair)) return false;
   const Features f = features_of(d, *pair.fixed), m = features_of(d, *pair.moved);
-  const Numbers n = unit_of(plus({}, draw_separation(d, f, m), d.random.sign()));
+  const double side = d.random.sign();
+  const Numbers any = draw_separation(d, f, m);
+  const Numbers n = unit_of(plus({}, any, side));
   const double apart = f.radius + m.radius, off = d.random.one_in(2) ? 0 : tiny(d);
   const Numbers to = furthest_point(d, f, n), from = furthest_point(d, m, plus({}, n, -1));
   const double gap = apart + off * (apart > 0 ? apart : d.unit);
