@@ -129,7 +129,8 @@ TEST_F(BuildsOfBalls, AreTheSame) {
 TEST_F(BuildsOfBalls, AreComparedWithTheFirstOneThatIsNamed) {
   const Ran ran = compared_with("def ", "def ", {"--json", "balls-py-2", "balls-py"});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  for (const json& c : printed(ran).at("comparisons")) EXPECT_EQ(c.at("base"), "balls-py-2");
+  const json all = printed(ran).at("comparisons");
+  for (const json& c : all) EXPECT_EQ(c.at("base"), "balls-py-2");
 }
 
 TEST_F(BuildsOfBalls, DifferInADecisionThatOneHasWrong) {
