@@ -95,7 +95,7 @@ TEST(List, PairsShowsWhoAnswersWhatAboutTwoShapes) {
 
 /// "SUITE.TEST" for each test of properties/ that runs for the query.
 std::map<std::string, std::set<std::string>> tests_by_query() {
-  const Ran ran = run_program(properties_program(), {"--gtest_list_tests"});
+  const Ran ran = run_program(properties_program(), {"--gtest_list_tests", "--gtest_filter=*"});
   std::map<std::string, std::set<std::string>> tests;
   std::istringstream lines(ran.out);
   std::string suite;

@@ -302,7 +302,8 @@ int main(int argc, char** argv) {
     const std::string empty = in_c_ ? " *\n" : "//\n";
     return (in_c_ ? "/*\n" : "") + paragraph(headline(r_) + ".") + empty + paragraph(explanation(r_)) +
            paragraph(allowance_text(r_, right_) + ".") + empty +
-           paragraph(fmt::format("Seen with {} ({}). {}:", r_.version, r_.subject, in_javascript_ ? "Run in the folder of this file" : "Build")) +
+           paragraph(fmt::format("Seen with {} ({}). {}:", r_.version, r_.subject,
+                                 in_javascript_ ? "Run in the folder of this file" : "Build")) +
            (in_c_ ? " *   " : "//   ") + in_c_comment(asking_.build) + "\n" +
            paragraph(fmt::format("Written by Nearmiss {}.", version())) + (in_c_ ? " */\n" : "");
   }

@@ -94,7 +94,8 @@ PointOfSegment<T> nearest_to_line(const Core<T, 2>& a, const Core<T, 2>& b) {
   if (before <= T(0)) return {v0};
   const T behind = -Tier::dot(across_direction<Tier>(v1 - a.vertices[0], along), across);
   if (behind >= T(0)) return {v1};
-  return {v0 + b.directions[0] * (before / across2), true};
+  // Not before / across2, which rounding takes beyond the end of a segment that is nearly parallel.
+  return {v0 + (v1 - v0) * (before / (before - behind)), true};
 }
 
 /// The nearest point of the first segment to the one that is nearest to its line. If that is an end, the nearest point
